@@ -21,14 +21,15 @@ from mpi4py import MPI
 
 from benchmarks.checks import print_checks
 from benchmarks.profile import shares
-from fecolumn._mpi import launch_environment
-from fecolumn.case import case_from_tables, read_toml
-from fecolumn.dynamics.assembly import column_body
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import read_toml
+from fecolumn.engines.dynamics.assembly import column_body
 from fecolumn.fem.modes import free_modes
+from fecolumn.foundation._mpi import launch_environment
+from fecolumn.foundation.schema import merge
 from fecolumn.mesh.bending import free_free_bending_frequency
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.motions.load import load_motion
-from fecolumn.schema import merge
 from fecolumn.verification import rocking
 from fecolumn.verification.models import COARSE
 from fecolumn.verification.one_column import build_system

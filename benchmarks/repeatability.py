@@ -13,8 +13,8 @@ import collections
 import math
 from pathlib import Path
 
-from fecolumn.dynamics.history import read_history
-from fecolumn.ending import lost
+from fecolumn.engines.dynamics.history import read_history
+from fecolumn.engines.ending import lost
 from fecolumn.statistics.repeatability import aligned, horizon, spread, time_gained
 from fecolumn.study.store import DONE, read_study
 

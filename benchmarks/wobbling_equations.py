@@ -3,7 +3,7 @@ Python.
 
     ./containers/run python -m benchmarks.wobbling_equations
 
-Writes fecolumn/rocking/wobbling_equations.py. A rigid column of round foot rolls on its rim, which
+Writes fecolumn/engines/rocking/wobbling_equations.py. A rigid column of round foot rolls on its rim, which
 does not slip, and does not turn about its axis: turned by the tilt theta about the tangent at the
 rim's point phi, which stays where it stood. So the path of contact on the ground is the circle that
 the foot stood on, as long as the rim rolled. The derivation asks of positions and rotations alone:
@@ -50,7 +50,7 @@ Of one column with its share of the slab; arguments, in SI units:
 
 import math
 
-from fecolumn._compiled import njit
+from fecolumn.foundation._compiled import njit
 
 
 '''

@@ -10,20 +10,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fecolumn.case import case_from_tables, read_case
-    from fecolumn.case import read_case as load_case
-    from fecolumn.dynamics.history import read_history
+    from fecolumn.case.case import Case, case_from_tables, read_case
+    from fecolumn.case.case import read_case as load_case
+    from fecolumn.engines.dynamics.history import read_history
+    from fecolumn.foundation.schema import InputError
     from fecolumn.mesh.specimen import specimen_mesh
     from fecolumn.motions.array import motion_file
     from fecolumn.motions.load import load_motion
-    from fecolumn.results.analysis import AnalysisResult
-    from fecolumn.results.load import load
-    from fecolumn.results.script import run_study
-    from fecolumn.results.study import StudyResult
-    from fecolumn.schema import InputError
     from fecolumn.simulation import AnalysisFailed, run
     from fecolumn.statistics.ecdf import ecdf
-    from fecolumn.structures.case import StructureCase as Case
+    from fecolumn.study.results.analysis import AnalysisResult
+    from fecolumn.study.results.load import load
+    from fecolumn.study.results.script import run_study
+    from fecolumn.study.results.study import StudyResult
 
 __version__ = "0.7.0"
 __all__ = [
@@ -47,23 +46,23 @@ __all__ = [
 
 # module of each name, and the name there where it is another; as imported above
 _HOMES = {
-    "Case": "structures.case:StructureCase",
-    "load_case": "case:read_case",
-    "case_from_tables": "case",
-    "InputError": "schema",
+    "Case": "case.case:Case",
+    "load_case": "case.case:read_case",
+    "case_from_tables": "case.case",
+    "InputError": "foundation.schema",
     "run": "simulation",
     "AnalysisFailed": "simulation",
-    "run_study": "results.script",
-    "load": "results.load",
-    "AnalysisResult": "results.analysis",
-    "StudyResult": "results.study",
+    "run_study": "study.results.script",
+    "load": "study.results.load",
+    "AnalysisResult": "study.results.analysis",
+    "StudyResult": "study.results.study",
     "motion_file": "motions.array",
     "specimen_mesh": "mesh.specimen",
     "load_motion": "motions.load",
     "ecdf": "statistics.ecdf",
     # names of earlier versions
-    "read_case": "case",
-    "read_history": "dynamics.history",
+    "read_case": "case.case",
+    "read_history": "engines.dynamics.history",
 }
 
 

@@ -25,8 +25,8 @@ def main(argv=None) -> int:
 
         return doctor.main(arguments[1:])
     args = _parser().parse_args(arguments)
-    from fecolumn.atomic import disk_full
-    from fecolumn.schema import InputError
+    from fecolumn.foundation.atomic import disk_full
+    from fecolumn.foundation.schema import InputError
 
     # a terminal that cannot write a folder's name must not end what is at work there
     for stream in (sys.stdout, sys.stderr):
@@ -89,14 +89,16 @@ def _refuse(message, code: int) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     """Of all commands; nothing here may load a library, so that --help is quick."""
-    from fecolumn import __version__, completion, keys, manual, show, templates
+    from fecolumn import __version__
+    from fecolumn.case import completion, manual, show, templates
+    from fecolumn.case import key_tables as keys
+    from fecolumn.engines.rocking import command as rocking
     from fecolumn.motions import command as motions
-    from fecolumn.render import command as render
-    from fecolumn.report import command as report
-    from fecolumn.report import fragility_command as fragility
-    from fecolumn.rocking import command as rocking
+    from fecolumn.pictures.render import command as render
     from fecolumn.study import command as study
     from fecolumn.study import compare_command as compare
+    from fecolumn.study.report import command as report
+    from fecolumn.study.report import fragility_command as fragility
     from fecolumn.verification import command as verify
 
     parser = argparse.ArgumentParser(
@@ -165,20 +167,20 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _completion(args) -> int:
-    from fecolumn import completion
+    from fecolumn.case import completion
 
     print(completion.script(_parser(), args.shell))
     return 0
 
 
 def _mesh(args) -> int:
-    from fecolumn.case import read_case
-    from fecolumn.folder import written
-    from fecolumn.mesh_report import FILES, mesh_report
+    from fecolumn.case.case import read_case
+    from fecolumn.foundation.folder import written
+    from fecolumn.pictures.mesh_report import FILES, mesh_report
 
     case = read_case(args.case)
     for table in case.own:
-        from fecolumn.schema import InputError
+        from fecolumn.foundation.schema import InputError
 
         raise InputError(
             args.case,
@@ -198,9 +200,9 @@ def _warn_of_motion(case, file) -> None:
     """Tell of a motion that an analysis of the case would cut short, or could not use; its mesh may
     be looked at all the same.
     """
-    from fecolumn.analysis import cut_text
+    from fecolumn.engines.analysis import cut_text
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.load import unsampled
-    from fecolumn.schema import InputError
 
     if case.motion is None:
         return
@@ -221,7 +223,7 @@ def _prepare(args) -> int:
 
 
 def _run(args) -> int:
-    from fecolumn.case import read_case
+    from fecolumn.case.case import read_case
 
     return _analyse(read_case(args.case), args.output, args.case, args.quiet)
 
@@ -236,9 +238,9 @@ def _resume(args) -> int:
 def _analyse(case, folder, file, quiet) -> int:
     from mpi4py import MPI
 
-    from fecolumn.ending import ending_text, peak_text
-    from fecolumn.interrupt import held_interrupts
-    from fecolumn.post.history_figures import has_figures, history_figures
+    from fecolumn.engines.ending import ending_text, peak_text
+    from fecolumn.foundation.interrupt import held_interrupts
+    from fecolumn.pictures.figures.history_figures import has_figures, history_figures
     from fecolumn.simulation import AnalysisFailed, run
 
     try:

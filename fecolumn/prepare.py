@@ -33,7 +33,7 @@ def prepare(say) -> None:
     say
         told what is done and how long it took.
     """
-    from fecolumn.case import case_from_tables
+    from fecolumn.case.case import case_from_tables
     from fecolumn.simulation import run
 
     for engine, tables in (

@@ -6,20 +6,20 @@ import os
 import warnings
 from pathlib import Path
 
-from fecolumn.analysis import Analysis, AnalysisFailed
-from fecolumn.case import MODEL_ENGINES, check_duration, read_case
-from fecolumn.files import Unreadable, is_file, read_json
-from fecolumn.result_folder import held
-from fecolumn.schema import InputError
-from fecolumn.sources import code, code_text
-from fecolumn.structures.case import StructureCase, check
-from fecolumn.summary import NAME, read_summary
+from fecolumn.case.case import Case, check, check_duration, read_case
+from fecolumn.case.sections import MODEL_ENGINES
+from fecolumn.engines.analysis import Analysis, AnalysisFailed
+from fecolumn.engines.result_folder import held
+from fecolumn.engines.summary import NAME, read_summary
+from fecolumn.foundation.files import Unreadable, is_file, read_json
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.sources import code, code_text
 
 __all__ = ["AnalysisFailed", "read_folder_case", "run"]
 
 
 def run(
-    case: StructureCase | str | Path,
+    case: Case | str | Path,
     folder,
     *,
     comm=None,
@@ -43,7 +43,7 @@ def run(
         no progress on stderr.
     stop
         asked after every step whether to save and raise KeyboardInterrupt; see
-        `fecolumn.interrupt`.
+        `fecolumn.foundation.interrupt`.
 
     Raises
     ------
@@ -57,12 +57,12 @@ def run(
     """
     from mpi4py import MPI
 
-    from fecolumn.dynamics.gravity import NoEquilibrium
+    from fecolumn.engines.dynamics.gravity import NoEquilibrium
 
     comm = comm or MPI.COMM_WORLD
     if isinstance(case, (str, Path)):
         case, file = read_case(case), str(case)
-    if not isinstance(case, StructureCase):
+    if not isinstance(case, Case):
         raise TypeError(
             f"run takes a Case or the path of a case file, not {type(case).__name__}; "
             "see fecolumn.read_case"
@@ -107,7 +107,7 @@ def _analysis_class(case, comm, file) -> type[Analysis]:
             "runs on one process: start it without mpirun",
         )
     if case.integration.engine in MODEL_ENGINES:
-        from fecolumn.rocking.analysis import ModelAnalysis
+        from fecolumn.engines.rocking.analysis import ModelAnalysis
 
         return ModelAnalysis
     from fecolumn.structures.reduced_analysis import ReducedAnalysis
@@ -125,9 +125,9 @@ def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:
         return None, str(error)
 
 
-def read_folder_case(folder) -> tuple[StructureCase, str]:
+def read_folder_case(folder) -> tuple[Case, str]:
     """The case of a result folder, and its file's name."""
-    from fecolumn.case import case_from_tables
+    from fecolumn.case.case import case_from_tables
 
     path = Path(folder) / "case.json"
     if not os.path.lexists(path):

@@ -16,7 +16,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 
 def _cache_of_the_tests() -> str:
-    from fecolumn._compiled import cache_folder, compiled_folder
+    from fecolumn.foundation._compiled import cache_folder, compiled_folder
 
     # of functions that take code from their own file alone
     os.environ["FECOLUMN_COMPILED"] = str(cache_folder())

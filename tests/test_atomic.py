@@ -7,20 +7,20 @@ import sys
 
 import pytest
 
-from fecolumn.atomic import write_bytes
-from fecolumn.lock import alone
+from fecolumn.foundation.atomic import write_bytes
+from fecolumn.foundation.lock import alone
 
 _WRITE = """
 import sys
 from pathlib import Path
-from fecolumn.atomic import write_bytes
+from fecolumn.foundation.atomic import write_bytes
 for turn in range(200):
     write_bytes(Path(sys.argv[1]), sys.argv[2].encode() * 20_000)
 """
 _MAKE = """
 import os, sys, time
 from pathlib import Path
-from fecolumn.lock import alone
+from fecolumn.foundation.lock import alone
 target = Path(sys.argv[1])
 with alone(target):
     if not target.exists():

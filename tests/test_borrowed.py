@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numba
 import numpy as np
 
-from fecolumn._borrowed import borrowed
+from fecolumn.foundation._borrowed import borrowed
 
 
 class Pair(NamedTuple):
@@ -40,8 +40,8 @@ def test_borrowed_arrays_are_the_callers_and_stay_so():
 
 BORROWER = """
 import numpy as np
-from fecolumn._borrowed import borrowed
-from fecolumn._compiled import njit
+from fecolumn.foundation._borrowed import borrowed
+from fecolumn.foundation._compiled import njit
 
 @njit(alone=True)
 def one(table, i):

@@ -6,11 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from fecolumn.case import DEFAULT, case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.sections import DEFAULT
+from fecolumn.case.short_form import finished
 from fecolumn.cli import main
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.specimen import specimen_mesh
-from fecolumn.schema import InputError
-from fecolumn.short_form import finished
 
 SPECIMEN = Path("meshes/stout.toml").resolve()
 YOUNGER = {
@@ -184,7 +185,7 @@ def test_keys_that_an_engine_would_ignore_are_refused_with_what_to_do(tmp_path, 
 
 
 def test_a_block_has_no_rim_to_resist_rolling(tmp_path):
-    block = Path("fecolumn/templates/block.toml").resolve()
+    block = Path("fecolumn/case/templates/block.toml").resolve()
     (tmp_path / "case.toml").write_text(
         f'extends = "{block}"\n[contact]\nrolling_resistance = 1e-3\n'
     )

@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fecolumn.case import Contact, read_case
-from fecolumn.schema import InputError, read_toml
+from fecolumn.case.case import read_case
+from fecolumn.case.sections import Contact
+from fecolumn.foundation.schema import InputError, read_toml
 from fecolumn.simulation import run
 from fecolumn.study.plan import read_plan
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from fecolumn.cli import main
-from fecolumn.folder import MARK, written
-from fecolumn.schema import InputError
+from fecolumn.foundation.folder import MARK, written
+from fecolumn.foundation.schema import InputError
 
 
 def _files(folder):

@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fecolumn.case import read_case
-from fecolumn.schema import InputError
+from fecolumn.case.case import read_case
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.plan import read_plan
 
 COLUMN = '[column]\nshape = "block"\nlength_m = 0.3\nwidth_m = 0.2\nheight_m = 1.0\n'

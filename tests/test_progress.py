@@ -11,7 +11,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from fecolumn.progress import Bar, CountProgress, Progress, clock
+from fecolumn.foundation.progress import Bar, CountProgress, Progress, clock
 
 
 @pytest.fixture

@@ -4,12 +4,12 @@ import time
 
 import pytest
 
-from fecolumn.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.short_form import finished, short_form
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import BASE
 from fecolumn.mesh.estimate import estimate
 from fecolumn.mesh.specimen import specimen_mesh
-from fecolumn.schema import InputError
-from fecolumn.short_form import finished, short_form
 
 COLUMNS = {
     "marble cylinder": {"shape": "solid", "outer_diameter_m": 0.5, "height_m": 1.6},

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from imported_modules import ROOT, closure
 
-from fecolumn import __version__, sources
-from fecolumn.case import case_from_tables
+from fecolumn import __version__
+from fecolumn.case.case import case_from_tables
+from fecolumn.foundation import sources
 from fecolumn.simulation import run
 
 # Modules that an analysis imports and that decide nothing of its result: they read, write, wait,

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from fecolumn import simulation
-from fecolumn.case import case_from_tables, read_case
-from fecolumn.dynamics.history import read_history
-from fecolumn.schema import InputError
+from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.engines.dynamics.history import read_history
+from fecolumn.foundation.schema import InputError
 
 # a thick tube, and the same as a body of a structure
 TUBE = dict(

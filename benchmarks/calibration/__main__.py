@@ -19,8 +19,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.atomic import write_bytes
-from fecolumn.post.style import PAGE_WIDTH_IN, new_figure, save, styled
+from fecolumn.foundation.atomic import write_bytes
+from fecolumn.pictures.figures.style import PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.gravity import standing
+from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.verification.models import column_system, shaking
 from fecolumn.verification.rocking import leaning_start, rocked_trial
 from fecolumn.verification.trial import RigidRocking

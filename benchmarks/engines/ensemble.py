@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.engines.motions import RESULTS
-from fecolumn.ending import lost
+from fecolumn.engines.ending import lost
 from fecolumn.statistics.bands import dkw_distance
 from fecolumn.statistics.ecdf import censored, percentile
 from fecolumn.statistics.two_sample import kolmogorov_smirnov, paired_kolmogorov_smirnov

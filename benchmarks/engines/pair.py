@@ -8,12 +8,11 @@ from pathlib import Path
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.case import case_from_tables
+from fecolumn.case.case import Case, case_from_tables
+from fecolumn.engines.reduced.engine import Engine
+from fecolumn.engines.reduced.observe import COLUMNS
+from fecolumn.foundation.schema import merge, read_toml
 from fecolumn.mesh.specimen import specimen_mesh
-from fecolumn.reduced.engine import Engine
-from fecolumn.reduced.observe import COLUMNS
-from fecolumn.schema import merge, read_toml
-from fecolumn.structures.case import StructureCase
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.one_column import build_system
@@ -24,7 +23,7 @@ WIDE = {"base": {"length_m": 0.4, "width_m": 0.4}, "integration": {"engine": "re
 _PLACES = dict(zip((name for name, _ in COLUMNS), np.cumsum([0, *(width for _, width in COLUMNS)])))
 
 
-def case_of(**tables) -> StructureCase:
+def case_of(**tables) -> Case:
     """Case of the specimen in the reduced engine."""
     return case_from_tables(merge(merge(read_toml(SPECIMEN), WIDE), tables), SPECIMEN)
 
@@ -35,12 +34,12 @@ def mesh():
     return specimen_mesh(case_of().short)
 
 
-def system_of(case: StructureCase):
+def system_of(case: Case):
     """Full-order system of a case of the specimen."""
     return build_system(case.short, MPI.COMM_SELF, mesh())
 
 
-def engine(case: StructureCase) -> Engine:
+def engine(case: Case) -> Engine:
     """Reduced engine of a case at its start, from the model on disk."""
     return engine_of(case, structure_model(case), "specimen.toml")
 

@@ -32,8 +32,8 @@ from benchmarks.friction.problem import Problem, violation
 from benchmarks.friction.recorded import column, structures
 from benchmarks.peers.child import run_child
 from benchmarks.peers.install import SYSTEM_PYTHON
-from fecolumn.atomic import write_json
 from fecolumn.contact.friction import prepare_solver, solve_contact
+from fecolumn.foundation.atomic import write_json
 
 # Violation of the laws over max |q| below which a problem counts as solved: 1e-14 m on the tenth of
 # a millimetre that bodies fall in a step, a hundredth of what the engines ask for; rounding of W r

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.post.style import LINES, PAGE_WIDTH_IN, new_figure, save, styled
+from fecolumn.pictures.figures.style import LINES, PAGE_WIDTH_IN, new_figure, save, styled
 
 # Times below this share of a second are of the clock; violations below this are rounding
 LEAST_S, LEAST = 1e-5, 1e-17

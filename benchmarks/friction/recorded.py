@@ -17,10 +17,10 @@ from functools import partial
 import numpy as np
 
 from benchmarks.friction.problem import Problem
-from fecolumn._compiled import interpreted
 from fecolumn.contact.problem import STICKS_STILL, near_points
 from fecolumn.contact.stick import operator_of
 from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.foundation._compiled import interpreted
 from fecolumn.structures.model import GROUND
 from fecolumn.verification.boxes import box_model, engine, frame, joint, part, sine_pulse, stack
 
@@ -100,7 +100,7 @@ def column(file) -> Iterator[Problem]:
     """Of the column of a case file, standing, shaken, and landing after a release from a small
     tilt, reduced engine.
     """
-    from fecolumn.case import read_case
+    from fecolumn.case.case import read_case
     from fecolumn.structures.engine import engine_of
     from fecolumn.structures.structure import structure_model
 

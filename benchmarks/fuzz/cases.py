@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.fuzz.damage import toml
-from fecolumn.case import read_case
+from fecolumn.case.case import read_case
 from fecolumn.motions.load import load_motion
 
 _SPECIMEN = """title = "tube"

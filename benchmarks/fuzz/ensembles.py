@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.fuzz.damage import cut, displaced, flip, noise, zeroed
-from fecolumn.atomic import write_bytes
-from fecolumn.case import Motion
+from fecolumn.case.sections import Motion
+from fecolumn.foundation.atomic import write_bytes
+from fecolumn.foundation.sealed import sealed
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.ensemble_file import members, read_ensemble, write_ensemble
 from fecolumn.motions.load import load_motion
 from fecolumn.motions.record import GroundMotion
-from fecolumn.sealed import sealed
 
 _FOREIGN = 0.15  # share of mutants without a seal: each takes a process of its own
 

@@ -13,11 +13,11 @@ from pathlib import Path
 
 from benchmarks.fuzz import cases
 from benchmarks.fuzz.damage import BYTES, displaced, flip, zeroed
-from fecolumn.atomic import write_json
-from fecolumn.report.sweep import read_sweep
-from fecolumn.schema import InputError
+from fecolumn.foundation.atomic import write_json
+from fecolumn.foundation.schema import InputError
 from fecolumn.simulation import read_folder_case
 from fecolumn.study.plan import read_plan
+from fecolumn.study.report.sweep import read_sweep
 from fecolumn.study.run import complete_study
 from fecolumn.study.store import read_study
 from fecolumn.study.table import write_tables

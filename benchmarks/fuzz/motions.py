@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.fuzz.damage import BYTES
-from fecolumn.case import Motion
+from fecolumn.case.sections import Motion
 from fecolumn.motions.load import load_motion
 
 _N, _DT = 120, 0.01

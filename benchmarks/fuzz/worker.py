@@ -20,8 +20,8 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.fuzz.damage import hostile_names
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import UnusableRecord
-from fecolumn.schema import InputError
 from fecolumn.study.team import StudyError
 
 _MEMORY = 6_000_000_000  # [bytes]: whoever asks for more fails

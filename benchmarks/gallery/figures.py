@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.gallery.rolling import rolling
-from fecolumn.schema import read_toml
+from fecolumn.foundation.schema import read_toml
 
 ROOT = Path(__file__).parents[2]
 # The stout column in motion 3 of the Lick ensemble, half again as strong, on a mesh coarser than
@@ -38,9 +38,9 @@ def rocking(work: Work, target: Path) -> str:
     """The stout column at its largest tilt, coloured by its stress, as `fecolumn render` draws
     it.
     """
-    from fecolumn.case import case_from_tables
-    from fecolumn.dynamics.history import read_history
-    from fecolumn.render.draw import Wish, render
+    from fecolumn.case.case import case_from_tables
+    from fecolumn.engines.dynamics.history import read_history
+    from fecolumn.pictures.render.draw import Wish, render
     from fecolumn.simulation import run
 
     file, folder = ROOT / "meshes" / "stout.toml", work.folder / "rocking"
@@ -66,8 +66,8 @@ def cdf(work: Work, target: Path) -> str:
     """The distributions of a study: of benchmarks/quick_study.toml, which is run, or of the one
     that is given.
     """
-    from fecolumn.results.study import StudyResult
     from fecolumn.study.plan import read_plan
+    from fecolumn.study.results.study import StudyResult
     from fecolumn.study.run import complete_study
 
     folder = work.study or work.folder / "quick"
@@ -130,10 +130,10 @@ def collapse(_: Work, target: Path) -> str:
 FIGURES = {
     "rocking": ("meshes/rocking.png", rocking),
     "cdf": ("benchmarks/cdf.png", cdf),
-    "impact": ("fecolumn/manual/impact.png", impact),
-    "rolling": ("fecolumn/manual/rolling.png", rim),
-    "two-sides": ("fecolumn/manual/two-sides.png", two_sides),
-    "collapse": ("fecolumn/manual/collapse.png", collapse),
+    "impact": ("fecolumn/case/manual/impact.png", impact),
+    "rolling": ("fecolumn/case/manual/rolling.png", rim),
+    "two-sides": ("fecolumn/case/manual/two-sides.png", two_sides),
+    "collapse": ("fecolumn/case/manual/collapse.png", collapse),
 }
 
 

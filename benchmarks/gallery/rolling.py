@@ -6,13 +6,13 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn._compiled import interpreted
 from fecolumn.contact.interface import interface_of, rims_at_rest
 from fecolumn.contact.points import CONTACT, node_points
 from fecolumn.contact.rim import Rim, on_circle
 from fecolumn.contact.rolling import REACH, plan_roll, roll_points
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.post.style import (
+from fecolumn.foundation._compiled import interpreted
+from fecolumn.pictures.figures.style import (
     BLACK,
     BLUE,
     GREEN,

@@ -8,8 +8,8 @@ import numpy as np
 from mpi4py import MPI
 
 from benchmarks.engines.pair import case_of, column, engine
-from fecolumn.dynamics.gravity import tilted
-from fecolumn.dynamics.hht import HHT
+from fecolumn.engines.dynamics.gravity import tilted
+from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.fem.rotation import tilt_angle
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.verification.one_column import build_system

@@ -18,7 +18,7 @@ from benchmarks.peers.case import CASES, release
 from benchmarks.peers.install import install
 from benchmarks.peers.peer import CPU_LIMIT_S, PEERS, record, run_peer
 from benchmarks.peers.table import ratios, table
-from fecolumn.atomic import write_json
+from fecolumn.foundation.atomic import write_json
 
 
 def main(arguments=None) -> int:

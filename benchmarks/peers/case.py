@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.peers.theory import Housner, housner
-from fecolumn.case import GRAVITY, read_toml
+from fecolumn.case.sections import GRAVITY, read_toml
+from fecolumn.case.short_form import ShortForm, short_form
 from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.foundation.schema import merge
 from fecolumn.mesh.quality import MassProperties, mass_properties
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
-from fecolumn.schema import merge
-from fecolumn.short_form import ShortForm, short_form
 
 SPECIMEN = Path(__file__).parents[2] / "meshes" / "stout.toml"
 IMPACTS = 10

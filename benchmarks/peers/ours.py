@@ -19,7 +19,7 @@ from mpi4py import MPI
 
 from benchmarks.peers.case import Release, release
 from benchmarks.peers.track import write_rows
-from fecolumn.dynamics.gravity import tilted
+from fecolumn.engines.dynamics.gravity import tilted
 from fecolumn.verification import rocking
 from fecolumn.verification.one_column import build_system
 from fecolumn.verification.trial import Trial
@@ -70,7 +70,7 @@ def full(given: Release, steps: int):
 
 def reduced(given: Release, steps: int):
     """Rows of the track of a compiled engine."""
-    from fecolumn.case import case_from_tables
+    from fecolumn.case.case import case_from_tables
     from fecolumn.structures.engine import engine_of
     from fecolumn.structures.structure import structure_model
 

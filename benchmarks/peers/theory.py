@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.integrate import quad
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.mesh.quality import MassProperties
 
 

@@ -39,7 +39,7 @@ from benchmarks.planar.compare import AGREE, Compared, compared
 from benchmarks.planar.ensembles import BLOCK, PACKAGE, PLANAR, SICONOS, response, shaken
 from benchmarks.planar.figure import collapse, distributions
 from benchmarks.planar.jobs import FINE, every, fell, until_third
-from fecolumn.atomic import write_csv
+from fecolumn.foundation.atomic import write_csv
 
 PARTS = ("column", "beside", "histories")
 PROGRAMS = (PACKAGE, SICONOS, BLOCK)

@@ -17,7 +17,7 @@ import numpy as np
 from benchmarks.planar import structures, theory
 from benchmarks.planar.advance import advance
 from benchmarks.planar.bodies import GRAVITY, Structure
-from fecolumn.atomic import write_bytes
+from fecolumn.foundation.atomic import write_bytes
 
 PLANAR, PACKAGE, SICONOS, BLOCK = "planar", "fecolumn", "Siconos", "equivalent block"
 #: Between rows of the histories that are kept [s]
@@ -128,7 +128,7 @@ class Response:
 
 def motion(case: Shaken, number: int, dt: float) -> np.ndarray:
     """Accelerations (n,) [m/s2] at steps of dt [s]."""
-    from fecolumn.case import Motion
+    from fecolumn.case.sections import Motion
     from fecolumn.motions.load import load_motion
 
     a = load_motion(
@@ -182,7 +182,7 @@ def response(
         time [s] after which it need not go on.
     """
     from benchmarks.planar import package, peer
-    from fecolumn.sources import DECIDING, digest_of, files_of
+    from fecolumn.foundation.sources import DECIDING, digest_of, files_of
 
     further = {PACKAGE: [*files_of(DECIDING), Path(package.__file__)], SICONOS: peer.SOURCES}
     made_by = digest_of(

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.planar.advance import History
-from fecolumn.post.cdf_figure import CdfPanel, cdf_figure
-from fecolumn.post.style import BLACK, GREY, PAGE_WIDTH_IN, new_figure, save, styled
+from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
+from fecolumn.pictures.figures.style import BLACK, GREY, PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.statistics.ecdf import ecdf
 
 

@@ -23,9 +23,9 @@ from multiprocessing import get_context
 from pathlib import Path
 
 from benchmarks.podium.ensemble import SCENARIOS, batches, gathered, responses, write_study
-from fecolumn.atomic import write_csv
-from fecolumn.post.podium_figure import podium_figure
-from fecolumn.report.podium_claims import compared, podium_claims
+from fecolumn.foundation.atomic import write_csv
+from fecolumn.pictures.figures.podium_figure import podium_figure
+from fecolumn.study.report.podium_claims import compared, podium_claims
 
 
 def main() -> None:

@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.atomic import write_bytes, write_csv
+from fecolumn.engines.rocking.podium import study_podium
+from fecolumn.engines.rocking.podium_impact import LAWS
+from fecolumn.engines.rocking.storeys import PROFILES
+from fecolumn.foundation.atomic import write_bytes, write_csv
 from fecolumn.motions.ensemble_file import write_ensemble
 from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES, near_fault_ensemble
-from fecolumn.rocking.podium import study_podium
-from fecolumn.rocking.podium_impact import LAWS
-from fecolumn.rocking.storeys import PROFILES
 
 STOREYS = (3, 6, 9)
 BUILDINGS = tuple((profile, n) for profile in PROFILES for n in STOREYS)

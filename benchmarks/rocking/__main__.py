@@ -12,10 +12,9 @@ import time
 
 import numpy as np
 
-from fecolumn.case import Motion
-from fecolumn.motions.load import unsampled
-from fecolumn.rocking.impact import housner_restitution
-from fecolumn.rocking.swing import (
+from fecolumn.case.sections import Motion
+from fecolumn.engines.rocking.impact import housner_restitution
+from fecolumn.engines.rocking.swing import (
     FASTEST,
     HELD,
     IMPACTS,
@@ -25,6 +24,7 @@ from fecolumn.rocking.swing import (
     rock_all,
     row_of_block,
 )
+from fecolumn.motions.load import unsampled
 
 SECONDS = 10.0
 

@@ -28,8 +28,8 @@ from benchmarks.shake_table.figure import draw
 from benchmarks.shake_table.rock import Stone
 from benchmarks.shake_table.runs import COLUMNS, folder_name, run
 from benchmarks.shake_table.scores import chance, confusion, table
-from fecolumn.atomic import write_csv, write_json
-from fecolumn.progress import CountProgress
+from fecolumn.foundation.atomic import write_csv, write_json
+from fecolumn.foundation.progress import CountProgress
 
 
 def chosen(text: str | None, numbers: list[int]) -> set[int]:

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.signal import butter, sosfiltfilt
 
 from benchmarks.shake_table.workbook import first_sheet
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 
 #: Sampling of the table's channels [Hz]; the files print times in whole 10 or 100 microseconds.
 SAMPLING_HZ = 800.0

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.post.style import (
+from fecolumn.pictures.figures.style import (
     BLACK,
     BLUE,
     GREY,

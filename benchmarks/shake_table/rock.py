@@ -9,13 +9,13 @@ import numpy as np
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.unbounded_base import rigid_base
-from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.overturning import Limits
-from fecolumn.reduced.engine import Engine
-from fecolumn.reduced.start import of_parts
-from fecolumn.reduced.structure import structure_of, view_of
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.overturning import Limits
+from fecolumn.engines.reduced.engine import Engine
+from fecolumn.engines.reduced.start import of_parts
+from fecolumn.engines.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
 
 #: The pose of rest is sought within this angle of the scan's vertical.

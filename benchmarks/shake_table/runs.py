@@ -9,10 +9,10 @@ import numpy as np
 
 from benchmarks.shake_table.campaign import SAMPLING_HZ, Campaign, Test, table_motion
 from benchmarks.shake_table.rock import OVERTURNED, Stone, body_of, engine_of
-from fecolumn.case import GRAVITY
-from fecolumn.dynamics.cuts import StepFailed
-from fecolumn.dynamics.gravity import NoEquilibrium
-from fecolumn.reduced.observe import ENERGY, WIDTH
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.cuts import StepFailed
+from fecolumn.engines.dynamics.gravity import NoEquilibrium
+from fecolumn.engines.reduced.observe import ENERGY, WIDTH
 
 #: The table is quiet below this [m/s2]; of its quiet beginning and end this much is computed [s].
 QUIET, BEFORE_S, AFTER_S = 0.02 * GRAVITY, 0.5, 3.0

@@ -99,7 +99,7 @@ def _settings(args) -> dict[str, int]:
 
 def _alone(folder: Path, number: int, seed: int, specimens: int) -> int:
     from benchmarks.soak.cases import case_of
-    from fecolumn.ending import ending_text
+    from fecolumn.engines.ending import ending_text
     from fecolumn.simulation import AnalysisFailed, run
 
     case = case_of(number, folder, seed, specimens)

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from fecolumn import simulation
-from fecolumn.atomic import write_json
+from fecolumn.foundation.atomic import write_json
 
 ENTRY = "benchmarks.soak.analysis:run"
 _done = 0

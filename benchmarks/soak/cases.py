@@ -11,8 +11,8 @@ from pathlib import Path
 from benchmarks.soak.hypercube import Draw, hypercube
 from benchmarks.soak.motions import sampling_and_peak, write_motions
 from benchmarks.soak.specimens import Specimen, specimens
-from fecolumn.case import GRAVITY, case_from_tables
-from fecolumn.structures.case import StructureCase
+from fecolumn.case.case import Case, case_from_tables
+from fecolumn.case.sections import GRAVITY
 from fecolumn.study.plan import Analysis, Plan
 
 # Analyses of a block: its study is drawn, resumed and reported as one; its workers start once
@@ -266,7 +266,7 @@ def _simple_ratio(ratio: float) -> float:
     return float(round(ratio)) if ratio >= 1 else 1 / round(1 / ratio)
 
 
-def case_of(number: int, folder: Path, seed: int, count: int) -> StructureCase:
+def case_of(number: int, folder: Path, seed: int, count: int) -> Case:
     """The case of an analysis by its number; folder, seed and count as of the soak it belongs
     to.
     """

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case import Motion
+from fecolumn.case.sections import Motion
 from fecolumn.motions import fema_p695, lick
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.ensemble_file import members, write_ensemble

@@ -19,8 +19,8 @@ from mpi4py import MPI
 
 from benchmarks.structures import frame, large, podium, speed
 from benchmarks.structures.figure import draw
-from fecolumn.atomic import write_csv
-from fecolumn.rocking.podium_impact import LAWS
+from fecolumn.engines.rocking.podium_impact import LAWS
+from fecolumn.foundation.atomic import write_csv
 
 TERMS = ("kinetic", "strain", "gravity", "friction", "impact", "contact", "algorithmic")
 

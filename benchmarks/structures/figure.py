@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.post.style import (
+from fecolumn.pictures.figures.style import (
     BLACK,
     BLUE,
     GREEN,

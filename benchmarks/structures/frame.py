@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case import case_from_tables
-from fecolumn.schema import merge
+from fecolumn.case.case import case_from_tables
+from fecolumn.foundation.schema import merge
 from fecolumn.verification.podium_structure import let_go
 from fecolumn.verification.structures import (
     energy_at,

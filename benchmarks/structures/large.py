@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case import case_from_tables
-from fecolumn.schema import merge
+from fecolumn.case.case import case_from_tables
+from fecolumn.foundation.schema import merge
 from fecolumn.structures.full_analysis import FullAnalysis
 
 CASE = Path(__file__).parents[2] / "meshes" / "temple_column.toml"

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
+from fecolumn.engines.rocking.podium import Podium
+from fecolumn.engines.rocking.podium_impact import CAV, CRV, podium_restitution
+from fecolumn.engines.rocking.storeys import storeys
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.podium import Podium
-from fecolumn.rocking.podium_impact import CAV, CRV, podium_restitution
-from fecolumn.rocking.storeys import storeys
 from fecolumn.verification.podium_structure import (
     ALPHA,
     GAMMA,

@@ -9,9 +9,10 @@ import time
 
 import numpy as np
 
-from fecolumn.case import GRAVITY, case_from_tables
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.problem import N_ASSEMBLED, N_CONTACT, N_ITERATIONS
-from fecolumn.reduced.observe import place_of
+from fecolumn.engines.reduced.observe import place_of
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.ending import lost
+from fecolumn.engines.ending import lost
 from fecolumn.statistics.ecdf import censored, percentile, proportion_interval
 from fecolumn.statistics.flips import contingency, mcnemar
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov

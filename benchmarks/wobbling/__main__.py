@@ -25,8 +25,8 @@ import numpy as np
 from benchmarks.wobbling.bins import COUNTS, LEVELS, bins
 from benchmarks.wobbling.elements import write_study
 from benchmarks.wobbling.frame import PRINTED, Sample, respond, specimen
-from fecolumn.atomic import write_csv
-from fecolumn.post.cdf_figure import CdfPanel, cdf_figure
+from fecolumn.foundation.atomic import write_csv
+from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import censored, ecdf, percentile
 from fecolumn.statistics.kolmogorov import asymptotic_p, samples_of_p
 

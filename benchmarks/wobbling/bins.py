@@ -99,10 +99,10 @@ def of_folder(folder: Path, name: str) -> list[GroundMotion]:
     """The user's records of a set: folder/FF.h5, an ensemble, or in folder/FF one file a motion, or
     files ending in _x, _y and _z of each.
     """
-    from fecolumn.case import Motion
+    from fecolumn.case.sections import Motion
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.ensemble_file import read_ensemble
     from fecolumn.motions.load import read_motion
-    from fecolumn.schema import InputError
 
     if (folder / f"{name}.h5").exists():
         return list(read_ensemble(folder / f"{name}.h5").motions)

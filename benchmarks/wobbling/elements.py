@@ -13,7 +13,7 @@ import itertools
 from pathlib import Path
 
 from benchmarks.wobbling.frame import SPECIMEN, specimen
-from fecolumn.atomic import write_bytes
+from fecolumn.foundation.atomic import write_bytes
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.ensemble_file import write_ensemble
 

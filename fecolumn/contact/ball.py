@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
+from fecolumn.foundation._compiled import njit
 
 
 @njit

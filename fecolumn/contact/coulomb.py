@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.arrays import flat, put_points
+from fecolumn.foundation._compiled import njit
 
 
 @njit

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import turns
 from fecolumn.contact.tolerances import FEW_SIDES
+from fecolumn.foundation._compiled import njit
 
 
 @njit

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.blocks import find_blocks
+from fecolumn.foundation._compiled import njit
 
 
 class Blocked(NamedTuple):

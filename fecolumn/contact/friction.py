@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn._compiled import compiled, njit
 from fecolumn.contact import tolerances
 from fecolumn.contact.arrays import marked
 from fecolumn.contact.blocks import find_blocks
 from fecolumn.contact.coulomb import in_cone, law_error, slips_and_gaps, violation
 from fecolumn.contact.interior_point import approach, in_cones
 from fecolumn.contact.newton import newton_steps, solve_in_place, stiffnesses
+from fecolumn.foundation._compiled import compiled, njit
 
 
 @dataclass(frozen=True, slots=True)

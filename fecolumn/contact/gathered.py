@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.points import BASE
+from fecolumn.foundation._compiled import njit
 
 
 class Gathered(NamedTuple):

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.arrays import flat, largest, marked, put_points
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.friction import iterate
@@ -28,6 +27,7 @@ from fecolumn.contact.tolerances import (
     SLIDE,
     SWEEPS_MOST,
 )
+from fecolumn.foundation._compiled import njit
 
 # Answers of `what_happens`
 NOTHING, LANDS, TURNS = range(3)

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.arrays import flat, largest, put_matrix, put_points
 from fecolumn.contact.tolerances import (
     INSIDE_CENTRED,
@@ -22,6 +21,7 @@ from fecolumn.contact.tolerances import (
     INSIDE_SMOOTH,
     INSIDE_WAY,
 )
+from fecolumn.foundation._compiled import njit
 
 
 @njit

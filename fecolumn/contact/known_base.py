@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.contact.base_top import BaseTop
-from fecolumn.lock import alone
+from fecolumn.foundation.lock import alone
 
 #: Least reach of the first compliance around a foot, over the foot's width.
 LEAST_REACH = 0.1

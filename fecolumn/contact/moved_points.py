@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.rim import on_circle
 from fecolumn.contact.tolerances import SAME_CORNER
+from fecolumn.foundation._compiled import njit
 
 
 @njit

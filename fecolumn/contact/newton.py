@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
 from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate, solve_columns
 from fecolumn.contact.coulomb import slips_and_gaps, violation
 from fecolumn.contact.tolerances import SINGULAR
+from fecolumn.foundation._compiled import njit
 
 
 @njit

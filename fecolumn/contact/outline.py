@@ -6,10 +6,10 @@ They stay open, SUNK, until they are above the surface.
 
 from __future__ import annotations
 
-from fecolumn._compiled import njit
 from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.points import SUNK
 from fecolumn.contact.tolerances import OPEN
+from fecolumn.foundation._compiled import njit
 
 
 @njit

@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import OUTLINE_BAND, SAME_OUTLINE
+from fecolumn.foundation._compiled import njit
 
 OWN, OTHER = range(2)
 

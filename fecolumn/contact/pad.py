@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.tolerances import YIELDED_GIVES
+from fecolumn.foundation._compiled import njit
 
 # Stiffness along over that across the pad: circular footing on an elastic half-space of Poisson's
 # ratio 1/3, 2 (1 - nu) / (2 - nu) (Mindlin 1949; Gazetas 1991)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import interpreted, njit
 from fecolumn.contact.arrays import put_matrix
 from fecolumn.contact.points import BASE
 from fecolumn.contact.record import record
+from fecolumn.foundation._compiled import interpreted, njit
 
 #: The frame of an interface, of its master's surface: frame: (3, 3) its axes in the table frame,
 #: two tangents and the normal; origin: (3,) in the table frame [m]; turned: (2, 3, 3) of slave and

@@ -13,7 +13,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.compliance import assemble, even_out
 from fecolumn.contact.coulomb import law_error, slips_and_gaps
 from fecolumn.contact.displacement import static_displacement
@@ -35,6 +34,7 @@ from fecolumn.contact.tolerances import (
     SWEEPS_MOST,
     USABLE,
 )
+from fecolumn.foundation._compiled import njit
 
 # Ways a step can end; FAR_BASE asks for more of the base's compliance, ROLLS_FAST for shorter
 # steps, ENDED ends the analysis; OFF_PATCH: a point stands on a part of a moving master that has no

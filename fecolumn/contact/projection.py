@@ -6,13 +6,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn._compiled import interpreted, njit
 from fecolumn.contact.bodies import GOES_ON, node_matrix
 from fecolumn.contact.gathered import Gathered, none_gathered
 from fecolumn.contact.points import BASE, BEYOND, OVER, POINT, SUNK, UNPREPARED
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import CLOSE, EDGE
+from fecolumn.foundation._compiled import interpreted, njit
 
 # Answers of `project`
 ON, OFF, UNKNOWN = range(3)

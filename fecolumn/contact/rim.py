@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.tolerances import ROUND, ROUND_NODES
+from fecolumn.foundation._compiled import njit
 
 
 class Rim:

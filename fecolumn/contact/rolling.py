@@ -22,9 +22,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.rim import lowest, on_circle
 from fecolumn.contact.tolerances import FLAT, PARTS, REACH, ROLL, ROLL_STEP
+from fecolumn.foundation._compiled import njit
 
 
 @njit

@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.arrays import put
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.coulomb import law_error
@@ -22,6 +21,7 @@ from fecolumn.contact.factor import Blocked, divide, factorize, no_blocks, solve
 from fecolumn.contact.newton import solve_in_place, stiffness_alone, stiffness_together
 from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.tolerances import PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
+from fecolumn.foundation._compiled import njit
 
 
 class Stick(NamedTuple):

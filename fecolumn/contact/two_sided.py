@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.moved_points import (
     begin_afresh,
     bring,
@@ -25,6 +24,7 @@ from fecolumn.contact.moved_points import (
 )
 from fecolumn.contact.overlap import OTHER, OWN, beyond, find_corners, lies_within, map_between
 from fecolumn.contact.tolerances import FLAT, OUTLINE_BAND, SAME_CORNER, SAME_OUTLINE, SAME_POINT
+from fecolumn.foundation._compiled import njit
 
 # What a slot was in the step before
 NONE, FORWARD, REVERSE = range(3)

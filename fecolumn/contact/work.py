@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn._compiled import njit
 from fecolumn.contact.pad import any_pad, dashpot_work
 from fecolumn.contact.tolerances import STUCK
+from fecolumn.foundation._compiled import njit
 
 
 @njit

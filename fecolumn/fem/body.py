@@ -12,9 +12,9 @@ from mpi4py import MPI
 from petsc4py import PETSc
 from scipy.spatial import cKDTree
 
-from fecolumn import _dolfinx
-from fecolumn.material.elasticity import isotropic_stress
-from fecolumn.material.kinematics import linear_strain
+from fecolumn.fem.material.elasticity import isotropic_stress
+from fecolumn.fem.material.kinematics import linear_strain
+from fecolumn.foundation import _dolfinx
 
 
 class Body:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from petsc4py import PETSc
 
-from fecolumn import _dolfinx
+from fecolumn.foundation import _dolfinx
 
 #: Solves with one load in less than half the time of MUMPS, but on a single rank alone
 _OF_ONE_RANK = "cholmod" if PETSc.Sys.hasExternalPackage("suitesparse") else "mumps"

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from fecolumn._compiled import njit
+from fecolumn.foundation._compiled import njit
 
 #: Change of an iterate [-] at which the next one is exact to rounding: Newton's iteration squares
 #: it

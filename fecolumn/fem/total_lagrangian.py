@@ -8,10 +8,10 @@ from dolfinx import fem
 from mpi4py import MPI
 from petsc4py import PETSc
 
-from fecolumn import _dolfinx
 from fecolumn.fem.corotated import mean_rotation
-from fecolumn.material.elasticity import isotropic_stress
-from fecolumn.material.kinematics import green_lagrange_strain
+from fecolumn.fem.material.elasticity import isotropic_stress
+from fecolumn.fem.material.kinematics import green_lagrange_strain
+from fecolumn.foundation import _dolfinx
 
 
 class TotalLagrangian:

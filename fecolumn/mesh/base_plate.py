@@ -7,11 +7,11 @@ import math
 import numpy as np
 from scipy.optimize import brentq
 
+from fecolumn.case.short_form import ShortForm
+from fecolumn.case.sizes import foot_sides
 from fecolumn.mesh.bricks import BASE, BrickMesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import swept_grid
-from fecolumn.short_form import ShortForm
-from fecolumn.sizes import foot_sides
 
 GROWTH = 1.5  # largest ratio of neighbouring bricks
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.case.short_form import ShortForm
 from fecolumn.mesh.bricks import CAP, BrickMesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import swept_grid
-from fecolumn.short_form import ShortForm
 
 
 def cap_mesh(case: ShortForm) -> BrickMesh | None:

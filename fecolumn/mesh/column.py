@@ -8,11 +8,11 @@ import math
 
 import numpy as np
 
+from fecolumn.case.short_form import ShortForm
+from fecolumn.case.sizes import is_solid
 from fecolumn.mesh.bricks import FLANGE, LOWER, UPPER, BrickMesh, merged_mesh
 from fecolumn.mesh.gmsh_section import extruded
 from fecolumn.mesh.section import Annulus, Disc, Rectangle
-from fecolumn.short_form import ShortForm
-from fecolumn.sizes import is_solid
 
 
 def column_mesh(case: ShortForm) -> BrickMesh:

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fecolumn.case.short_form import ShortForm
+from fecolumn.case.sizes import is_solid
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh
 from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
 from fecolumn.mesh.specimen import SpecimenMesh
-from fecolumn.short_form import ShortForm
-from fecolumn.sizes import is_solid
 
 # Corner signs of the VTK hexahedron.
 _SIGNS = np.array(

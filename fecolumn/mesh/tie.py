@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import PART_NAMES, BrickMesh, boundary_faces
-from fecolumn.schema import InputError
 
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 _NEWTON_STEPS = 30

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fecolumn.atomic import write_csv
+from fecolumn.foundation.atomic import write_csv
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion, UnusableRecord, sound
-from fecolumn.schema import InputError
 
 
 def motion_file(path: Path | str, acceleration: ArrayLike, dt_s: float) -> str:

@@ -6,10 +6,10 @@ import re
 from pathlib import Path
 from typing import Any
 
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions import lick
 from fecolumn.motions.ensemble_file import ALL, file_and_number, members
 from fecolumn.motions.record import UnusableRecord
-from fecolumn.schema import InputError
 
 _SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends included
 

@@ -181,8 +181,8 @@ def store(ensemble: Ensemble, output: Path | str) -> int:
 
 
 def _ensemble_path(output: Path | str) -> Path:
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.ensemble_file import TABLE_HEAD, is_ensemble
-    from fecolumn.schema import InputError
 
     path = Path(output)
     if path.suffix not in (".h5", ".hdf5"):
@@ -206,8 +206,8 @@ def _ensemble_path(output: Path | str) -> Path:
 
 def _refuse_foreign(path: Path, head: str, allowed: str) -> None:
     """Refuse to write over a file that does not begin as ours do."""
-    from fecolumn.files import Unreadable, read_bytes
-    from fecolumn.schema import InputError
+    from fecolumn.foundation.files import Unreadable, read_bytes
+    from fecolumn.foundation.schema import InputError
 
     try:
         own = not os.path.lexists(path) or read_bytes(path).startswith(head.encode())
@@ -218,8 +218,8 @@ def _refuse_foreign(path: Path, head: str, allowed: str) -> None:
 
 
 def _make_seeded(args: argparse.Namespace) -> int:
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.seeded import LICK, read_model, seeded_ensemble
-    from fecolumn.schema import InputError
 
     for key, value, low in (("-n", args.n, 1), ("--seed", args.seed, 0)):
         if value < low:
@@ -242,10 +242,10 @@ def _fit(args: argparse.Namespace) -> int:
     import dataclasses
 
     import fecolumn
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.fit import components_of_record, fit
     from fecolumn.motions.seeded import MODEL_HEAD, write_model
     from fecolumn.motions.target import target_of_record
-    from fecolumn.schema import InputError
 
     for key, value, low in (("-n", args.n, 20), ("--iterations", args.iterations, 1)):
         if value < low:
@@ -282,9 +282,9 @@ def _fit(args: argparse.Namespace) -> int:
 
 
 def _read_target(source: str) -> tuple[Target, Components]:
+    from fecolumn.foundation.schema import InputError, build, read_toml
     from fecolumn.motions.seeded import FOLDER, Components, check_components, check_target
     from fecolumn.motions.target import Target
-    from fecolumn.schema import InputError, build, read_toml
 
     path = FOLDER / "lick_target.toml" if source == _LICK else source
     tables = read_toml(path)
@@ -307,10 +307,10 @@ def _read_target(source: str) -> tuple[Target, Components]:
 
 def _read(source: str, args: argparse.Namespace, **keys: Any) -> GroundMotion:
     """One motion as recorded."""
-    from fecolumn.case import Motion
+    from fecolumn.case.sections import Motion
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.load import read_motion
     from fecolumn.motions.record import METRES_PER_S2
-    from fecolumn.schema import InputError
 
     if args.units and args.units not in METRES_PER_S2:
         raise InputError(
@@ -320,9 +320,9 @@ def _read(source: str, args: argparse.Namespace, **keys: Any) -> GroundMotion:
 
 
 def _stored(path: Path | str) -> Ensemble:
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.ensemble_file import read_ensemble
     from fecolumn.motions.record import UnusableRecord
-    from fecolumn.schema import InputError
 
     try:
         return read_ensemble(path)
@@ -340,10 +340,10 @@ def _info(args: argparse.Namespace) -> int:
 
 
 def _plot(args: argparse.Namespace) -> int:
-    from fecolumn.folder import written
+    from fecolumn.foundation.folder import written
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.ensemble_file import summary
-    from fecolumn.post.motion_figures import motion_figures
-    from fecolumn.schema import InputError
+    from fecolumn.pictures.figures.motion_figures import motion_figures
 
     if not 0 < args.slenderness < math.pi / 2:
         raise InputError(
@@ -369,12 +369,12 @@ def _plot(args: argparse.Namespace) -> int:
 
 
 def _convert(args: argparse.Namespace) -> int:
-    from fecolumn.folder import written
+    from fecolumn.foundation.folder import written
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.ensemble import Ensemble
     from fecolumn.motions.ensemble_file import members
     from fecolumn.motions.export import write_text_files
     from fecolumn.motions.record import UnusableRecord
-    from fecolumn.schema import InputError
 
     if Path(args.output).suffix in (".h5", ".hdf5"):
         _ensemble_path(args.output)

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.atomic import write_csv, write_hdf5
-from fecolumn.files import Unreadable
+from fecolumn.foundation.atomic import write_csv, write_hdf5
+from fecolumn.foundation.files import Unreadable
+from fecolumn.foundation.sealed import open_whole, sealed
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.intensity import intensity_measures
 from fecolumn.motions.record import MOST_SAMPLES, GroundMotion, UnusableRecord, sound
-from fecolumn.sealed import open_whole, sealed
 
 FORMAT = "fecolumn ensemble 1"
 _MEMBER = re.compile(r"(?P<file>.+\.(?:h5|hdf5))#(?P<number>[^#]*)", re.IGNORECASE)

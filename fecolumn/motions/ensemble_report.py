@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
+from fecolumn.foundation.schema import build
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.target import Target, agreement, time_scaled
-from fecolumn.schema import build
 
 _LABELS = {
     "pga_m_s2": ("PGA [g]", 1 / GRAVITY),

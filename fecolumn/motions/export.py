@@ -9,8 +9,8 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from fecolumn.atomic import write_bytes
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
+from fecolumn.foundation.atomic import write_bytes
 from fecolumn.motions.record import GroundMotion
 
 

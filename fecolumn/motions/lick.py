@@ -16,11 +16,11 @@ def lick_source(source: str) -> str:
     """Source of lick:12 in the ensemble's file, ensemble.h5#12; the file is made if need be, which
     takes seconds.
     """
-    from fecolumn._compiled import cache_folder
-    from fecolumn.lock import alone
+    from fecolumn.foundation._compiled import cache_folder
+    from fecolumn.foundation.lock import alone
+    from fecolumn.foundation.sealed import hdf5_fault
     from fecolumn.motions.ensemble_file import write_ensemble
     from fecolumn.motions.seeded import LICK, read_model, seeded_ensemble
-    from fecolumn.sealed import hdf5_fault
 
     file = cache_folder() / f"lick-{_recipe()}.h5"
     if hdf5_fault(file):  # none yet, or damaged
@@ -35,7 +35,7 @@ def lick_source(source: str) -> str:
 @functools.cache
 def _recipe() -> str:
     """Digest of all that makes the motions."""
-    from fecolumn._compiled import digest_of
+    from fecolumn.foundation._compiled import digest_of
     from fecolumn.motions.seeded import LICK
 
     return digest_of((*sorted(Path(__file__).parent.glob("*.py")), Path(LICK)))

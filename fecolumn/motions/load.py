@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.case import Motion
+from fecolumn.case.sections import Motion
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions import lick
 from fecolumn.motions.at2 import looks_like_at2, read_at2
 from fecolumn.motions.columns import read_columns
@@ -35,7 +36,6 @@ from fecolumn.motions.record import (
     sound,
 )
 from fecolumn.motions.text import read_text
-from fecolumn.schema import InputError
 
 AXES = "xyz"
 _DT_TOLERANCE = 1e-4

@@ -135,7 +135,7 @@ def _with(
     maker: Callable[[argparse.Namespace], Ensemble], store: Callable[[Ensemble, str], int]
 ) -> Callable[[argparse.Namespace], int]:
     def command(args: argparse.Namespace) -> int:
-        from fecolumn.schema import InputError
+        from fecolumn.foundation.schema import InputError
 
         try:
             ensemble = maker(args)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
 from scipy.signal import butter, firwin, resample_poly, sosfiltfilt
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.motions.record import GroundMotion
 
 LOST_ENERGY = 0.05

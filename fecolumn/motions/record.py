@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 
 # Samples of a motion [-], its step [s] and acceleration [m/s2]: beyond them a file is damaged or
 # its unit is wrong

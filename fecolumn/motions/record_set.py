@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import fecolumn
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.fema_p695 import SETS, Entry, available, read_fema_p695
 from fecolumn.motions.intensity import peak_values

@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 import fecolumn
-from fecolumn.atomic import write_bytes
+from fecolumn.foundation.atomic import write_bytes
+from fecolumn.foundation.schema import InputError, build, parameter, read_toml
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.processing import scale_time
 from fecolumn.motions.record import GroundMotion
 from fecolumn.motions.stochastic import Component, EnsembleShape, bidirectional
 from fecolumn.motions.target import Target
 from fecolumn.motions.variability import drawn
-from fecolumn.schema import InputError, build, parameter, read_toml
 
 FOLDER = Path(__file__).parent
 LICK = FOLDER / "lick.toml"

@@ -33,7 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.integrate import cumulative_trapezoid
 from scipy.stats import gamma
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 
 _KNOT_S = 1.0
 _LOWEST_FILTER_HZ = 0.3  # a falling filter frequency stops here (Dabaghi and Der Kiureghian 2018)

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
+from fecolumn.foundation.schema import parameter
 from fecolumn.motions.intensity import peak_values, significant_duration
 from fecolumn.motions.record import GroundMotion
 from fecolumn.motions.spectra import horizontal_spectrum
-from fecolumn.schema import parameter
 
 _RECORD_PERIODS = np.geomspace(0.03, 20, 66)
 _TOLERANCES = {"pga": 0.10, "pgv": 0.10, "pgd": 0.25, "ds5_75": 0.10, "ds5_95": 0.10}

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.files import Unreadable, read_bytes
+from fecolumn.foundation.files import Unreadable, read_bytes
 from fecolumn.motions.record import UnusableRecord
 
 _SPELLINGS = {

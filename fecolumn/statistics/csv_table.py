@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 
 
 def read_csv(path: Path, needed: str) -> tuple[list[str], list[tuple[int, list[str]]]]:

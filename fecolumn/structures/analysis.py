@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.dynamics.overturning import FELL
-from fecolumn.ending import SLID_OFF, Ending
-from fecolumn.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
+from fecolumn.engines.dynamics.overturning import FELL
+from fecolumn.engines.ending import SLID_OFF, Ending
+from fecolumn.engines.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import GROUND, StructureModel
@@ -38,7 +38,7 @@ class OfStructure:
 
     def scene(self):
         """`post.scene.Scene` of the case."""
-        from fecolumn.post.structure_scene import scene_of
+        from fecolumn.pictures.figures.structure_scene import scene_of
 
         return scene_of(self.case, self.structure, self.folder / "case.json")
 

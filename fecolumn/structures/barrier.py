@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.case import GRAVITY, Initial
-from fecolumn.dynamics import overturning
-from fecolumn.dynamics.overturning import Stance, stance
-from fecolumn.schema import InputError
+from fecolumn.case.sections import GRAVITY, Initial
+from fecolumn.engines.dynamics import overturning
+from fecolumn.engines.dynamics.overturning import Stance, stance
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import edge_points
 from fecolumn.structures.model import GROUND, StructureModel
 from fecolumn.structures.place import Standing, footing, placed, supports_of

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case import Material
+from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.case.check_bodies import material_of
+from fecolumn.case.sections import Material
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.quality import mass_properties
-from fecolumn.schema import InputError
-from fecolumn.structures.check_keys import material_of
 from fecolumn.structures.faces import Face, plane_faces
 from fecolumn.structures.feet import domed, with_balls
-from fecolumn.structures.keys import Matrices, Storeys
 from fecolumn.structures.matrices import System, matrices_model, read_system
 from fecolumn.structures.model import BodyModel
 from fecolumn.structures.patches import Patch

@@ -9,9 +9,9 @@ import numpy as np
 from scipy.optimize import linprog
 from scipy.spatial import cKDTree
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
-from fecolumn.schema import InputError
 from fecolumn.structures.model import GROUND
 from fecolumn.structures.place import footing
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.schema import InputError
+from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures.bodies import Drawing
-from fecolumn.structures.keys import Matrices, Storeys
 from fecolumn.structures.layout import Layout, layout_of
 from fecolumn.structures.model import BodyModel, StructureModel
 from fecolumn.structures.patches import Patch, face_weights
@@ -46,7 +46,7 @@ def structure_of_elements(case, comm, file) -> tuple[StructureModel, list[Meshed
     InputError
         as of `structure.structure_model`; and a body that has no elements.
     """
-    from fecolumn.dynamics.assembly import known_to_all
+    from fecolumn.engines.dynamics.assembly import known_to_all
 
     layout = known_to_all(comm, lambda: _checked_layout(case, file))
     made = {name: meshed(layout.drawings[name], layout.patches[name], comm) for name in case.bodies}
@@ -81,7 +81,7 @@ def _checked_layout(case, file) -> Layout:
 
 def meshed(drawing: Drawing, patches: dict[str, Patch], comm) -> Meshed:
     """Elements and contact points of a drawing."""
-    from fecolumn.dynamics.checkpoint import node_order
+    from fecolumn.engines.dynamics.checkpoint import node_order
     from fecolumn.fem.free_body import rigid_fields
 
     body = body_of(drawing.shape, drawing.material, comm)

@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.tolerances import PARTS
-from fecolumn.dynamics.hht import HHT
-from fecolumn.reduced.engine import Engine
-from fecolumn.reduced.start import of_parts
-from fecolumn.reduced.structure import structure_of, view_of
-from fecolumn.schema import InputError
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.reduced.engine import Engine
+from fecolumn.engines.reduced.start import of_parts
+from fecolumn.engines.reduced.structure import structure_of, view_of
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import StructureModel
 from fecolumn.structures.structure import standing_of

@@ -13,9 +13,9 @@ import math
 
 import numpy as np
 
+from fecolumn.case.bodies import Block, Tube
 from fecolumn.contact.tolerances import ROUND_CORNERS
 from fecolumn.structures.faces import Face
-from fecolumn.structures.keys import Block, Tube
 from fecolumn.structures.model import Ball, BodyModel
 
 

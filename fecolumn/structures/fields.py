@@ -7,9 +7,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import cKDTree
 
-from fecolumn.dynamics.checkpoint import gather_all
-from fecolumn.post.fields import StressField, vertex_nodes
-from fecolumn.post.scene import Scene
+from fecolumn.engines.dynamics.checkpoint import gather_all
+from fecolumn.pictures.figures.fields import StressField, vertex_nodes
+from fecolumn.pictures.figures.scene import Scene
 
 
 class StructureFields:

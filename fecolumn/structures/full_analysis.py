@@ -7,10 +7,10 @@ import time
 
 import numpy as np
 
-from fecolumn.analysis import CHECKPOINT, Analysis, AnalysisFailed
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.fem.rotation import out_of_frames
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures.analysis import OfStructure
 from fecolumn.structures.engine import leans, upright
 from fecolumn.structures.pads import warn_of_grounds
@@ -25,8 +25,8 @@ class FullAnalysis(OfStructure, Analysis):
     """
 
     def __init__(self, case, folder, comm, file, quiet):
-        from fecolumn.dynamics.energy import Ledger
-        from fecolumn.dynamics.stepper import Stepper
+        from fecolumn.engines.dynamics.energy import Ledger
+        from fecolumn.engines.dynamics.stepper import Stepper
 
         super().__init__(case, folder, comm, file, quiet)
         plan = case.integration
@@ -60,8 +60,8 @@ class FullAnalysis(OfStructure, Analysis):
 
     def built(self, file):
         """The System of the case, and what observes it."""
-        from fecolumn.dynamics.hht import HHT
-        from fecolumn.dynamics.structure import kinematics_of, structure_system
+        from fecolumn.engines.dynamics.hht import HHT
+        from fecolumn.engines.dynamics.structure import kinematics_of, structure_system
         from fecolumn.structures.elements import structure_of_elements
         from fecolumn.structures.lost import limits_of
         from fecolumn.structures.observer import Observer
@@ -107,13 +107,13 @@ class FullAnalysis(OfStructure, Analysis):
 
     def _released(self, standing):
         """The State that the case begins with, from that of gravity equilibrium."""
-        from fecolumn.dynamics.structure import released
+        from fecolumn.engines.dynamics.structure import released
 
         return released(self.system, self.structure.parts, None if self.leans else standing)
 
     def drawn(self):
         """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
-        from fecolumn.post.structure_scene import scene_of
+        from fecolumn.pictures.figures.structure_scene import scene_of
         from fecolumn.structures.fields import StructureFields
 
         scene = scene_of(self.case, self.standing, self.folder / "case.json")
@@ -136,7 +136,7 @@ class FullAnalysis(OfStructure, Analysis):
 
     def _standing(self):
         """Gravity equilibrium, its energy noted; None of what leans and cannot stand."""
-        from fecolumn.dynamics import gravity
+        from fecolumn.engines.dynamics import gravity
 
         try:
             state = gravity.standing(self.system)
@@ -148,9 +148,9 @@ class FullAnalysis(OfStructure, Analysis):
         return state
 
     def _take(self, arrays: dict) -> None:
-        from fecolumn.dynamics.checkpoint import read_state
-        from fecolumn.dynamics.energy import TERMS
-        from fecolumn.dynamics.record import Record
+        from fecolumn.engines.dynamics.checkpoint import read_state
+        from fecolumn.engines.dynamics.energy import TERMS
+        from fecolumn.engines.dynamics.record import Record
 
         state, extra = read_state(arrays, self.system)
         start = float(extra["start"])
@@ -173,12 +173,12 @@ class FullAnalysis(OfStructure, Analysis):
         )
 
     def _fields(self):
-        from fecolumn.post.fields import FieldWriter
+        from fecolumn.pictures.figures.fields import FieldWriter
 
         return FieldWriter(self.folder / "fields", self.drawn())
 
     def _write_fields(self) -> None:
-        from fecolumn.dynamics.static_rest import StaticRest
+        from fecolumn.engines.dynamics.static_rest import StaticRest
 
         system, state = self.system, self.state
         interface, R, rows = system.interface, state.rotation, system.bodies.rows
@@ -197,9 +197,9 @@ class FullAnalysis(OfStructure, Analysis):
 
     def run(self, stop) -> dict:
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
-        from fecolumn.dynamics.cuts import StepFailed
-        from fecolumn.dynamics.overturning import STANDS
-        from fecolumn.progress import Progress
+        from fecolumn.engines.dynamics.cuts import StepFailed
+        from fecolumn.engines.dynamics.overturning import STANDS
+        from fecolumn.foundation.progress import Progress
 
         cadence = self.case.output
         progress = Progress(
@@ -259,7 +259,7 @@ class FullAnalysis(OfStructure, Analysis):
         return measures
 
     def _save(self) -> None:
-        from fecolumn.dynamics.checkpoint import write_checkpoint
+        from fecolumn.engines.dynamics.checkpoint import write_checkpoint
 
         extra = self.to_resume() | dict(
             start=self.ledger.start,

@@ -11,12 +11,12 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn._compiled import cache_folder
+from fecolumn.case.bodies import Ground
 from fecolumn.contact.unbounded_base import rigid_base, unbounded_base, window
-from fecolumn.lock import alone
+from fecolumn.foundation._compiled import cache_folder
+from fecolumn.foundation.lock import alone
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.base_plate import depths, plate_line
-from fecolumn.schema import InputError
-from fecolumn.structures.keys import Ground
 from fecolumn.structures.model import GROUND
 from fecolumn.structures.store import key_of
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.schema import InputError
+from fecolumn.case.bodies import Plate, Storeys
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures.bodies import Drawing, drawing
 from fecolumn.structures.check import check_meetings
 from fecolumn.structures.edges import Edge, edge_patch, edges_of
 from fecolumn.structures.faces import Face
 from fecolumn.structures.feet import ball_of, lifted
-from fecolumn.structures.keys import Plate, Storeys
 from fecolumn.structures.meetings import Meeting, meetings_of, place_of, zones_of
 from fecolumn.structures.patches import Patch, master_patch, slave_patch
 from fecolumn.structures.size import refuse_too_large

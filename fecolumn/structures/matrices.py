@@ -12,9 +12,9 @@ from scipy.linalg import eigh, qr
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from scipy.spatial import ConvexHull, Delaunay, QhullError
 
-from fecolumn.schema import InputError
+from fecolumn.case.bodies import Matrices
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import SAME_PLANE, Face
-from fecolumn.structures.keys import Matrices
 from fecolumn.structures.model import BodyModel
 from fecolumn.structures.patches import Patch, face_weights
 from fecolumn.structures.reduction import top_face

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import SAME_PLANE, Face, over, triangles_of
 from fecolumn.structures.feet import ball_of
 from fecolumn.structures.patches import plane_box

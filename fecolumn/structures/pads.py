@@ -7,10 +7,10 @@ import warnings
 
 import numpy as np
 
-from fecolumn.analysis import FEW_STEPS, FEWEST_STEPS
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.pad import pad_below
-from fecolumn.schema import InputError
+from fecolumn.engines.analysis import FEW_STEPS, FEWEST_STEPS
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import GROUND, Joint, StructureModel
 from fecolumn.structures.place import Standing, loads
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.atomic import write_bytes
+from fecolumn.foundation.atomic import write_bytes
 from fecolumn.mesh.picture import projection_axes, rendered
 from fecolumn.structures.model import GROUND
 

@@ -9,14 +9,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn._compiled import interpreted
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import SAME_OUTLINE
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.schema import InputError
+from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import over
 from fecolumn.structures.model import GROUND, BodyModel, Joint
 from fecolumn.structures.outlines import corners_of_overlap, inwards

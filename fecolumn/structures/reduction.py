@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.case import Material
+from fecolumn.case.sections import Material
 from fecolumn.mesh.quality import mass_properties
 from fecolumn.structures.faces import Face
 from fecolumn.structures.model import BodyModel
@@ -32,7 +32,7 @@ def body_of(shape: Shape, material: Material, comm=None):
     """The `fem.body.Body` of a mesh with its ties, of this process alone unless `comm` says more."""
     from mpi4py import MPI
 
-    from fecolumn.dynamics.assembly import column_body
+    from fecolumn.engines.dynamics.assembly import column_body
     from fecolumn.mesh.specimen import SpecimenMesh
 
     return column_body(
@@ -58,7 +58,7 @@ def elastic_model(
     patches
         by the names of the surfaces.
     """
-    from fecolumn.reduced.build import reduced_at
+    from fecolumn.engines.reduced.build import reduced_at
 
     body = body_of(shape, material)
     found = {name: body.find_nodes(patch.positions, patch.part) for name, patch in patches.items()}

@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fecolumn.case.bodies import Block, Meshed, Plate, Storeys, Tube
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import CAP, FLANGE, UPPER, BrickMesh, merged_mesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import extruded, swept_grid
 from fecolumn.mesh.imported import own_mesh
 from fecolumn.mesh.section import Annulus, Disc
 from fecolumn.mesh.tie import Tie, adjust, tie
-from fecolumn.schema import InputError
-from fecolumn.structures.keys import Block, Meshed, Plate, Storeys, Tube
 from fecolumn.structures.lines import count_at_ends, count_at_spots, fine_at_ends, fine_at_spots
 from fecolumn.structures.tied import is_tied, tied_counts, tied_mesh
 

@@ -20,16 +20,15 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn._compiled import cache_folder
-from fecolumn.atomic import write_json
-from fecolumn.lock import alone
-from fecolumn.sources import digest_of, files_of
+from fecolumn.foundation._compiled import cache_folder
+from fecolumn.foundation.atomic import write_json
+from fecolumn.foundation.lock import alone
+from fecolumn.foundation.sources import digest_of, files_of
 from fecolumn.structures.model import BodyModel, Storeys, Surface
 
 #: Sources that bodies, layouts and grounds are made from, whole folders where most of them are.
 SOURCES = (
-    "_dolfinx.py",
-    "material",
+    "case/bodies.py",
     "fem",
     "mesh",
     "structures",
@@ -40,8 +39,9 @@ SOURCES = (
     "contact/layer.py",
     "contact/tolerances.py",
     "contact/unbounded_base.py",
-    "dynamics/assembly.py",
-    "reduced/build.py",
+    "foundation/_dolfinx.py",
+    "engines/dynamics/assembly.py",
+    "engines/reduced/build.py",
 )
 #: Modes that a body keeps at least, so that analyses with fewer share it.
 KEPT_MODES = 30

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh
 
-from fecolumn.case import Material
-from fecolumn.structures.keys import Storeys as Keys
+from fecolumn.case.bodies import Storeys as Keys
+from fecolumn.case.sections import Material
 from fecolumn.structures.model import BodyModel, Storeys
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.reduction import local_points

@@ -7,12 +7,14 @@ import math
 
 import numpy as np
 
-from fecolumn.case import Initial
+from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.case.case import identity
+from fecolumn.case.check_bodies import material_of
+from fecolumn.case.sections import Initial
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.rim import Rim
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures import model as models
-from fecolumn.structures.case import identity
 from fecolumn.structures.check import (
     check_joints,
     check_layout,
@@ -20,10 +22,8 @@ from fecolumn.structures.check import (
     check_points,
     check_rest,
 )
-from fecolumn.structures.check_keys import material_of
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.ground import bases_of
-from fecolumn.structures.keys import Matrices, Storeys
 from fecolumn.structures.layout import Layout, layout_of
 from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
 from fecolumn.structures.pads import with_pads

@@ -6,14 +6,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fecolumn.case import Cap, Flange
-from fecolumn.content import content
+from fecolumn.case.bodies import Block, Cylinder, Meshed
+from fecolumn.case.sections import Cap, Flange
+from fecolumn.case.short_form import Base, Column, Heights, Mesh
+from fecolumn.case.sizes import sized
+from fecolumn.foundation.content import content
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.estimate import body_counts
 from fecolumn.mesh.specimen import body_mesh
-from fecolumn.schema import InputError
-from fecolumn.short_form import Base, Column, Heights, Mesh
-from fecolumn.sizes import sized
-from fecolumn.structures.keys import Block, Cylinder, Meshed
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,11 +28,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from fecolumn.case.case import type_of
+from fecolumn.case.short_form import ShortForm
+from fecolumn.engines.rocking.model import TABLES as TABLES_OF_MODELS
+from fecolumn.foundation.schema import InputError, build, meant
 from fecolumn.motions.chosen import chosen_motions
-from fecolumn.rocking.model import TABLES as TABLES_OF_MODELS
-from fecolumn.schema import InputError, build, meant
-from fecolumn.short_form import ShortForm
-from fecolumn.structures.case import type_of
 from fecolumn.study.keys import LatinHypercube
 
 # A study's tables that hold axes
@@ -266,7 +266,7 @@ def _of_model(key: str) -> Any:
     """Type of a dotted key of a rocking model's own table, such as podium.storeys, or None."""
     if key.partition(".")[0] not in TABLES_OF_MODELS:
         return None
-    from fecolumn.rocking import model_table  # only now: the models need libraries
+    from fecolumn.engines.rocking import model_table  # only now: the models need libraries
 
     return model_table.model_key_type(key)
 

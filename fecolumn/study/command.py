@@ -109,7 +109,7 @@ def main(args: argparse.Namespace) -> int:
     InputError
         study file or folder cannot be used.
     """
-    from fecolumn.schema import InputError
+    from fecolumn.foundation.schema import InputError
     from fecolumn.study import mpi
 
     if args.jobs is not None and args.jobs < 1:
@@ -140,7 +140,7 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _run_on_scheduler(args: argparse.Namespace, share: tuple[int, int] | None) -> int:
-    from fecolumn.schema import InputError
+    from fecolumn.foundation.schema import InputError
     from fecolumn.study import dask, mpi
 
     if mpi.under_mpirun():
@@ -162,7 +162,7 @@ def _run_on_scheduler(args: argparse.Namespace, share: tuple[int, int] | None) -
 
 
 def _share(args: argparse.Namespace) -> tuple[int, int] | None:
-    from fecolumn.schema import InputError
+    from fecolumn.foundation.schema import InputError
 
     index, size = args.array_index, args.array_size
     if index is None and size is None:
@@ -198,7 +198,7 @@ def _run(
     plan = read_plan(args.study)
     # an analysis function of the user's may read motions this package does not know
     if args.entry is None:
-        from fecolumn.case import MODEL_ENGINES
+        from fecolumn.case.sections import MODEL_ENGINES
         from fecolumn.structures.size import expected_of_all
 
         check_motions(plan)
@@ -250,7 +250,7 @@ def _run(
 
 def _rule(args: argparse.Namespace, share: tuple[int, int] | None, plan: Plan) -> Rule | None:
     """The `sequential.Rule` of the options, None without --until."""
-    from fecolumn.schema import InputError
+    from fecolumn.foundation.schema import InputError
     from fecolumn.study.sequential import Rule, stages
 
     given = {
@@ -303,7 +303,7 @@ def _show(
     plan: Plan, rows: list[dict[str, Any]], folder: Path | str, share: tuple[int, int] | None
 ) -> int:
     """Tables and figure, or for a share only its count; 1 when some failed."""
-    from fecolumn.ending import cut_short
+    from fecolumn.engines.ending import cut_short
     from fecolumn.study.store import DONE, FAILED
 
     done = f"{sum(row['state'] == DONE for row in rows)} of {len(rows)} analyses done"

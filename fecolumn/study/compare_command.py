@@ -60,12 +60,12 @@ def main(args: argparse.Namespace) -> int:
         A or B cannot be used, or an option is of the other kind of comparison.
     """
     if _are_analyses(args):
-        from fecolumn.results.compare_command import compare_analyses
+        from fecolumn.study.results.compare_command import compare_analyses
 
         compare_analyses((args.a, args.b), args.tolerance, args.output)
         return 0
-    from fecolumn.folder import written
-    from fecolumn.schema import InputError
+    from fecolumn.foundation.folder import written
+    from fecolumn.foundation.schema import InputError
     from fecolumn.statistics.compare import compare
     from fecolumn.statistics.ecdf import largest_peak
     from fecolumn.study.sample import read_sample
@@ -100,7 +100,7 @@ def _are_analyses(args: argparse.Namespace) -> bool:
     InputError
         only one of them is, or an option does not fit what they are.
     """
-    from fecolumn.schema import InputError
+    from fecolumn.foundation.schema import InputError
 
     kinds = [_kind(place) for place in (args.a, args.b)]
     analyses = ANALYSIS in kinds
@@ -190,7 +190,7 @@ def matched(a: Sample, b: Sample, unpaired: bool) -> tuple[Sample, Sample, bool,
 
 def comparison_text(result: Comparison, a: Sample, b: Sample, cap_mm: float) -> str:
     """The comparison for a reader, with units, intervals and evidence in words."""
-    from fecolumn.ending import P_LOST, P_OVERTURN
+    from fecolumn.engines.ending import P_LOST, P_OVERTURN
     from fecolumn.statistics.compare import evidence
     from fecolumn.statistics.flips import contingency
 
@@ -238,8 +238,8 @@ def comparison_text(result: Comparison, a: Sample, b: Sample, cap_mm: float) -> 
 
 
 def _write(folder: Path, result: Comparison, a: Sample, b: Sample, paired: bool) -> list[Path]:
-    from fecolumn.atomic import write_csv
-    from fecolumn.post.compare_figure import compare_figure
+    from fecolumn.foundation.atomic import write_csv
+    from fecolumn.pictures.figures.compare_figure import compare_figure
 
     files = [folder / "comparison.csv"]
     values = [
@@ -307,7 +307,7 @@ def _labels(a: Sample, b: Sample) -> tuple[str, str]:
     """What tells a from b, for a figure: the settings that differ, or else the titles, or else the
     places.
     """
-    from fecolumn.post.axis_text import axis_text
+    from fecolumn.pictures.figures.axis_text import axis_text
 
     if a.title == b.title and a.choice != b.choice:
         first, second = (

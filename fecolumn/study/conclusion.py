@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from fecolumn.ending import lost
+from fecolumn.engines.ending import lost
 from fecolumn.statistics.ecdf import censored, proportion_interval
 from fecolumn.statistics.equivalence import difference_shortfall, distance_bound, equality_shortfall
 from fecolumn.statistics.holm import holm

@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from fecolumn.schema import InputError
-from fecolumn.sources import code, code_text
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.sources import code, code_text
 from fecolumn.study.lock import hold_as_worker
 from fecolumn.study.outcome import Task, TaskOutcome, outcomes_of_dead
 from fecolumn.study.team import StudyError

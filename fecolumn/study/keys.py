@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from fecolumn.schema import parameter
+from fecolumn.foundation.schema import parameter
 
 
 @dataclass(frozen=True, slots=True)

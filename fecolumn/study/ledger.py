@@ -10,10 +10,10 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from fecolumn.files import is_file
-from fecolumn.schema import shown
+from fecolumn.engines.summary import fault_of
+from fecolumn.foundation.files import is_file
+from fecolumn.foundation.schema import shown
 from fecolumn.study.outcome import DONE, FAILED, TaskOutcome
-from fecolumn.summary import fault_of
 
 PLANNED, RUNNING = "planned", "running"
 

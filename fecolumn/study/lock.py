@@ -18,9 +18,9 @@ import time
 from pathlib import Path
 from typing import IO
 
-from fecolumn.atomic import disk_full
-from fecolumn.lock import is_held, open_lock
-from fecolumn.schema import InputError
+from fecolumn.foundation.atomic import disk_full
+from fecolumn.foundation.lock import is_held, open_lock
+from fecolumn.foundation.schema import InputError
 
 # Another driver that only looks holds a lock for an instant
 _TRIES, _PAUSE_S = 10, 0.05

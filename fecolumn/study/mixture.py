@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
-from fecolumn.sources import code, code_text
+from fecolumn.foundation.sources import code, code_text
 from fecolumn.study.outcome import DONE
 
 

@@ -11,7 +11,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from pathlib import Path
 from typing import IO, Any
 
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.lock import hold_as_worker
 from fecolumn.study.outcome import Task, TaskOutcome
 from fecolumn.study.team import StudyError

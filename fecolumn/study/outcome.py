@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from fecolumn.files import Unreadable
-from fecolumn.summary import read_summary
+from fecolumn.engines.summary import read_summary
+from fecolumn.foundation.files import Unreadable
 
 #: Words of an outcome. RETURNED: it was never begun, because its worker ended; FULL: the disk is,
 #: and nobody can go on.

@@ -22,13 +22,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fecolumn.case import case_from_tables, check_duration
-from fecolumn.files import is_file
+from fecolumn.case.case import Case, case_from_tables, check_duration
+from fecolumn.case.short_form import ShortForm
+from fecolumn.foundation.files import is_file
+from fecolumn.foundation.paths import taken_over
+from fecolumn.foundation.schema import InputError, merge, nested, read_toml, shown
 from fecolumn.motions.ensemble_file import file_and_number
-from fecolumn.paths import taken_over
-from fecolumn.schema import InputError, merge, nested, read_toml, shown
-from fecolumn.short_form import ShortForm
-from fecolumn.structures.case import StructureCase
 from fecolumn.study.axes import AxisFactor, hint, read_factors
 from fecolumn.study.keys import StudyKeys
 
@@ -85,9 +84,7 @@ class Analysis:
 
     __slots__ = ("case", "id", "keys", "levels", "duration_s")
 
-    def __init__(
-        self, case: StructureCase, case_id: str, keys: tuple[str, ...], levels: tuple[Any, ...]
-    ):
+    def __init__(self, case: Case, case_id: str, keys: tuple[str, ...], levels: tuple[Any, ...]):
         self.case, self.id, self.keys, self.levels = case, case_id, keys, levels
         self.duration_s = case.integration.duration_s or 1.0
 
@@ -222,7 +219,7 @@ class _Maker:
             self._refuse(error, levels)
         return Analysis(case, case.id, self.keys, levels)
 
-    def _case(self, places: tuple[int, ...]) -> StructureCase:
+    def _case(self, places: tuple[int, ...]) -> Case:
         """The case at a level of each factor."""
         case = case_from_tables(self._tables(places), self.path)
         check_duration(case, self.path)

@@ -27,8 +27,8 @@ def preparation(analyses: Iterable[Any]) -> str:
         return ""
     import numba
 
-    from fecolumn._compiled import cache_folder, compiled_folder
-    from fecolumn.lock import is_held
+    from fecolumn.foundation._compiled import cache_folder, compiled_folder
+    from fecolumn.foundation.lock import is_held
 
     if any(
         is_held(lock)

@@ -7,7 +7,7 @@ import math
 import time
 from typing import TextIO
 
-from fecolumn.progress import Bar, clock
+from fecolumn.foundation.progress import Bar, clock
 from fecolumn.study.outcome import DONE, FAILED, TaskOutcome
 
 

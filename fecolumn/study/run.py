@@ -10,8 +10,8 @@ import warnings
 from pathlib import Path
 from typing import Any, TextIO
 
-from fecolumn.atomic import disk_full
-from fecolumn.case import REST, Motion
+from fecolumn.case.sections import REST, Motion
+from fecolumn.foundation.atomic import disk_full
 from fecolumn.study.mixture import other_code
 from fecolumn.study.outcome import FULL, RETURNED, TaskOutcome
 from fecolumn.study.plan import Analysis, Plan
@@ -137,7 +137,7 @@ def check_motions(plan: Plan) -> None:
     InputError
         a motion that cannot be used, in the loader's words.
     """
-    from fecolumn.analysis import cut_text
+    from fecolumn.engines.analysis import cut_text
     from fecolumn.motions.load import load_motion
 
     # factor and direction change neither length nor whether it can be used; the longest step is the

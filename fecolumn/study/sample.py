@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from fecolumn.ending import cut_short, lost
-from fecolumn.schema import InputError
+from fecolumn.engines.ending import cut_short, lost
+from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.experiment import read_maxima
 from fecolumn.statistics.sample import Sample
 from fecolumn.study.plan import ENSEMBLE_AXES

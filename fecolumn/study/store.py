@@ -19,10 +19,10 @@ from pathlib import Path
 from typing import Any, Self
 
 from fecolumn import __version__
-from fecolumn.atomic import UNFINISHED, write_json
-from fecolumn.content import content
-from fecolumn.files import Unreadable, read_json
-from fecolumn.schema import InputError
+from fecolumn.foundation.atomic import UNFINISHED, write_json
+from fecolumn.foundation.content import content
+from fecolumn.foundation.files import Unreadable, read_json
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.ledger import (
     PLANNED,
     RUNNING,

@@ -6,10 +6,10 @@ import math
 from pathlib import Path
 from typing import Any
 
-from fecolumn.atomic import write_csv
-from fecolumn.ending import P_LOST, P_OVERTURN, lost
-from fecolumn.post.axis_text import axis_text
-from fecolumn.post.cdf_figure import CdfPanel, cdf_figure
+from fecolumn.engines.ending import P_LOST, P_OVERTURN, lost
+from fecolumn.foundation.atomic import write_csv
+from fecolumn.pictures.figures.axis_text import axis_text
+from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
 from fecolumn.study.plan import Plan

@@ -17,8 +17,8 @@ import traceback
 from collections.abc import Callable, Iterator
 from typing import IO, Any
 
-from fecolumn.atomic import disk_full
-from fecolumn.files import is_file
+from fecolumn.foundation.atomic import disk_full
+from fecolumn.foundation.files import is_file
 from fecolumn.study.outcome import FAILED, FULL, Task, TaskOutcome, finished_outcome
 
 # One thread a worker: BLAS threads of several workers on the same cores only disturb each other.

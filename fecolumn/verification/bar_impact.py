@@ -43,9 +43,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case import Material
-from fecolumn.dynamics.hht import HHT
-from fecolumn.post.style import LINES
+from fecolumn.case.sections import Material
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification import FULL
 from fecolumn.verification.hht_scheme import amplification, principal
 from fecolumn.verification.models import block_system, box

@@ -6,14 +6,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn import case
+from fecolumn.case import sections as case
 from fecolumn.contact.unbounded_base import rigid_base
-from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.overturning import Limits
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.overturning import Limits
+from fecolumn.engines.reduced.engine import Engine
+from fecolumn.engines.reduced.start import of_parts
+from fecolumn.engines.reduced.structure import structure_of, view_of
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.reduced.engine import Engine
-from fecolumn.reduced.start import of_parts
-from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
 
 GRAVITY = np.array([0.0, 0.0, -case.GRAVITY])

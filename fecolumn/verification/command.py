@@ -49,8 +49,8 @@ def main(args) -> int:
     InputError
         no case of that name, or a folder that cannot be written.
     """
-    from fecolumn.folder import written
-    from fecolumn.schema import InputError
+    from fecolumn.foundation.folder import written
+    from fecolumn.foundation.schema import InputError
     from fecolumn.verification.suite import tasks, verdict, verify
 
     pairs = tasks(args.case, args.engine or ALL_ENGINES)

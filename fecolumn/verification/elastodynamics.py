@@ -42,8 +42,8 @@ import ufl
 from dolfinx import fem
 from petsc4py import PETSc
 
-from fecolumn.dynamics.hht import HHT
-from fecolumn.post.style import LINES
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import CaseRows, Row, order_of
 from fecolumn.verification.trial import Trial, afloat

@@ -48,7 +48,7 @@ import numpy as np
 from mpi4py import MPI
 
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.post.style import LINES
+from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification import FULL
 from fecolumn.verification.models import column_case, column_system, shaking
 from fecolumn.verification.moving_base import (

@@ -14,9 +14,9 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case import case_from_tables
-from fecolumn.dynamics.history import read_history
-from fecolumn.schema import merge
+from fecolumn.case.case import case_from_tables
+from fecolumn.engines.dynamics.history import read_history
+from fecolumn.foundation.schema import merge
 from fecolumn.simulation import run as analyse
 from fecolumn.verification.result import CaseRows, Row
 

@@ -44,9 +44,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fecolumn.case import Material
-from fecolumn.dynamics.hht import HHT
-from fecolumn.post.style import LINES
+from fecolumn.case.sections import Material
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trials import begin_trial

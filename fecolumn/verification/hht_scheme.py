@@ -38,9 +38,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.hht import HHT
+from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.fem.modes import free_modes
-from fecolumn.post.style import LINES
+from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import afloat

@@ -30,13 +30,13 @@ import numpy as np
 from mpi4py import MPI
 
 from fecolumn import simulation
-from fecolumn._mpi import launch_environment
-from fecolumn.case import read_case
-from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
-from fecolumn.dynamics.history import read_history
+from fecolumn.case.case import read_case
+from fecolumn.engines.dynamics.checkpoint import read_checkpoint, write_checkpoint
+from fecolumn.engines.dynamics.history import read_history
+from fecolumn.foundation._mpi import launch_environment
+from fecolumn.foundation.schema import merge
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
-from fecolumn.post.style import LINES
-from fecolumn.schema import merge
+from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification import FULL
 from fecolumn.verification.models import COARSE, column_case, shaking
 from fecolumn.verification.one_column import build_system

@@ -14,7 +14,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from fecolumn.case import GRAVITY, case_from_tables
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import GRAVITY
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 

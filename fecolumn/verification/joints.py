@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.verification import joints_full, joints_moving, multi_drum
 from fecolumn.verification.joint_bodies import (
     BELOW,

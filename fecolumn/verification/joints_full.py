@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case import case_from_tables
-from fecolumn.dynamics.history import read_history
+from fecolumn.case.case import case_from_tables
+from fecolumn.engines.dynamics.history import read_history
 from fecolumn.simulation import run as analyse
 from fecolumn.verification.joint_bodies import BELOW, TILT, H, arms, block_tables, region, rocks
 from fecolumn.verification.result import Row

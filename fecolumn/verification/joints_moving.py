@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.dynamics.energy import TERMS
-from fecolumn.reduced.observe import ENERGY, PER_BODY, WIDTH
+from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.engines.reduced.observe import ENERGY, PER_BODY, WIDTH
 from fecolumn.verification.joint_bodies import (
     BELOW,
     DISPLACED,

@@ -21,9 +21,9 @@ import math
 
 import numpy as np
 
-from fecolumn.case import GRAVITY
-from fecolumn.rocking.impact import rectangular_restitution
-from fecolumn.rocking.masonry_displacement import (
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.rocking.impact import rectangular_restitution
+from fecolumn.engines.rocking.masonry_displacement import (
     bilinear,
     limit_state,
     oscillator,
@@ -31,7 +31,7 @@ from fecolumn.rocking.masonry_displacement import (
     rigid_wall_curve,
     trilinear,
 )
-from fecolumn.rocking.masonry_force import (
+from fecolumn.engines.rocking.masonry_force import (
     facade_multiplier,
     floor_friction,
     free_wall_multiplier,
@@ -39,7 +39,12 @@ from fecolumn.rocking.masonry_force import (
     side_wall_friction,
     side_wall_lever,
 )
-from fecolumn.rocking.masonry_limit import associated, non_associated, running_bond, wall_of_boxes
+from fecolumn.engines.rocking.masonry_limit import (
+    associated,
+    non_associated,
+    running_bond,
+    wall_of_boxes,
+)
 from fecolumn.verification.result import CaseRows, Row
 
 THICKNESS, HEIGHT = 0.4, 3.0

@@ -10,19 +10,19 @@ from typing import TypedDict, Unpack
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.case import Material
+from fecolumn.case.sections import Material
+from fecolumn.case.short_form import short_form
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.footprint import Footprint
-from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.system import System
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.system import System
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.total_lagrangian import TotalLagrangian
+from fecolumn.foundation.schema import merge
 from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas
-from fecolumn.schema import merge
-from fecolumn.short_form import short_form
 from fecolumn.verification import REDUCED
 from fecolumn.verification.one_column import build_system, one_column
 

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.dynamics.interface import Interface
-from fecolumn.dynamics.stepper import Stepper
+from fecolumn.engines.dynamics.interface import Interface
+from fecolumn.engines.dynamics.stepper import Stepper
 from fecolumn.verification.models import AMPLITUDES, TONES
 from fecolumn.verification.trial import Trial
 

@@ -13,7 +13,8 @@ from pathlib import Path
 import meshio
 import numpy as np
 
-from fecolumn.case import GRAVITY, case_from_tables
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import GRAVITY
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.result import Row

@@ -48,10 +48,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.case import Material
+from fecolumn.case.sections import Material
 from fecolumn.contact.projection import nodes_under
-from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.hht import HHT
+from fecolumn.engines.dynamics.gravity import standing
+from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.mesh.bricks import LOWER, UPPER
 from fecolumn.mesh.column import divisions, section
 from fecolumn.mesh.gmsh_section import swept_grid

@@ -19,13 +19,19 @@ import math
 
 import numpy as np
 
+from fecolumn.engines.rocking.frame import RockingFrame
+from fecolumn.engines.rocking.podium import Podium, study_podium
+from fecolumn.engines.rocking.podium_impact import (
+    CAV,
+    CRV,
+    LAWS,
+    kinetic_energy_kept,
+    podium_restitution,
+)
+from fecolumn.engines.rocking.storeys import PROFILES, storeys
 from fecolumn.motions.directivity_pulse import MEAN_GAMMA, MEAN_PHASE
 from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.frame import RockingFrame
-from fecolumn.rocking.podium import Podium, study_podium
-from fecolumn.rocking.podium_impact import CAV, CRV, LAWS, kinetic_energy_kept, podium_restitution
-from fecolumn.rocking.storeys import PROFILES, storeys
 from fecolumn.verification.result import CaseRows, Row
 
 #: eta to restitution CRV, CAV and kinetic energy kept CRV, CAV, of tan alpha = 0.15 and gamma = 10
@@ -143,7 +149,7 @@ def _sizes():
 
 def steady_shear(podium: Podium) -> float:
     """Base shear over M g tan alpha when a slowly growing acceleration lifts the podium."""
-    from fecolumn.rocking.podium_motion import SHEAR, TILT
+    from fecolumn.engines.rocking.podium_motion import SHEAR, TILT
 
     time = np.arange(0, 40, 0.01)
     ground = np.column_stack([-0.03 * 9.80665 * np.clip(time / 5.0, 0, 6), 0 * time])

@@ -33,7 +33,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fecolumn.rocking.podium_impact import CAV, podium_restitution
+from fecolumn.engines.rocking.podium_impact import CAV, podium_restitution
 from fecolumn.verification.podium_structure import (
     ALPHA,
     GAMMA,

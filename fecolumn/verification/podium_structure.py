@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from fecolumn.case import case_from_tables
+from fecolumn.case.case import case_from_tables
 from fecolumn.structures.analysis import columns_of
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model

@@ -9,15 +9,15 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from fecolumn.dynamics.energy import TERMS
-from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.system import State
+from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.engines.dynamics.gravity import standing
+from fecolumn.engines.dynamics.system import State
+from fecolumn.engines.reduced import start as starts
+from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, RATE
+from fecolumn.engines.reduced.motion import copy
+from fecolumn.engines.reduced.observe import COLUMNS
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.reduced import start as starts
-from fecolumn.reduced.elastic import ACCELERATION, COORDINATE, RATE
-from fecolumn.reduced.motion import copy
-from fecolumn.reduced.observe import COLUMNS
 from fecolumn.verification.one_foot import engine_on, foot_model, on_base
 from fecolumn.verification.trial import N_MODES, Trial
 

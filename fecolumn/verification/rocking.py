@@ -36,8 +36,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import brentq
 
-from fecolumn.case import GRAVITY
-from fecolumn.dynamics.gravity import tilted
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.gravity import tilted
 from fecolumn.fem.rotation import tilt_angle
 from fecolumn.verification.models import column_system
 from fecolumn.verification.result import CaseRows, Row

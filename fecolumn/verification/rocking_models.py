@@ -29,17 +29,16 @@ import math
 
 import numpy as np
 
-from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.block import BlockSection, RockingBlock
-from fecolumn.rocking.critical_input import critical_motion, least_impulse, tilt_velocities
-from fecolumn.rocking.frame import FrameSection, RockingFrame
-from fecolumn.rocking.impact import (
+from fecolumn.engines.rocking.block import BlockSection, RockingBlock
+from fecolumn.engines.rocking.critical_input import critical_motion, least_impulse, tilt_velocities
+from fecolumn.engines.rocking.frame import FrameSection, RockingFrame
+from fecolumn.engines.rocking.impact import (
     body_restitution,
     frame_restitution,
     housner_restitution,
     rectangular_restitution,
 )
-from fecolumn.rocking.overturning import (
+from fecolumn.engines.rocking.overturning import (
     half_sine_overturning,
     half_sine_phase,
     linear_overturning,
@@ -48,7 +47,8 @@ from fecolumn.rocking.overturning import (
     slenderness_factor,
     verge_velocity,
 )
-from fecolumn.rocking.swing import GRAVITY, PEAK, rock_one, row_of_block
+from fecolumn.engines.rocking.swing import GRAVITY, PEAK, rock_one, row_of_block
+from fecolumn.motions.record import GroundMotion
 from fecolumn.verification.result import CaseRows, Row
 
 TEN = math.radians(10)

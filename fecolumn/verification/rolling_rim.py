@@ -10,7 +10,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,9 +33,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.case import GRAVITY
-from fecolumn.post.style import LINES
-from fecolumn.schema import merge
+from fecolumn.case.sections import GRAVITY
+from fecolumn.foundation.schema import merge
+from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import COARSE, column_system, shaking
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import solver_drift

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.case import GRAVITY
-from fecolumn.reduced.observe import ENERGY, WIDTH
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.reduced.observe import ENERGY, WIDTH
 from fecolumn.verification.boxes import bent, block_on_a_heavy_one, frame, sine_pulse, stack
 from fecolumn.verification.result import CaseRows, Row
 

@@ -40,9 +40,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.case import GRAVITY
-from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.hht import HHT
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.gravity import standing
+from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.verification.coulomb_block import NewmarkBlock, TurningBlock
 from fecolumn.verification.models import block_system, box, column_system
 from fecolumn.verification.result import CaseRows, Row

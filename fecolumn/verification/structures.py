@@ -21,11 +21,11 @@ import math
 
 import numpy as np
 
-from fecolumn._compiled import interpreted
-from fecolumn.case import case_from_tables
-from fecolumn.rocking import wobbling_equations as equations
-from fecolumn.rocking.podium_impact import CRV, podium_restitution
-from fecolumn.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
+from fecolumn.case.case import case_from_tables
+from fecolumn.engines.rocking import wobbling_equations as equations
+from fecolumn.engines.rocking.podium_impact import CRV, podium_restitution
+from fecolumn.engines.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
+from fecolumn.foundation._compiled import interpreted
 from fecolumn.verification.podium_bodies import podium_rows
 from fecolumn.verification.podium_structure import (
     STIFF,

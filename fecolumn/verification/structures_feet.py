@@ -26,8 +26,9 @@ import math
 import numpy as np
 from scipy.integrate import quad
 
-from fecolumn.case import GRAVITY, case_from_tables
-from fecolumn.reduced.observe import ENERGY, WIDTH
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.reduced.observe import ENERGY, WIDTH
 from fecolumn.structures.analysis import columns_of
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 
-from fecolumn.atomic import write_bytes
+from fecolumn.foundation.atomic import write_bytes
 from fecolumn.verification import ALL_ENGINES, CASES
 from fecolumn.verification.result import Row
 
@@ -64,7 +64,7 @@ def run_case(case: str, engine: str, folder: Path | None = None, long: bool = Fa
 
 
 def _draw(result, path: Path) -> None:
-    from fecolumn.post.style import new_figure, save, styled
+    from fecolumn.pictures.figures.style import new_figure, save, styled
 
     with styled():
         figure = new_figure(*result.size)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.dynamics.assembly import column_body
+from fecolumn.engines.dynamics.assembly import column_body
 from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.effective import effective_factor
 from fecolumn.fem.rotation import rotation_matrix

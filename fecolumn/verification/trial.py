@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.case import Integration
-from fecolumn.dynamics.energy import TERMS, Ledger
-from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.stepper import Stepper
-from fecolumn.dynamics.system import State
+from fecolumn.case.sections import Integration
+from fecolumn.engines.dynamics.energy import TERMS, Ledger
+from fecolumn.engines.dynamics.gravity import standing
+from fecolumn.engines.dynamics.stepper import Stepper
+from fecolumn.engines.dynamics.system import State
 
 #: Elastic modes with inertia of the engine "reduced": a case's default.
 N_MODES = Integration().n_modes

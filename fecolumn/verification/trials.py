@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fecolumn.dynamics.gravity import standing
+from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.verification import FULL
 from fecolumn.verification.reduced_trial import ReducedTrial
 from fecolumn.verification.trial import N_MODES, Trial

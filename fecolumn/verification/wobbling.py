@@ -48,9 +48,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.case import GRAVITY, Material
-from fecolumn.dynamics.gravity import tilted
-from fecolumn.dynamics.hht import HHT
+from fecolumn.case.sections import GRAVITY, Material
+from fecolumn.engines.dynamics.gravity import tilted
+from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.mesh.bricks import LOWER
 from fecolumn.mesh.gmsh_section import Annulus, extruded
 from fecolumn.verification.models import block_system, box, column_system

@@ -22,10 +22,10 @@ import math
 
 import numpy as np
 
-from fecolumn._compiled import interpreted
-from fecolumn.case import GRAVITY
-from fecolumn.rocking import wobbling_equations as equations
-from fecolumn.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.rocking import wobbling_equations as equations
+from fecolumn.engines.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
+from fecolumn.foundation._compiled import interpreted
 from fecolumn.statistics.kolmogorov import asymptotic_p, samples_of_p
 from fecolumn.verification.result import CaseRows, Row
 
@@ -72,8 +72,8 @@ def free(frame: WobblingFrame, tilt: float, turn: float, seconds: float = 40.0):
     """Rows of `wobbling_motion.wobble` of a free motion from a tilt [rad], its azimuth turning
     [rad/s].
     """
-    from fecolumn.rocking.wobbling import TOLERANCE
-    from fecolumn.rocking.wobbling_motion import wobble
+    from fecolumn.engines.rocking.wobbling import TOLERANCE
+    from fecolumn.engines.rocking.wobbling_motion import wobble
 
     start = np.array([tilt, 0.0, 0.0, turn * interpreted(equations.inertia)(frame.body, tilt)[1]])
     return wobble(
@@ -194,7 +194,7 @@ def _samples():
 
 
 def _energy(frame, paths):
-    from fecolumn.rocking.wobbling_motion import SPIN, TILT, energies
+    from fecolumn.engines.rocking.wobbling_motion import SPIN, TILT, energies
 
     for turn, (rows, _, _) in paths.items():
         total, words = (
@@ -221,7 +221,7 @@ def _passing(frame):
     """A column that comes past upright at a tilt of some 1e-6 rad turns its azimuth by pi
     sqrt(A/B).
     """
-    from fecolumn.rocking.wobbling_motion import AZIMUTH, RATE
+    from fecolumn.engines.rocking.wobbling_motion import AZIMUTH, RATE
 
     along, across = interpreted(equations.inertia)(frame.body, 1e-4)
     factor = math.sqrt(along / across) * 1e-4
@@ -291,7 +291,7 @@ def _equations(frame):
 
 
 def _draw(figure, paths) -> None:
-    from fecolumn.rocking.wobbling_motion import AZIMUTH, TILT
+    from fecolumn.engines.rocking.wobbling_motion import AZIMUTH, TILT
 
     left, right = figure.subplots(1, 2)
     for (turn, (rows, _, _)), dashes in zip(list(paths.items())[1:], ("-", "--", "-.")):

@@ -11,7 +11,7 @@ import pytest
 from benchmarks.planar import column, compare, ensembles, nsgs, package, structures, theory
 from benchmarks.planar.advance import History, advance
 from benchmarks.planar.bodies import GRAVITY, Body, Structure, quadrilateral
-from fecolumn.case import case_from_tables
+from fecolumn.case.case import case_from_tables
 
 FRAME = structures.frame(**structures.FRAME)
 FRAME_BLOCK = theory.equivalent_block(structures.FRAME["column"], 0.825)

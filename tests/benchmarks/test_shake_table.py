@@ -19,7 +19,7 @@ from benchmarks.shake_table.campaign import (
 )
 from benchmarks.shake_table.rock import Stone, at_rest, body_of, read_scan, solid
 from benchmarks.shake_table.scores import chance, confusion
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 
 LENGTH, WIDTH, HEIGHT = 0.16, 0.4, 0.8
 SLENDERNESS = LENGTH / HEIGHT  # tan(alpha) about the edges of the shaken direction

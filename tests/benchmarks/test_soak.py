@@ -11,7 +11,7 @@ from benchmarks.soak.hypercube import Draw, hypercube
 from benchmarks.soak.motions import write_motions
 from benchmarks.soak.report import growth, histogram, rows_of, toml
 from benchmarks.soak.specimens import specimens
-from fecolumn.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, read_case
 
 
 @pytest.fixture(scope="module")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.structures import figure, podium
-from fecolumn.rocking.podium_impact import CAV, CRV
+from fecolumn.engines.rocking.podium_impact import CAV, CRV
 from fecolumn.verification.podium_structure import ALPHA, HALF_DIAGONAL, kept_rate, tilt_of
 
 

@@ -15,7 +15,7 @@ from small_case import write_case
 
 from fecolumn import simulation
 from fecolumn.cli import main
-from fecolumn.dynamics.energy import TERMS
+from fecolumn.engines.dynamics.energy import TERMS
 
 KEYS = """engine kinematics dofs steps dt alpha_hht duration_s u_max_m overturned
 residual_slide_m wall_s s_per_step iterations factorizations
@@ -66,7 +66,7 @@ def test_summary_history_and_figures_are_complete(whole):
 
 def _weight(out):
     """Weight [N] from the mesh alone."""
-    from fecolumn.case import GRAVITY
+    from fecolumn.case.sections import GRAVITY
     from fecolumn.mesh.quality import mass_properties
     from fecolumn.mesh.specimen import specimen_mesh
     from fecolumn.simulation import read_folder_case

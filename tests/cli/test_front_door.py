@@ -8,10 +8,12 @@ import typing
 
 import pytest
 
-from fecolumn import __version__, keys, manual, templates
-from fecolumn.case import read_case
+from fecolumn import __version__
+from fecolumn.case import key_tables as keys
+from fecolumn.case import manual, templates
+from fecolumn.case.case import read_case
+from fecolumn.case.short_form import ShortForm
 from fecolumn.cli import main
-from fecolumn.short_form import ShortForm
 from fecolumn.study.plan import read_plan
 
 
@@ -45,7 +47,7 @@ def test_keys_lists_every_key_of_a_case_and_of_a_study():
 def test_manual_has_the_table_of_keys_as_it_is_now():
     table = manual.page("keys").partition("\n\n## ")
     assert "## " + table[2] == keys.markdown(keys.tables()), (
-        "run: fecolumn keys --markdown, below the first lines of fecolumn/manual/keys.md"
+        "run: fecolumn keys --markdown, below the first lines of fecolumn/case/manual/keys.md"
     )
 
 

@@ -5,7 +5,6 @@ which the answer is known.
 import numpy as np
 from two_blocks import Blocks, compliance
 
-from fecolumn._compiled import interpreted
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.interface import interface_of, rims_at_rest
@@ -26,6 +25,7 @@ from fecolumn.contact.projection import base_of
 from fecolumn.contact.stick import no_stick
 from fecolumn.contact.tolerances import ITERATIONS
 from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.foundation._compiled import interpreted
 
 # a point gives way by this [m/N], sunk into the base by this it presses with 1000 N
 GIVES, DEEP = 1e-9, 1e-6

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from fecolumn.dynamics.assembly import column_body
-from fecolumn.dynamics.gravity import standing
+from fecolumn.case.short_form import short_form
+from fecolumn.engines.dynamics.assembly import column_body
+from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.mesh.specimen import specimen_mesh
-from fecolumn.short_form import short_form
 from fecolumn.verification.one_column import build_system, footprint_of
 
 SHAPES = {

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from fecolumn import manual
-from fecolumn.case import Material
+from fecolumn.case import manual
+from fecolumn.case.sections import Material
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.layer import layer_response
 from fecolumn.contact.projection import nodes_under

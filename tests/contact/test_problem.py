@@ -7,11 +7,11 @@ import pytest
 from one_foot import DEEP, GIVES, Foot, answer, many
 from two_blocks import Blocks
 
-from fecolumn._compiled import interpreted
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.points import BEYOND, CONTACT, OVER, node_points
 from fecolumn.contact.problem import mark_close, room
 from fecolumn.contact.tolerances import CLOSE, NEAR, SHARE, SOLVED
+from fecolumn.foundation._compiled import interpreted
 
 
 def springs_alone(mu, n=1, static=0.4, **more):

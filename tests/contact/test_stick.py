@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from one_foot import DEEP, answer, many
 
-from fecolumn._compiled import interpreted
 from fecolumn.contact.factor import multiply, solve_factored
 from fecolumn.contact.friction import solve_contact
 from fecolumn.contact.interface import interface_of, rims_at_rest
@@ -16,6 +15,7 @@ from fecolumn.contact.problem import N_ASSEMBLED
 from fecolumn.contact.stick import find_stick, holds, no_stick, operator_of, solve_sticking
 from fecolumn.contact.tolerances import PAD_TURN, STICK_TURN, STICK_WAY
 from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.foundation._compiled import interpreted
 
 N = 12
 TIGHT, USABLE = 1e-14, 1e-9

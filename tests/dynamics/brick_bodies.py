@@ -6,22 +6,22 @@ from functools import cache
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.case import Material
+from fecolumn.case.sections import Material
 from fecolumn.contact.unbounded_base import rigid_base
-from fecolumn.dynamics.energy import TERMS, Ledger
-from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.overturning import Limits
-from fecolumn.dynamics.stepper import Stepper
-from fecolumn.dynamics.structure import released, structure_system
+from fecolumn.engines.dynamics.energy import TERMS, Ledger
+from fecolumn.engines.dynamics.gravity import standing
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.overturning import Limits
+from fecolumn.engines.dynamics.stepper import Stepper
+from fecolumn.engines.dynamics.structure import released, structure_system
+from fecolumn.engines.reduced.engine import Engine
+from fecolumn.engines.reduced.start import of_parts as reduced_of_parts
+from fecolumn.engines.reduced.structure import structure_of, view_of
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.effective import blocks, unit_loads
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.modes import elastic_modes
-from fecolumn.reduced.engine import Engine
-from fecolumn.reduced.start import of_parts as reduced_of_parts
-from fecolumn.reduced.structure import structure_of, view_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
 from fecolumn.verification.models import box
 

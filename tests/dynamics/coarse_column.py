@@ -4,8 +4,8 @@ base.
 
 from mpi4py import MPI
 
-from fecolumn.schema import merge, read_toml
-from fecolumn.short_form import short_form
+from fecolumn.case.short_form import short_form
+from fecolumn.foundation.schema import merge, read_toml
 from fecolumn.verification.one_column import build_system
 
 SPECIMEN = "meshes/stout.toml"

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fecolumn.dynamics.hht import HHT
+from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.trials import begin_trial
 

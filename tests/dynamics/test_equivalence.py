@@ -8,9 +8,9 @@ import pytest
 from coarse_column import THICK, coarse_system
 from mpi4py import MPI  # noqa: F401  (before petsc4py)
 
-from fecolumn.dynamics.energy import Ledger
-from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.stepper import Stepper
+from fecolumn.engines.dynamics.energy import Ledger
+from fecolumn.engines.dynamics.gravity import standing
+from fecolumn.engines.dynamics.stepper import Stepper
 
 
 def _shaken(steps=100, **sections):

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from coarse_column import coarse_system
 
-from fecolumn.dynamics.energy import Ledger
-from fecolumn.dynamics.gravity import tilted
-from fecolumn.dynamics.stepper import Stepper
+from fecolumn.engines.dynamics.energy import Ledger
+from fecolumn.engines.dynamics.gravity import tilted
+from fecolumn.engines.dynamics.stepper import Stepper
 from fecolumn.fem.rotation import tilt_angle
 
 

@@ -5,8 +5,8 @@ import pytest
 from small_block import block, centre, trial
 
 from fecolumn import simulation
-from fecolumn.case import case_from_tables
-from fecolumn.dynamics.gravity import standing
+from fecolumn.case.case import case_from_tables
+from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.verification.models import column_case, column_system
 from fecolumn.verification.trials import begin_trial
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from small_block import ENGINES, G, block, centre, trial
 
-from fecolumn.case import Initial
-from fecolumn.dynamics.gravity import begin
+from fecolumn.case.sections import Initial
+from fecolumn.engines.dynamics.gravity import begin
 
 
 def started(engine, system, **initial):

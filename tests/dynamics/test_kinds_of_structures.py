@@ -9,12 +9,12 @@ import pytest
 from brick_bodies import GRAVITY, MARBLE, Structure, brick_body, closure, pulse
 from mpi4py import MPI
 
-from fecolumn.case import Material
+from fecolumn.case.sections import Material
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.unbounded_base import unbounded_base
-from fecolumn.dynamics.energy import TERMS
-from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.resistance import Resistance
+from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.engines.dynamics.gravity import standing
+from fecolumn.engines.dynamics.resistance import Resistance
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.rotation import rotation_matrix

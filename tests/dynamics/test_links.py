@@ -7,7 +7,7 @@ import pytest
 
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import frames_at, grounds_at
-from fecolumn.dynamics.links import LINK, TIE, end_links, pull_links
+from fecolumn.engines.dynamics.links import LINK, TIE, end_links, pull_links
 
 LENGTH, STIFFNESS, YIELDS, DT = 1.0, 2e6, 4e3, 1e-3
 ELASTIC = YIELDS / STIFFNESS  # elongation at which it yields [m]

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fecolumn.dynamics.overturning import (
+from fecolumn.engines.dynamics.overturning import (
     CAPPED,
     NO_RETURN,
     STANDS,

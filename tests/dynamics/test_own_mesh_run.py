@@ -8,8 +8,8 @@ import meshio
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.case import case_from_tables
-from fecolumn.dynamics.gravity import standing
+from fecolumn.case.case import case_from_tables
+from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.fem.modes import free_modes
 from fecolumn.simulation import run
 from fecolumn.verification.one_column import build_system

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from small_block import ENGINES, block, centre, lowest, trial
 
-from fecolumn.case import Initial
-from fecolumn.dynamics.gravity import begin
+from fecolumn.case.sections import Initial
+from fecolumn.engines.dynamics.gravity import begin
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.verification.trial import afloat
 

@@ -3,10 +3,10 @@
 import numpy as np
 from coarse_column import coarse_system
 
-from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
-from fecolumn.dynamics.energy import Ledger
-from fecolumn.dynamics.gravity import tilted
-from fecolumn.dynamics.stepper import Stepper
+from fecolumn.engines.dynamics.checkpoint import read_checkpoint, write_checkpoint
+from fecolumn.engines.dynamics.energy import Ledger
+from fecolumn.engines.dynamics.gravity import tilted
+from fecolumn.engines.dynamics.stepper import Stepper
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.trial import RigidRocking, Trial
 from fecolumn.verification.wobbling import rolling

@@ -6,7 +6,7 @@ from coarse_column import coarse_system
 from scipy.integrate import solve_ivp
 
 from fecolumn.contact.rim import lowest
-from fecolumn.dynamics.gravity import tilted
+from fecolumn.engines.dynamics.gravity import tilted
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.trials import begin_trial
 from fecolumn.verification.wobbling import rolling

@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from brick_bodies import FullRun, Structure, brick_body, closure, frame, pulse, stack
 
-from fecolumn.case import Material
+from fecolumn.case.sections import Material
 from fecolumn.contact.points import SUNK
-from fecolumn.dynamics.checkpoint import read_checkpoint, write_checkpoint
-from fecolumn.dynamics.energy import TERMS
-from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.stage import Stage
+from fecolumn.engines.dynamics.checkpoint import read_checkpoint, write_checkpoint
+from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.stage import Stage
+from fecolumn.engines.reduced.observe import ENERGY, PER_BODY, WIDTH
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.reduced.observe import ENERGY, PER_BODY, WIDTH
 from fecolumn.structures.model import GROUND, Link
 
 G = 9.81

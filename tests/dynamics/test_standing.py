@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from coarse_column import THICK, coarse_system
 
-from fecolumn.dynamics.energy import Ledger
-from fecolumn.dynamics.gravity import NoEquilibrium, iterate_to_rest, standing
-from fecolumn.dynamics.stepper import Stepper
+from fecolumn.engines.dynamics.energy import Ledger
+from fecolumn.engines.dynamics.gravity import NoEquilibrium, iterate_to_rest, standing
+from fecolumn.engines.dynamics.stepper import Stepper
 
 
 @pytest.mark.parametrize("alpha", [0.0, -0.2, -0.333])

@@ -7,12 +7,12 @@ import pytest
 from coarse_column import coarse_case
 from mpi4py import MPI
 
-from fecolumn.dynamics.energy import Ledger
-from fecolumn.dynamics.gravity import standing, tilted
-from fecolumn.dynamics.stepper import Stepper
+from fecolumn.case.short_form import short_form
+from fecolumn.engines.dynamics.energy import Ledger
+from fecolumn.engines.dynamics.gravity import standing, tilted
+from fecolumn.engines.dynamics.stepper import Stepper
+from fecolumn.foundation.schema import merge, read_toml
 from fecolumn.mesh.column import column_mesh
-from fecolumn.schema import merge, read_toml
-from fecolumn.short_form import short_form
 from fecolumn.verification.one_column import build_system
 
 SPECIMEN = "meshes/stout.toml"

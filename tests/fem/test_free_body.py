@@ -8,7 +8,7 @@ from mpi4py import MPI
 from petsc4py import PETSc
 from scipy.linalg import eigh
 
-from fecolumn.case import Material
+from fecolumn.case.sections import Material
 from fecolumn.fem import free_body
 from fecolumn.fem.body import Body
 from fecolumn.fem.free_body import FreeBody

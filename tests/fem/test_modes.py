@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from mpi4py import MPI
 
-from fecolumn.case import read_case
-from fecolumn.dynamics.assembly import column_body
+from fecolumn.case.case import read_case
+from fecolumn.engines.dynamics.assembly import column_body
 from fecolumn.fem.modes import free_modes
 from fecolumn.mesh.bending import free_free_bending_frequency
 from fecolumn.mesh.specimen import specimen_mesh

@@ -38,8 +38,8 @@ def tied_body():
     """A tube with its cap tied on."""
     from mpi4py import MPI
 
-    from fecolumn.dynamics.assembly import column_body
-    from fecolumn.short_form import short_form
+    from fecolumn.case.short_form import short_form
+    from fecolumn.engines.dynamics.assembly import column_body
     from fecolumn.verification.one_column import share_specimen_mesh
 
     case = short_form(
@@ -65,7 +65,7 @@ def test_the_momentum_of_a_tied_body_is_its_mass_times_velocity(tied_body):
 
 
 def test_one_load_and_many_at_once_have_the_same_solution_and_leave_no_residual(tied_body):
-    from fecolumn.dynamics.hht import HHT
+    from fecolumn.engines.dynamics.hht import HHT
     from fecolumn.fem.effective import effective_factor
 
     hht = HHT(1e-3, -0.2)

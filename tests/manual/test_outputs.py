@@ -22,9 +22,9 @@ from small_structures import stack, structure  # noqa: E402
 from study_files import write_study  # noqa: E402
 from synthetic_study import write_synthetic  # noqa: E402
 
-from fecolumn.report.page import write_report  # noqa: E402
 from fecolumn.simulation import run  # noqa: E402
 from fecolumn.study.plan import read_plan  # noqa: E402
+from fecolumn.study.report.page import write_report  # noqa: E402
 from fecolumn.study.run import complete_study  # noqa: E402
 from fecolumn.study.table import write_tables  # noqa: E402
 

@@ -5,11 +5,11 @@ import tomllib
 import pytest
 from documents import PAGES, ROOT, blocks
 
-from fecolumn.schema import read_toml
+from fecolumn.foundation.schema import read_toml
 
 FILES = sorted(
     file
-    for folder in ("meshes", "benchmarks", "fecolumn/templates")
+    for folder in ("meshes", "benchmarks", "fecolumn/case/templates")
     for file in (ROOT / folder).rglob("*.toml")
 )
 EXAMPLES = [(page, block) for page in PAGES for block in blocks(page) if block.language == "toml"]

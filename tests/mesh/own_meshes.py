@@ -5,7 +5,7 @@ import itertools
 import meshio
 import numpy as np
 
-from fecolumn.short_form import short_form
+from fecolumn.case.short_form import short_form
 
 SIDES = 0.2, 0.1, 0.4
 

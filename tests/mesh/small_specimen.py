@@ -2,7 +2,7 @@
 
 import copy
 
-from fecolumn.short_form import short_form
+from fecolumn.case.short_form import short_form
 
 TABLES = {
     "column": {"outer_diameter_m": 0.1, "height_m": 0.3, "wall_m": 0.01, "fine_height_m": 0.05},

@@ -9,7 +9,8 @@ import pytest
 from scipy.spatial import cKDTree
 from small_specimen import TABLES, small_case
 
-from fecolumn.case import read_case
+from fecolumn.case.case import read_case
+from fecolumn.case.short_form import short_form
 from fecolumn.contact.rim import Rim
 from fecolumn.mesh.base_plate import GROWTH, base_mesh, grid_lines, growing_steps
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, boundary_faces, brick_mesh, outer_faces
@@ -20,7 +21,6 @@ from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
 from fecolumn.mesh.quality import exact_cap, exact_column, exact_flange, mass_properties
 from fecolumn.mesh.section import Annulus
 from fecolumn.mesh.specimen import specimen_mesh
-from fecolumn.short_form import short_form
 
 ODD_CASES = {
     "tube": {},

@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from small_specimen import small_case
 
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import CAP, UPPER
 from fecolumn.mesh.column import column_mesh
 from fecolumn.mesh.specimen import specimen_mesh
-from fecolumn.schema import InputError
 
 BUILT = small_case(column_fine_height_m=0.0, mesh_coarse_size_m=0.012)
 

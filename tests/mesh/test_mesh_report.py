@@ -6,8 +6,8 @@ from pathlib import Path
 import meshio
 import pytest
 
-from fecolumn.case import case_from_tables
-from fecolumn.mesh_report import FILES, mesh_report
+from fecolumn.case.case import case_from_tables
+from fecolumn.pictures.mesh_report import FILES, mesh_report
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "render"))
 from rocking_analyses import BLOCK

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from own_meshes import SIDES, bricks, own_case, tetrahedra, write
 
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.estimate import estimate
 from fecolumn.mesh.quality import quality_table
 from fecolumn.mesh.specimen import specimen_mesh
-from fecolumn.schema import InputError
 
 FORMATS = [
     ("own.inp", {}),
@@ -65,7 +65,7 @@ def test_linear_tetrahedra_are_refused(tmp_path):
 def test_nodes_of_second_order_are_counted_before_anything_is_built(tmp_path):
     from mpi4py import MPI
 
-    from fecolumn.dynamics.assembly import column_body
+    from fecolumn.engines.dynamics.assembly import column_body
     from fecolumn.verification.one_column import footprint_of
 
     for kind, made in (("tetra", tetrahedra), ("hexahedron", bricks)):

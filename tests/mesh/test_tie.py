@@ -2,12 +2,12 @@ import numpy as np
 import pytest
 from small_specimen import small_case
 
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import CAP, LOWER, UPPER, merged_mesh
 from fecolumn.mesh.cap_plate import cap_mesh
 from fecolumn.mesh.column import column_mesh
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.mesh.tie import adjust, project_to_quads, shape_functions, tie
-from fecolumn.schema import InputError
 
 
 @pytest.mark.parametrize(

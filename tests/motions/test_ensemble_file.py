@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from record_files import write_at2
 
-from fecolumn.case import Motion, case_from_tables
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import Motion
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.ensemble_file import (
     members,
@@ -20,7 +22,6 @@ from fecolumn.motions.ensemble_file import (
 from fecolumn.motions.export import write_text_files
 from fecolumn.motions.load import load_motion, read_motion
 from fecolumn.motions.record import GroundMotion, UnusableRecord, motion_hash
-from fecolumn.schema import InputError
 from fecolumn.study.plan import read_plan
 
 SMALL = {

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from fecolumn.case import GRAVITY, Motion
+from fecolumn.case.sections import GRAVITY, Motion
 from fecolumn.motions import fema_p695
 from fecolumn.motions.load import read_motion
 from fecolumn.motions.processing import integrate

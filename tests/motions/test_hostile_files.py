@@ -11,13 +11,13 @@ import numpy as np
 import pytest
 from record_files import write_at2
 
-from fecolumn import sealed
-from fecolumn.case import Motion
+from fecolumn.case.sections import Motion
+from fecolumn.foundation import sealed
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.ensemble_file import members, read_ensemble, read_member, write_ensemble
 from fecolumn.motions.load import load_motion
 from fecolumn.motions.record import GroundMotion, UnusableRecord
-from fecolumn.schema import InputError
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.motions import intensity
 from fecolumn.motions.record import GroundMotion
 

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from fecolumn.case import Motion
+from fecolumn.case.sections import Motion
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.motions.lick import COUNT
 from fecolumn.motions.load import read_motion
 from fecolumn.motions.processing import scale_time
 from fecolumn.motions.record import GroundMotion
 from fecolumn.motions.seeded import LICK, read_model, seeded_acceleration
-from fecolumn.schema import InputError
 
 
 def test_motion_by_name_is_that_of_the_recipe_at_test_scale():

@@ -8,10 +8,10 @@ import importlib.util
 import numpy as np
 import pytest
 
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions import fema_p695, makers
 from fecolumn.motions.intensity import peak_values
 from fecolumn.motions.pulses import SHAPES
-from fecolumn.schema import InputError
 
 
 def make(*arguments):

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.motions import fema_p695
 from fecolumn.motions.intensity import peak_values
 from fecolumn.motions.processing import integrate

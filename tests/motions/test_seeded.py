@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions.processing import integrate
 from fecolumn.motions.seeded import (
     LICK,
@@ -13,7 +14,6 @@ from fecolumn.motions.seeded import (
     write_model,
 )
 from fecolumn.motions.target import agreement, time_scaled
-from fecolumn.schema import InputError
 
 # 5 % RotD50 of RSN 810 (NGA-West2 flatfile, PEER): period [s], Sa [g]
 ORDINATES = {

@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 import pytest
 
-from fecolumn._mpi import launch_environment
+from fecolumn.foundation._mpi import launch_environment
 
 # Ranks give way to others while they wait: they would take a core each from tests that run beside
 # them

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fecolumn.post.axis_text import axis_text, axis_unit
+from fecolumn.pictures.figures.axis_text import axis_text, axis_unit
 
 
 @pytest.mark.parametrize(

@@ -4,14 +4,20 @@ import numpy as np
 import pytest
 from synthetic_history import write_history
 
-from fecolumn.post.axis_text import axis_text
-from fecolumn.post.cdf_figure import CdfPanel, axis_end, cdf_figure, common, overturn_text
-from fecolumn.post.energy_figure import energy_figure
-from fecolumn.post.history_figures import HistoryCurves, history_figures
-from fecolumn.post.specimen_figure import specimen_figure
-from fecolumn.post.specimen_outline import specimen_outline
-from fecolumn.post.style import BLUE, PURPLE, VERMILION
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
+from fecolumn.pictures.figures.axis_text import axis_text
+from fecolumn.pictures.figures.cdf_figure import (
+    CdfPanel,
+    axis_end,
+    cdf_figure,
+    common,
+    overturn_text,
+)
+from fecolumn.pictures.figures.energy_figure import energy_figure
+from fecolumn.pictures.figures.history_figures import HistoryCurves, history_figures
+from fecolumn.pictures.figures.specimen_figure import specimen_figure
+from fecolumn.pictures.figures.specimen_outline import specimen_outline
+from fecolumn.pictures.figures.style import BLUE, PURPLE, VERMILION
 from fecolumn.statistics.ecdf import ecdf
 
 
@@ -144,7 +150,7 @@ def test_bands_of_many_lines_stand_beside_each_other(tmp_path):
     line, each.
     """
     picture = _picture(cdf_figure([_panel("a", 60, 3)], tmp_path / "cdf")[0])
-    from fecolumn.post.style import LINES
+    from fecolumn.pictures.figures.style import LINES
 
     for colour, _ in LINES[:5]:
         assert _share(picture, colour, opacity=0.55) > 3e-4

@@ -6,10 +6,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fecolumn.ending import OVERTURNED, SLID_OFF
-from fecolumn.post.fan_figure import Fan, fan_figure
-from fecolumn.post.plan_figure import LostDirections, plan_figure
-from fecolumn.post.style import BLUE, COLUMN_WIDTH_IN, PURPLE, VERMILION
+from fecolumn.engines.ending import OVERTURNED, SLID_OFF
+from fecolumn.pictures.figures.fan_figure import Fan, fan_figure
+from fecolumn.pictures.figures.plan_figure import LostDirections, plan_figure
+from fecolumn.pictures.figures.style import BLUE, COLUMN_WIDTH_IN, PURPLE, VERMILION
 
 
 def _trace(size: float, angle: float = 0.0, end: str = ""):

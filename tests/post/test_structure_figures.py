@@ -5,7 +5,7 @@ of storeys.
 import numpy as np
 import pytest
 
-from fecolumn.post.structure_figures import (
+from fecolumn.pictures.figures.structure_figures import (
     figure_names,
     interface_figure,
     link_figure,
@@ -63,7 +63,7 @@ def _columns(joints: dict[str, int], storeys: int = 0) -> dict[str, np.ndarray]:
 @pytest.fixture
 def drawn(monkeypatch, tmp_path):
     """Draws a figure without writing it; the figure."""
-    from fecolumn.post import structure_figures as module
+    from fecolumn.pictures.figures import structure_figures as module
 
     kept = []
 

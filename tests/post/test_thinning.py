@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fecolumn.post.thinning import thinned
+from fecolumn.pictures.figures.thinning import thinned
 
 
 def _rocking(n: int = 4000):

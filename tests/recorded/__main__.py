@@ -132,7 +132,7 @@ def ended(one: dict, impacts: bool) -> str:
 
 def origin() -> dict:
     """Which code, processor and libraries make a record."""
-    from fecolumn.sources import code
+    from fecolumn.foundation.sources import code
 
     command = ["git", "-C", str(HERE), "describe", "--always", "--abbrev=12", "--dirty"]
     commit = subprocess.run(command, capture_output=True, text=True).stdout.strip() or "unknown"

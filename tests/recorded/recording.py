@@ -72,7 +72,7 @@ class Recorded:
 
 def cases() -> dict[str, Recorded]:
     """All cases by name."""
-    from fecolumn.schema import merge
+    from fecolumn.foundation.schema import merge
 
     text = {}
     for file in CASES:
@@ -99,7 +99,7 @@ def analyse(tables: dict, folder) -> None:
     """Run a case into a folder, on all ranks of this process's MPI."""
     import warnings
 
-    from fecolumn.case import case_from_tables
+    from fecolumn.case.case import case_from_tables
     from fecolumn.simulation import run
 
     with warnings.catch_warnings():
@@ -115,8 +115,8 @@ def history(case: Recorded, rounding: float = 0.0) -> dict[str, np.ndarray]:
     rounding
         share by which densities and Young's moduli are larger.
     """
-    from fecolumn._mpi import launch_environment
-    from fecolumn.dynamics.history import read_history
+    from fecolumn.engines.dynamics.history import read_history
+    from fecolumn.foundation._mpi import launch_environment
 
     tables = _rounded(case.tables, 1.0 + rounding)
     with tempfile.TemporaryDirectory() as folder:

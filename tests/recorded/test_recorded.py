@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 import recording
 
-from fecolumn.case import case_from_tables
-from fecolumn.schema import build
-from fecolumn.short_form import ShortForm
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.short_form import ShortForm
+from fecolumn.foundation.schema import build
 
 CASES = recording.cases()
 HISTORIES, ABOUT = recording.read()

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from fecolumn.dynamics import gravity
-from fecolumn.reduced import start
-from fecolumn.reduced.observe import COLUMNS
+from fecolumn.engines.dynamics import gravity
+from fecolumn.engines.reduced import start
+from fecolumn.engines.reduced.observe import COLUMNS
 from fecolumn.verification.models import column_system
 from fecolumn.verification.one_foot import engine_on, foot_model, on_base
 from fecolumn.verification.trial import Trial

@@ -5,9 +5,9 @@ a flat on which a column slides far.
 import numpy as np
 import pytest
 
-from fecolumn.case import GRAVITY, Initial
-from fecolumn.dynamics.gravity import begin as begin_state
-from fecolumn.dynamics.gravity import standing
+from fecolumn.case.sections import GRAVITY, Initial
+from fecolumn.engines.dynamics.gravity import begin as begin_state
+from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.verification.models import column_system
 from fecolumn.verification.trials import begin_trial
 

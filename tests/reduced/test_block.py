@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fecolumn.case import case_from_tables
+from fecolumn.case.case import case_from_tables
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 

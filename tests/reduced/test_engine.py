@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pair import column, reduced, system_of, tops
 
-from fecolumn.dynamics import gravity
+from fecolumn.engines.dynamics import gravity
 from fecolumn.verification.models import shaking
 from fecolumn.verification.one_foot import tilted
 from fecolumn.verification.trial import RigidRocking

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from fecolumn import simulation
-from fecolumn.case import case_from_tables
+from fecolumn.case.case import case_from_tables
 from fecolumn.contact import known_base
 from fecolumn.contact.problem import CONTACT_FAILED
-from fecolumn.dynamics.cuts import StepFailed
-from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.hht import HHT
-from fecolumn.dynamics.history import read_history
+from fecolumn.engines.dynamics.cuts import StepFailed
+from fecolumn.engines.dynamics.gravity import standing
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.history import read_history
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.trials import begin_trial

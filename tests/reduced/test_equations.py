@@ -7,9 +7,9 @@ import pytest
 
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.unbounded_base import rigid_base
-from fecolumn.dynamics.hht import HHT
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.reduced import motion as motions
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.reduced import motion as motions
 from fecolumn.structures.model import BodyModel
 from fecolumn.verification.one_foot import engine_on, foot_surface, on_base, tilted
 

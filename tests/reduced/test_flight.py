@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from pair import column, reduced, system_of
 
-from fecolumn.case import GRAVITY
-from fecolumn.reduced import start
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.reduced import start
 
 
 @pytest.mark.parametrize("density, dt", [(7850.0, 2.5e-5), (78.5, 1e-6)])

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from pair import reduced, system_of
 
+from fecolumn.engines.reduced.build import column_model
+from fecolumn.engines.reduced.model import scheme, structure_of
 from fecolumn.fem.free_body import FreeBody
-from fecolumn.reduced.build import column_model
-from fecolumn.reduced.model import scheme, structure_of
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +57,7 @@ def test_compliance_within_a_step_is_that_of_all_finite_elements(system, model):
 
 
 def test_column_stands_with_the_full_engines_contact_forces(system):
-    from fecolumn.dynamics.gravity import standing
+    from fecolumn.engines.dynamics.gravity import standing
 
     engine, state = reduced(system), standing(system)
     assert np.abs(engine.motion.forces - state.forces).max() < 1e-6 * system.weight

@@ -8,7 +8,7 @@ import shutil
 import pytest
 from imported_modules import ROOT, closure
 
-from fecolumn import sources
+from fecolumn.foundation import sources
 from fecolumn.structures import store
 
 # What makes bodies and reads no operator: the case and its keys, which name what is made

@@ -11,9 +11,10 @@ import pytest
 
 import fecolumn.structures.reduced_analysis  # noqa: F401  (compiled functions belong in the user's cache)
 from fecolumn import simulation
-from fecolumn.case import case_from_tables, read_toml
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import read_toml
 from fecolumn.contact.known_base import KnownBase
-from fecolumn.schema import InputError, merge
+from fecolumn.foundation.schema import InputError, merge
 from fecolumn.structures.bodies import Drawing
 
 SPECIMEN = "meshes/stout.toml"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fecolumn.contact.points import CONTACT, POINT
-from fecolumn.reduced.secant import foresee, learn, no_secant
+from fecolumn.engines.reduced.secant import foresee, learn, no_secant
 
 N = 5
 SLACK = np.random.default_rng(0).standard_normal((N, 3))

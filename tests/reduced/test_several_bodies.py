@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fecolumn.engines.reduced.observe import ENERGY, WIDTH
+from fecolumn.engines.reduced.start import of_parts
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.reduced.observe import ENERGY, WIDTH
-from fecolumn.reduced.start import of_parts
 from fecolumn.structures.model import GROUND, Link
 from fecolumn.verification.boxes import (
     GRAVITY,

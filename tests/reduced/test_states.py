@@ -4,8 +4,8 @@ import h5py
 import numpy as np
 import pytest
 
-from fecolumn.case import case_from_tables
-from fecolumn.reduced import states
+from fecolumn.case.case import case_from_tables
+from fecolumn.engines.reduced import states
 from fecolumn.simulation import run
 
 ROCKING = {

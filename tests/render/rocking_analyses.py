@@ -2,7 +2,7 @@
 its history alone.
 """
 
-from fecolumn.case import case_from_tables
+from fecolumn.case.case import case_from_tables
 from fecolumn.simulation import run
 
 DRUM = {

@@ -10,11 +10,11 @@ import pytest
 from rocking_analyses import BLOCK, analysed
 
 from fecolumn.cli import main
-from fecolumn.render import camera, command, movie
-from fecolumn.render.draw import Wish, render
-from fecolumn.render.instants import chosen_instants
-from fecolumn.render.result import read_result
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
+from fecolumn.pictures.render import camera, command, movie
+from fecolumn.pictures.render.draw import Wish, render
+from fecolumn.pictures.render.instants import chosen_instants
+from fecolumn.pictures.render.result import read_result
 
 SMALL = dict(size=(360, 240), fps=10.0)
 
@@ -179,8 +179,8 @@ def test_full_disk_is_told_and_leaves_nothing(tmp_path, capsys):
 
 
 def test_displacement_colours_the_points_of_a_tube_that_has_as_many_points_as_faces(tmp_path):
-    from fecolumn.render.canvas import Canvas
-    from fecolumn.render.frames import Frames
+    from fecolumn.pictures.render.canvas import Canvas
+    from fecolumn.pictures.render.frames import Frames
 
     tube = BLOCK | {
         "column": {"outer_diameter_m": 0.2, "wall_m": 0.02, "height_m": 0.6},

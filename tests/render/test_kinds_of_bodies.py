@@ -6,9 +6,9 @@ import pytest
 import scipy.sparse as sparse
 from rocking_structures import STONE, analysed
 
-from fecolumn.render.draw import Wish, render
-from fecolumn.render.frames import Frames
-from fecolumn.render.result import read_result
+from fecolumn.pictures.render.draw import Wish, render
+from fecolumn.pictures.render.frames import Frames
+from fecolumn.pictures.render.result import read_result
 
 
 @pytest.fixture(scope="module")
@@ -18,7 +18,7 @@ def row(tmp_path_factory):
     """
     from mpi4py import MPI
 
-    from fecolumn.case import Material
+    from fecolumn.case.sections import Material
     from fecolumn.fem.body import Body
     from fecolumn.mesh.bricks import UPPER
     from fecolumn.mesh.gmsh_section import swept_grid

@@ -5,12 +5,12 @@ import pytest
 from rocking_analyses import DRUM, analysed
 from scipy.spatial.transform import Rotation
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
 from fecolumn.fem.rotation import twist_angle
 from fecolumn.mesh.quality import MassProperties
-from fecolumn.render.pose import Poses
-from fecolumn.render.pressure_centre import pressure_centre
-from fecolumn.render.result import read_result
+from fecolumn.pictures.render.pose import Poses
+from fecolumn.pictures.render.pressure_centre import pressure_centre
+from fecolumn.pictures.render.result import read_result
 
 
 def test_between_two_rows_a_column_turns_steadily():
@@ -78,7 +78,7 @@ def test_nothing_presses_in_flight():
 
 
 def test_a_wobbling_drum_presses_where_its_fields_have_the_pressure(drum):
-    from fecolumn.render.frames import Frames
+    from fecolumn.pictures.render.frames import Frames
 
     result = read_result(drum)
     frames = Frames(result, result.fields.time[1:-1], 0.04)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from rocking_analyses import BLOCK, DRUM, analysed
 
-from fecolumn.render.draw import Wish, render
-from fecolumn.render.frames import Frames
-from fecolumn.render.result import read_result
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
+from fecolumn.pictures.render.draw import Wish, render
+from fecolumn.pictures.render.frames import Frames
+from fecolumn.pictures.render.result import read_result
 
 
 @pytest.fixture(scope="module")

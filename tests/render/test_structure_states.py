@@ -8,9 +8,9 @@ import pytest
 from rocking_structures import GATE, TILTED, analysed, case_of
 from scipy.interpolate import griddata
 
-from fecolumn.reduced.states import NAME
-from fecolumn.render.frames import Frames
-from fecolumn.render.result import read_result
+from fecolumn.engines.reduced.states import NAME
+from fecolumn.pictures.render.frames import Frames
+from fecolumn.pictures.render.result import read_result
 from fecolumn.simulation import run
 
 GRAVITY = 9.80665

@@ -5,11 +5,11 @@ import math
 import pytest
 from synthetic_study import ALPHA, DT, SPECIMEN, write_synthetic
 
-from fecolumn.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED
-from fecolumn.report.families import families, shortfalls
-from fecolumn.report.page import claims_of
-from fecolumn.report.pair import read_pairs
-from fecolumn.report.sweep import read_sweep
+from fecolumn.study.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED
+from fecolumn.study.report.families import families, shortfalls
+from fecolumn.study.report.page import claims_of
+from fecolumn.study.report.pair import read_pairs
+from fecolumn.study.report.sweep import read_sweep
 
 AXES = {DT: [0.02, 1e-3, 1e-4], ALPHA: [0, -0.1, -0.333]}
 

@@ -11,11 +11,11 @@ import pytest
 from synthetic_study import ALPHA, DT, write_synthetic
 from test_page import Page
 
-from fecolumn.report import explorer as explorer_module
-from fecolumn.report.explorer import explorer_data, packed, unpacked
-from fecolumn.report.histories import Trace, read_histories
-from fecolumn.report.page import write_report
-from fecolumn.report.sweep import read_sweep
+from fecolumn.study.report import explorer as explorer_module
+from fecolumn.study.report.explorer import explorer_data, packed, unpacked
+from fecolumn.study.report.histories import Trace, read_histories
+from fecolumn.study.report.page import write_report
+from fecolumn.study.report.sweep import read_sweep
 
 MOTIONS = 9
 

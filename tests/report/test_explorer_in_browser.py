@@ -12,7 +12,7 @@ import tempfile
 import pytest
 
 from fecolumn.cli import main
-from fecolumn.report.page import write_report
+from fecolumn.study.report.page import write_report
 
 CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
 MISSING = (

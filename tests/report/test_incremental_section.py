@@ -9,10 +9,10 @@ from synthetic_study import SPECIMEN, write_synthetic
 from test_page import report
 
 from fecolumn.cli import main
-from fecolumn.report.incremental import incremental
-from fecolumn.report.intensity import Intensities
-from fecolumn.report.sweep import read_sweep
 from fecolumn.statistics.fragility import lognormal
+from fecolumn.study.report.incremental import incremental
+from fecolumn.study.report.intensity import Intensities
+from fecolumn.study.report.sweep import read_sweep
 
 SCALES, FRICTION = [0.25, 0.5, 1.0, 2.0, 4.0], "contact.friction_coefficient"
 

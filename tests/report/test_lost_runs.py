@@ -14,9 +14,6 @@ import pytest
 from synthetic_study import ALPHA, DT, SPECIMEN, write_synthetic
 
 from fecolumn.cli import main
-from fecolumn.report.incremental import incremental_curves
-from fecolumn.report.page import write_report
-from fecolumn.report.sweep import read_sweep
 from fecolumn.statistics.correlation import correlation
 from fecolumn.statistics.displacement_fragility import displacement
 from fecolumn.statistics.ecdf import censored, ecdf, largest_peak, percentile
@@ -26,6 +23,9 @@ from fecolumn.statistics.sensitivity import sensitivity
 from fecolumn.statistics.trend import trend
 from fecolumn.study.conclusion import conclusion
 from fecolumn.study.plan import read_plan
+from fecolumn.study.report.incremental import incremental_curves
+from fecolumn.study.report.page import write_report
+from fecolumn.study.report.sweep import read_sweep
 from fecolumn.study.sample import read_sample
 from fecolumn.study.store import read_study
 from fecolumn.study.table import table_text, write_tables

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from synthetic_study import write_synthetic
 
-from fecolumn.report.page import write_report
 from fecolumn.statistics.two_sample import kolmogorov_smirnov
+from fecolumn.study.report.page import write_report
 
 
 def rows_of(page):

@@ -9,9 +9,9 @@ import pytest
 from synthetic_study import ALPHA, DT, SPECIMEN, write_synthetic
 
 from fecolumn.cli import main
-from fecolumn.report.notation import fixed, interval, percent, percent_interval
-from fecolumn.report.page import write_report
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
+from fecolumn.study.report.notation import fixed, interval, percent, percent_interval
+from fecolumn.study.report.page import write_report
 
 VOID = {"meta", "img", "br", "link", "input", "hr", "source"}
 FRICTION = "contact.friction_coefficient"

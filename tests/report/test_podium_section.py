@@ -7,11 +7,11 @@ import random
 
 from synthetic_study import write_synthetic
 
-from fecolumn.report.gallery import Gallery
-from fecolumn.report.models import models
-from fecolumn.report.page import write_report
-from fecolumn.report.podium import podium
-from fecolumn.report.sweep import read_sweep
+from fecolumn.study.report.gallery import Gallery
+from fecolumn.study.report.models import models
+from fecolumn.study.report.page import write_report
+from fecolumn.study.report.podium import podium
+from fecolumn.study.report.sweep import read_sweep
 
 PODIUM = """podium.column_mass_kg = 2500
 podium.floor_mass_kg = 1e5

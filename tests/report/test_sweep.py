@@ -3,7 +3,7 @@
 import numpy as np
 from synthetic_study import DT, LIMIT_M, write_synthetic
 
-from fecolumn.report.sweep import read_sweep
+from fecolumn.study.report.sweep import read_sweep
 from fecolumn.study.sample import read_sample
 
 

@@ -10,10 +10,10 @@ import h5py
 import numpy as np
 import pytest
 
-from fecolumn.case import case_from_tables
+from fecolumn.case.case import case_from_tables
 from fecolumn.cli import main
-from fecolumn.results.parting import QuantityPair, differing_keys
 from fecolumn.simulation import run
+from fecolumn.study.results.parting import QuantityPair, differing_keys
 
 BLOCK = {
     "title": "Marble block",

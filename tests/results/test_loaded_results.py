@@ -9,7 +9,7 @@ import pytest
 
 import fecolumn
 from fecolumn import InputError
-from fecolumn.results.analysis import AnalysisResult
+from fecolumn.study.results.analysis import AnalysisResult
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "report"))
 from synthetic_study import ALPHA, write_synthetic  # noqa: E402

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from fecolumn.rocking.critical_input import critical_motion, least_impulse, tilt_velocities
-from fecolumn.rocking.impact import housner_restitution
-from fecolumn.rocking.overturning import verge_velocity
-from fecolumn.rocking.swing import FALL, IMPACTS, PEAK, rock_one, row_of_block
+from fecolumn.engines.rocking.critical_input import critical_motion, least_impulse, tilt_velocities
+from fecolumn.engines.rocking.impact import housner_restitution
+from fecolumn.engines.rocking.overturning import verge_velocity
+from fecolumn.engines.rocking.swing import FALL, IMPACTS, PEAK, rock_one, row_of_block
 
 ALPHA, P = 0.2, 2.0
 KEPT = housner_restitution(ALPHA)

@@ -7,8 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from fecolumn.motions.pulses import Pulse, sample
-from fecolumn.rocking.masonry_displacement import (
+from fecolumn.engines.rocking.masonry_displacement import (
     JOINTS,
     bilinear,
     limit_state,
@@ -19,12 +18,18 @@ from fecolumn.rocking.masonry_displacement import (
     spectral_acceleration_multiplier,
     trilinear,
 )
-from fecolumn.rocking.masonry_force import (
+from fecolumn.engines.rocking.masonry_force import (
     facade_multiplier,
     free_wall_multiplier,
     hinged_wall_multiplier,
 )
-from fecolumn.rocking.masonry_limit import associated, non_associated, running_bond, wall_of_boxes
+from fecolumn.engines.rocking.masonry_limit import (
+    associated,
+    non_associated,
+    running_bond,
+    wall_of_boxes,
+)
+from fecolumn.motions.pulses import Pulse, sample
 from fecolumn.verification.masonry import run
 
 

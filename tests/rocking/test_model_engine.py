@@ -9,11 +9,12 @@ import h5py
 import numpy as np
 import pytest
 
-from fecolumn.case import GRAVITY, case_from_tables
-from fecolumn.dynamics.energy import TERMS
-from fecolumn.rocking.impact import body_restitution
-from fecolumn.rocking.of_bodies import model_of
-from fecolumn.schema import InputError, merge
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.engines.rocking.impact import body_restitution
+from fecolumn.engines.rocking.of_bodies import model_of
+from fecolumn.foundation.schema import InputError, merge
 from fecolumn.simulation import run
 from fecolumn.study.plan import read_plan
 

@@ -6,12 +6,11 @@ import h5py
 import numpy as np
 import pytest
 
-from fecolumn.case import case_from_tables, read_case
-from fecolumn.rocking.model_table import case_of_table
-from fecolumn.rocking.of_bodies import model_of, start_of
-from fecolumn.schema import InputError
+from fecolumn.case.case import case_from_tables, read_case, structure_from_tables
+from fecolumn.engines.rocking.model_table import case_of_table
+from fecolumn.engines.rocking.of_bodies import model_of, start_of
+from fecolumn.foundation.schema import InputError
 from fecolumn.simulation import run
-from fecolumn.structures.case import structure_from_tables
 
 BLOCK = dict(kind="block", length_m=0.4, width_m=0.6, height_m=1.6, density_kg_m3=2700.0)
 DRUM = dict(kind="cylinder", outer_diameter_m=0.4, height_m=1.6, density_kg_m3=2700.0)

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fecolumn.rocking.overturning import (
+from fecolumn.engines.rocking.overturning import (
     Band,
     design_slenderness,
     half_sine_overturning,
@@ -15,7 +15,7 @@ from fecolumn.rocking.overturning import (
     rectangular_overturning,
     verge_velocity,
 )
-from fecolumn.rocking.swing import GRAVITY, rock_all, rock_one, row_of_block
+from fecolumn.engines.rocking.swing import GRAVITY, rock_all, rock_one, row_of_block
 
 TEN = math.radians(10)
 
@@ -124,6 +124,6 @@ def test_many_analyses_at_once_are_the_same_as_one_by_one_whatever_the_threads()
 
 
 def test_gravity_is_one_number():
-    from fecolumn import case
+    from fecolumn.case import sections as case
 
     assert GRAVITY == case.GRAVITY

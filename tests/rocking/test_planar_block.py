@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from fecolumn.case import GRAVITY
-from fecolumn.motions.pulses import Pulse, sample
-from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.block import BlockSection, RockingBlock
-from fecolumn.rocking.impact import (
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.rocking.block import BlockSection, RockingBlock
+from fecolumn.engines.rocking.impact import (
     body_restitution,
     housner_restitution,
     one_sided_restitution,
     rectangular_restitution,
 )
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
+from fecolumn.motions.pulses import Pulse, sample
+from fecolumn.motions.record import GroundMotion
 
 TALL = dict(width_m=0.4, height_m=1.2, density_kg_m3=2700.0)
 

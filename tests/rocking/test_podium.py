@@ -9,14 +9,14 @@ import pytest
 from scipy.signal import StateSpace, lsim
 
 from benchmarks.podium.ensemble import batches, gathered, responses
+from fecolumn.engines.rocking.podium import Podium, PodiumSection, study_podium
+from fecolumn.engines.rocking.podium_impact import CAV, CRV, LAWS, kinetic_energy_kept
+from fecolumn.engines.rocking.podium_motion import DAMPED, KINETIC, SHEAR, STRAIN, WORK
+from fecolumn.engines.rocking.storeys import PROFILES, storeys
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
-from fecolumn.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED
-from fecolumn.report.podium_claims import compared, podium_claims
-from fecolumn.rocking.podium import Podium, PodiumSection, study_podium
-from fecolumn.rocking.podium_impact import CAV, CRV, LAWS, kinetic_energy_kept
-from fecolumn.rocking.podium_motion import DAMPED, KINETIC, SHEAR, STRAIN, WORK
-from fecolumn.rocking.storeys import PROFILES, storeys
-from fecolumn.schema import InputError
+from fecolumn.study.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED
+from fecolumn.study.report.podium_claims import compared, podium_claims
 from fecolumn.verification.podium import run
 
 SECTION = dict(

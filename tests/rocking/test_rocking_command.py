@@ -146,8 +146,8 @@ def test_spectra_are_of_free_symmetric_blocks_alone(tmp_path, capsys):
 
 
 def test_figures_of_overturning_show_bands_and_the_design_chart(tmp_path):
-    from fecolumn.post.overturning_figure import overturning_figure, slenderness_figure
-    from fecolumn.rocking.spectra_table import spectra_table
+    from fecolumn.engines.rocking.spectra_table import spectra_table
+    from fecolumn.pictures.figures.overturning_figure import overturning_figure, slenderness_figure
 
     found = spectra_table(math.radians(10), 0.95477, ("one_sine",), (2.0, 4.0))
     assert {frequency for _, frequency, _ in found} == {2.0, 4.0} and {

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.rocking.block import BlockSection, RockingBlock
+from fecolumn.engines.rocking.frame import FrameSection, RockingFrame
+from fecolumn.engines.rocking.impact import frame_restitution, housner_restitution
+from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.motions.pulses import Pulse, sample
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.block import BlockSection, RockingBlock
-from fecolumn.rocking.frame import FrameSection, RockingFrame
-from fecolumn.rocking.impact import frame_restitution, housner_restitution
-from fecolumn.rocking.restraint import Restraint
 
 # The restrained frame of four columns of the NTUA tests (paper on the wobbling model): 2R, alpha,
 # weights [N], stiffness [N/m]

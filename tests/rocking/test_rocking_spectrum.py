@@ -9,12 +9,17 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from fecolumn.case import GRAVITY
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.rocking.impact import housner_restitution
+from fecolumn.engines.rocking.spectrum import (
+    larger_rocking_spectrum,
+    rock,
+    rocking_spectrum,
+    tilt_quantile,
+)
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.pulses import Pulse, sample
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.impact import housner_restitution
-from fecolumn.rocking.spectrum import larger_rocking_spectrum, rock, rocking_spectrum, tilt_quantile
 
 SLENDER = 0.05
 P = 2.0

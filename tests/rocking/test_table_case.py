@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from fecolumn import _compiled
-from fecolumn.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, read_case
 from fecolumn.cli import main
-from fecolumn.rocking.case import read_model_case
-from fecolumn.rocking.model import MODELS, TABLES, model_class
-from fecolumn.schema import InputError, merge
+from fecolumn.engines.rocking.case import read_model_case
+from fecolumn.engines.rocking.model import MODELS, TABLES, model_class
+from fecolumn.foundation import _compiled
+from fecolumn.foundation.schema import InputError, merge
 from fecolumn.simulation import read_folder_case, run
 from fecolumn.study.plan import read_plan
 from fecolumn.verification import rocking_tables

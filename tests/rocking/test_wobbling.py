@@ -10,15 +10,16 @@ import pytest
 from scipy.integrate import trapezoid
 
 from benchmarks import wobbling_equations
-from fecolumn.case import GRAVITY, case_from_tables
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.rocking.block import body_plane
+from fecolumn.engines.rocking.of_bodies import model_of
+from fecolumn.engines.rocking.plane import respond
+from fecolumn.engines.rocking.restraint import Restraint
+from fecolumn.engines.rocking.wobbling import Wobbling, WobblingSection
+from fecolumn.engines.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
-from fecolumn.rocking.block import body_plane
-from fecolumn.rocking.of_bodies import model_of
-from fecolumn.rocking.plane import respond
-from fecolumn.rocking.restraint import Restraint
-from fecolumn.rocking.wobbling import Wobbling, WobblingSection
-from fecolumn.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
-from fecolumn.schema import InputError
 from fecolumn.verification.result import Row
 from fecolumn.verification.wobbling_models import SPECIMEN, free, run
 
@@ -56,7 +57,7 @@ def test_the_committed_equations_are_those_that_sympy_derives():
     for source, found in ((text, derived), (committed, kept)):
         exec(
             source.replace(
-                "from fecolumn._compiled import njit",
+                "from fecolumn.foundation._compiled import njit",
                 "njit = lambda **_: lambda function: function",
             ),
             found,

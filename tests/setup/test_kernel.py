@@ -3,7 +3,7 @@ import subprocess
 import sys
 
 TWICE = """
-from fecolumn._compiled import njit
+from fecolumn.foundation._compiled import njit
 
 @njit(alone=True)
 def twice(value):

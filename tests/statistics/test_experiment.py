@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.experiment import read_maxima
 
 

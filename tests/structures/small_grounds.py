@@ -3,9 +3,9 @@
 import numpy as np
 from small_structures import RIGID, STONE, structure
 
-from fecolumn.case import GRAVITY
-from fecolumn.dynamics.history import read_history
-from fecolumn.schema import merge
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.history import read_history
+from fecolumn.foundation.schema import merge
 from fecolumn.simulation import run
 
 SIDE, HEIGHT, SUBGRADE = 0.6, 0.9, 2e7

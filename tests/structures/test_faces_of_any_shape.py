@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from fecolumn.case import GRAVITY, case_from_tables
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import GRAVITY
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.joint_bodies import lifts, met

@@ -11,9 +11,9 @@ import pytest
 from mpi4py import MPI
 from small_structures import STONE, structure
 
-from fecolumn.dynamics.history import read_history
-from fecolumn.dynamics.stay import Stay
-from fecolumn.schema import InputError, merge
+from fecolumn.engines.dynamics.history import read_history
+from fecolumn.engines.dynamics.stay import Stay
+from fecolumn.foundation.schema import InputError, merge
 from fecolumn.simulation import read_folder_case, run
 from fecolumn.structures.elements import structure_of_elements
 

@@ -9,8 +9,8 @@ import pytest
 from small_grounds import BLOCK, HEIGHT, MASS, SETTLED, SIDE, SUBGRADE, WEIGHT, analysed
 from small_structures import structure
 
-from fecolumn.case import GRAVITY
-from fecolumn.dynamics.history import read_history
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.history import read_history
 from fecolumn.simulation import read_folder_case, run
 from fecolumn.structures.structure import structure_model
 

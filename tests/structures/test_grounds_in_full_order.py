@@ -8,8 +8,8 @@ from small_grounds import BLOCK as RIGID_BLOCK
 from small_grounds import HEIGHT, MASS, SETTLED, SIDE, SUBGRADE, VERTICAL, WEIGHT, frequency
 from small_grounds import analysed as analysed_by
 
-from fecolumn.case import GRAVITY
-from fecolumn.schema import merge
+from fecolumn.case.sections import GRAVITY
+from fecolumn.foundation.schema import merge
 
 BLOCK = RIGID_BLOCK | dict(rigid=False, element_size_m=0.3)
 SOFT = dict(youngs_modulus_pa=5e7, poissons_ratio=0.3, thickness_m=0.6, element_size_m=0.15)

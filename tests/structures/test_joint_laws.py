@@ -19,8 +19,8 @@ from small_grounds import (
 )
 from small_structures import RIGID, STONE, structure
 
-from fecolumn.case import GRAVITY
-from fecolumn.schema import InputError
+from fecolumn.case.sections import GRAVITY
+from fecolumn.foundation.schema import InputError
 
 
 def test_a_block_settles_by_its_weight_over_the_subgrade_and_bounces_at_its_frequency(tmp_path):

@@ -5,9 +5,10 @@ friction take energy, and take none that contact makes in the same step.
 import numpy as np
 import pytest
 
-from fecolumn.case import GRAVITY, case_from_tables
-from fecolumn.dynamics.energy import TERMS
-from fecolumn.reduced.observe import ENERGY
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.engines.reduced.observe import ENERGY
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from small_structures import block, structure
 
-from fecolumn.dynamics.history import read_history
-from fecolumn.mesh_report import mesh_report
-from fecolumn.post.history_figures import has_figures, history_figures
-from fecolumn.results.analysis import AnalysisResult
-from fecolumn.schema import merge
+from fecolumn.engines.dynamics.history import read_history
+from fecolumn.foundation.schema import merge
+from fecolumn.pictures.figures.history_figures import has_figures, history_figures
+from fecolumn.pictures.mesh_report import mesh_report
 from fecolumn.simulation import run
+from fecolumn.study.results.analysis import AnalysisResult
 
 UNITS = dict(tension="N", elongation="m", yielded="m", work="J", broken="-")
 TOP = dict(body="block", point_m=[0, 0, 1.0])

@@ -6,7 +6,7 @@ import scipy.io
 import scipy.sparse as sparse
 from small_structures import block, structure
 
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures import matrices as module
 from fecolumn.structures.structure import structure_model
 
@@ -16,7 +16,7 @@ def system(tmp_path_factory):
     """Files of the matrices of a small block, and the block reduced from its mesh."""
     from mpi4py import MPI
 
-    from fecolumn.case import Material
+    from fecolumn.case.sections import Material
     from fecolumn.fem.body import Body
     from fecolumn.structures.bodies import drawing
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from small_structures import block, frame, stack, structure
 
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures.barrier import least_barrier
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.structure import standing_of, structure_model

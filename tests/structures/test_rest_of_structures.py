@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from small_structures import STONE, block, stack, structure
 
-from fecolumn.case import GRAVITY
-from fecolumn.dynamics.history import read_history
-from fecolumn.schema import merge
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.history import read_history
+from fecolumn.foundation.schema import merge
 from fecolumn.simulation import run
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.structure import standing_of, structure_model

@@ -7,8 +7,8 @@ import pytest
 from small_structures import BLOCK, block, stack, structure
 from test_rigid_engine import BREADTH, HEIGHT, TILT, bent
 
-from fecolumn.reduced.ledger import RIGID_LOSS
-from fecolumn.reduced.rigid_loss import loss_share
+from fecolumn.engines.reduced.ledger import RIGID_LOSS
+from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 

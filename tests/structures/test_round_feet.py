@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from small_structures import STONE, block, structure
 
-from fecolumn._compiled import interpreted
-from fecolumn.case import GRAVITY, Material
+from fecolumn.case.sections import GRAVITY, Material
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.interface import interface_of
 from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.jacobian import scaled_jacobian
 from fecolumn.mesh.quality import mass_properties
-from fecolumn.schema import InputError
 from fecolumn.structures.barrier import stances
 from fecolumn.structures.bodies import drawing
 from fecolumn.structures.engine import engine_of

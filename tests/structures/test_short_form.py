@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fecolumn.case import case_from_tables
-from fecolumn.dynamics.history import read_history
+from fecolumn.case.case import case_from_tables
+from fecolumn.engines.dynamics.history import read_history
 from fecolumn.simulation import run
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "mesh"))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from small_structures import structure
 
-from fecolumn.structures.keys import Storeys
+from fecolumn.case.bodies import Storeys
 from fecolumn.structures.storeys import building_of
 from fecolumn.structures.structure import structure_model
 

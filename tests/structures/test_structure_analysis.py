@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from small_structures import STONE, stack, structure
 
-from fecolumn.analysis import AnalysisFailed
-from fecolumn.dynamics.history import read_history
+from fecolumn.engines.analysis import AnalysisFailed
+from fecolumn.engines.dynamics.history import read_history
 from fecolumn.simulation import read_folder_case, run
 from fecolumn.verification.podium_structure import let_go
 
@@ -65,7 +65,7 @@ def test_units_of_the_columns_are_stated(leaning):
 
 
 def test_results_of_a_structure_have_its_units_and_figures(leaning):
-    from fecolumn.results.analysis import AnalysisResult
+    from fecolumn.study.results.analysis import AnalysisResult
 
     result = AnalysisResult(leaning[0])
     assert [

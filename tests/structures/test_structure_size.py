@@ -7,8 +7,8 @@ import time
 import pytest
 from small_structures import BLOCK, STONE, block, frame, stack, structure
 
-from fecolumn.case import read_case
-from fecolumn.schema import InputError
+from fecolumn.case.case import read_case
+from fecolumn.foundation.schema import InputError
 from fecolumn.structures import layout
 from fecolumn.structures.bodies import drawing
 from fecolumn.structures.shapes import shape_of
@@ -50,7 +50,7 @@ BODIES = {
 
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
 def test_estimate_counts_what_is_built(body):
-    from fecolumn.structures.check_keys import material_of
+    from fecolumn.case.check_bodies import material_of
     from fecolumn.structures.reduction import body_of
 
     case = structure(

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.plan import read_plan
 
 STUDY = """

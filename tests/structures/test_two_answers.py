@@ -7,7 +7,7 @@ import pytest
 from small_structures import STONE, structure
 
 from fecolumn.contact.friction import solve_contact
-from fecolumn.reduced import motion as motions
+from fecolumn.engines.reduced import motion as motions
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 

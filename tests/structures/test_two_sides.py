@@ -5,8 +5,8 @@ every engine, whichever body is named first.
 import numpy as np
 import pytest
 
-from fecolumn.case import case_from_tables
-from fecolumn.reduced.observe import PER_BODY, WIDTH
+from fecolumn.case.case import case_from_tables
+from fecolumn.engines.reduced.observe import PER_BODY, WIDTH
 from fecolumn.simulation import run
 from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model

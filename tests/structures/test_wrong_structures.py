@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from small_structures import RIGID, STONE, block, frame, stack, structure
 
-from fecolumn.case import case_from_tables, read_case
-from fecolumn.schema import InputError, merge
+from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.foundation.schema import InputError, merge
 from fecolumn.structures.structure import structure_model
 
 LINK = dict(

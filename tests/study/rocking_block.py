@@ -13,7 +13,7 @@ import random
 import signal
 import time
 
-from fecolumn.atomic import write_json
+from fecolumn.foundation.atomic import write_json
 
 ENTRY = "rocking_block:run"
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from study_files import SPECIMEN
 
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.plan import read_plan
 
 ZIP = '[[zip]]\n"column.height_m" = [1.0, 1.5]\n"column.fine_height_m" = [0.01, 0.02]\n'

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from fecolumn.cli import main
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study
 from fecolumn.study.sample import _motion_name, read_sample

@@ -15,7 +15,7 @@ from rocking_block import ENTRY
 from study_files import write_study
 
 from fecolumn.cli import main
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.outcome import finished_outcome
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study

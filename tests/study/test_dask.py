@@ -18,7 +18,7 @@ from rocking_block import ENTRY
 from study_files import write_study
 
 from fecolumn.cli import main
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.study import dask
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import StudyError, complete_study

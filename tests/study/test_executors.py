@@ -14,9 +14,9 @@ import pytest
 from rocking_block import ENTRY
 from study_files import write_study
 
-from fecolumn._mpi import launch_environment
 from fecolumn.cli import main
-from fecolumn.schema import InputError
+from fecolumn.foundation._mpi import launch_environment
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study
 from fecolumn.study.store import Store, read_study

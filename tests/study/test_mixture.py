@@ -8,12 +8,12 @@ import shutil
 
 import pytest
 
-from fecolumn import sources
-from fecolumn.report.audit import audit
-from fecolumn.report.document import Paragraph
-from fecolumn.report.gallery import Gallery
-from fecolumn.report.sweep import read_sweep
+from fecolumn.foundation import sources
 from fecolumn.study.plan import read_plan
+from fecolumn.study.report.audit import audit
+from fecolumn.study.report.document import Paragraph
+from fecolumn.study.report.gallery import Gallery
+from fecolumn.study.report.sweep import read_sweep
 from fecolumn.study.run import complete_study
 
 STUDY = """

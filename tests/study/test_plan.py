@@ -1,7 +1,7 @@
 import pytest
 from study_files import SPECIMEN, write_study
 
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import check_motions
 

@@ -7,7 +7,7 @@ import pytest
 from rocking_block import ENTRY
 from study_files import write_study
 
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study
 from fecolumn.study.store import Store, read_study

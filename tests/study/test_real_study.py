@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from fecolumn.cli import main
-from fecolumn.dynamics.history import read_history
+from fecolumn.engines.dynamics.history import read_history
 
 STUDY = """
 title = "Two motions, two engines"

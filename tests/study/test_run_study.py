@@ -12,9 +12,9 @@ import pytest
 from rocking_block import ENTRY
 from study_files import write_study
 
-from fecolumn import _compiled
-from fecolumn.lock import alone
-from fecolumn.schema import InputError
+from fecolumn.foundation import _compiled
+from fecolumn.foundation.lock import alone
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.outcome import TaskOutcome
 from fecolumn.study.plan import read_plan
 from fecolumn.study.preparation import COMPILING, MODELLING, preparation
@@ -27,7 +27,7 @@ HERE = Path(__file__).parent
 DRIVER = """
 import argparse, sys
 from fecolumn import _compiled
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.command import add_arguments, main
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()

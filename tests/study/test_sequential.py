@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from fecolumn.cli import main
-from fecolumn.schema import InputError
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.plan import read_plan
 from fecolumn.study.sequential import (
     ALIKE,

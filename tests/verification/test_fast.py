@@ -7,8 +7,8 @@ The suite (`fecolumn verify`) has the same laws over amplitudes, steps and meshe
 import numpy as np
 import pytest
 
-from fecolumn.case import GRAVITY
-from fecolumn.dynamics.gravity import standing
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.verification.models import column_system, shaking
 from fecolumn.verification.moving_base import InertialTrial, by_hht
 from fecolumn.verification.one_column import roll_on_corners

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fecolumn.contact.tolerances import SOLVED
-from fecolumn.dynamics.gravity import standing
-from fecolumn.dynamics.hht import HHT
+from fecolumn.engines.dynamics.gravity import standing
+from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.fem.modes import free_modes
 from fecolumn.verification.bar_impact import FORCE, SPEED, strike
 from fecolumn.verification.models import block_system, box

@@ -1,0 +1,1 @@
+"""The case: what a user states, in its short and its full form."""

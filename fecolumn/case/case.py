@@ -1,0 +1,659 @@
+"""The case: everything one analysis needs, tables by name, validated, hashable by content.
+
+[bodies.column]         [joints.feet]                      [initial.column]
+kind = "cylinder"       between = ["column", "ground"]     tilt_rad = 0.05
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import typing
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from fecolumn.case.bodies import (
+    GROUND,
+    KINDS,
+    Ground,
+    Interface,
+    LinkKeys,
+    Mesh,
+    Placed,
+    Storeys,
+)
+from fecolumn.case.check_grounds import check_grounds
+from fecolumn.case.sections import (
+    DEFAULT,
+    FULL_ORDER_KEYS,
+    MODEL_ENGINES,
+    MOST_STEPS,
+    Contact,
+    Initial,
+    Integration,
+    Material,
+    Motion,
+    Output,
+    Overturn,
+    located,
+    section_table,
+)
+from fecolumn.case.short_form import ALIKE, ShortForm, full_tables, in_short_form, short_form
+from fecolumn.foundation.content import content
+from fecolumn.foundation.files import is_file
+from fecolumn.foundation.paths import OF_BODIES as FILES
+from fecolumn.foundation.schema import (
+    InputError,
+    Section,
+    build,
+    meant,
+    merge,
+    nested,
+    read_toml,
+    stated,
+)
+
+#: Tables of tables by name, and the class of each.
+NAMED = {
+    "bodies": Placed,
+    "materials": Material,
+    "grounds": Ground,
+    "joints": Interface,
+    "links": LinkKeys,
+    "initial": Initial,
+}
+#: Sections that a structure's case has in common with a column's.
+COMMON = {
+    "contact": Contact,
+    "integration": Integration,
+    "motion": Motion,
+    "overturn": Overturn,
+    "output": Output,
+    "mesh": Mesh,
+}
+# of which no number depends
+_IDLE = ("output", "mesh")
+# Characters of a name that stand for something else in dotted keys, and in names of copies and
+# marks
+_TAKEN = set(".\"'[]/ ")
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """One analysis.
+
+    Tables of tables are dictionaries by the names that the user gave. own: the table of a rocking
+    model, such as podium, that says what is analysed instead of bodies. short: the form of a column
+    on its base in which the case was stated.
+    """
+
+    bodies: dict[str, Placed]
+    materials: dict[str, Material]
+    joints: dict[str, Interface]
+    links: dict[str, LinkKeys]
+    initial: dict[str, Initial]
+    contact: Contact
+    integration: Integration
+    overturn: Overturn
+    output: Output
+    title: str = ""
+    observed: str = ""
+    motion: Motion | None = None
+    mesh: Mesh = Mesh()
+    grounds: dict[str, Ground] = field(default_factory=lambda: {GROUND: Ground()})
+    own: dict[str, Section] = field(default_factory=dict)
+    short: ShortForm | None = field(default=None, compare=False, repr=False)
+
+    def __post_init__(self):
+        """Refuse sections of another kind; a section that is not that of the short form makes a
+        case of the full one.
+
+        Raises
+        ------
+        InputError
+            names the section.
+        """
+        for name, kind in COMMON.items():
+            value = getattr(self, name)
+            if not isinstance(value, kind) and not (name == "motion" and value is None):
+                raise InputError("case", name, value, f"must be a {kind.__name__}")
+        if self.short and any(getattr(self, name) != getattr(self.short, name) for name in ALIKE):
+            object.__setattr__(self, "short", None)
+
+    @property
+    def id(self) -> str:
+        """Twelve hexadecimal digits that name everything but title and output cadence; motions and
+        meshes count by content.
+        """
+        tables = {
+            name: {key: identity(section) for key, section in getattr(self, name).items()}
+            for name in NAMED
+        }
+        tables |= {
+            name: section_table(name, getattr(self, name)) for name in COMMON if name not in _IDLE
+        }
+        if self.grounds == {GROUND: Ground()}:
+            # as of cases that are older than grounds
+            del tables["grounds"]
+        if self.own:
+            tables["own"] = {key: section_table("", one) for key, one in self.own.items()}
+        text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
+        return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+    @property
+    def n_modes(self) -> int:
+        """Elastic modes of a body that does not state its own."""
+        return 0 if self.integration.engine == "rigid" else self.integration.n_modes
+
+    def modes_of(self, body: str) -> int:
+        """Elastic modes of a body that move with inertia."""
+        own = self.bodies[body].modes
+        return 0 if self.integration.engine == "rigid" else self.n_modes if own is None else own
+
+    def names_of(self, body: str) -> tuple[str, ...]:
+        """Names of the copies of a body: its own where it is one."""
+        copies = self.bodies[body].copies_m
+        return (
+            tuple(f"{body} {number}" for number in range(1, len(copies) + 1)) if copies else (body,)
+        )
+
+    def meant_by(self, name: str) -> tuple[str, tuple[int, ...]]:
+        """Body and copies, counted from 0, that `name` stands for: "column" for all, "column 2" for
+        one.
+
+        Raises
+        ------
+        KeyError
+            none of this name.
+        """
+        if name in self.bodies:
+            return name, tuple(range(len(self.bodies[name].places)))
+        body, _, number = name.rpartition(" ")
+        if body in self.bodies and name in self.names_of(body):
+            return body, (int(number) - 1,)
+        raise KeyError(name)
+
+    def replace(self, changes: dict | None = None, **sections) -> Case:
+        """This case with other values, checked as a file's would be; sizes that followed a column
+        follow the new one.
+
+        Parameters
+        ----------
+        changes
+            values by dotted key, such as {"contact.friction_coefficient": 0.5}, of the short form
+            where the case was stated in it; None removes a section that may be absent.
+        sections
+            the same by section, such as contact={"friction_coefficient": 0.5}; title="...".
+
+        Raises
+        ------
+        InputError
+            unknown key, value out of range, parts that do not fit.
+        """
+        changes = {**(changes or {}), **sections}
+        full = self.short is None or any(_is_full(key, value) for key, value in changes.items())
+        tables = self.tables() if full else self.short.tables(opened=True)
+        for key, value in changes.items():
+            if value is None:
+                tables.pop(key, None)
+            else:
+                tables = merge(tables, nested(key, value))
+        return case_from_tables(stated(tables), "case")
+
+    def tables(self, defaults: bool = True) -> dict:
+        """The case as the tables of its file, in the full form, with keys at their `defaults` or
+        without.
+        """
+        if self.own:
+            return self._tables_of_model(defaults)
+        found = {}
+        for one in dataclasses.fields(self):
+            value = getattr(self, one.name)
+            if one.name in NAMED:
+                value = {key: _stated(section, defaults) for key, section in value.items()}
+            elif dataclasses.is_dataclass(value):
+                value = _stated(value, defaults)
+            if one.name not in ("own", "short") and value not in (None, {}, ""):
+                found[one.name] = value
+        return found
+
+    def _tables_of_model(self, defaults: bool) -> dict:
+        """As `tables`, of a case with a rocking model's own table."""
+        ((name, section),) = self.own.items()
+        start = self.initial[name]
+        found = {
+            name: section,
+            "integration": self.integration,
+            "overturn": self.overturn,
+            "output": self.output,
+        } | ({"motion": self.motion} if self.motion else {})
+        found = {key: _stated(one, defaults) for key, one in found.items()}
+        found["initial"] = {"tilt_rad": start.tilt_rad, "direction_deg": start.direction_deg}
+        return found | ({"title": self.title} if self.title else {})
+
+    def as_stated(self) -> dict:
+        """The case as the tables of its file, in the form that it was stated in."""
+        return self.short.tables() if self.short else self.tables()
+
+
+def _stated(section, defaults: bool) -> dict:
+    """The table of a section: without keys that are left open, or that are not stated as they
+    stand at their defaults.
+    """
+    found = {}
+    for one in dataclasses.fields(section):
+        value = getattr(section, one.name)
+        if value is None or not defaults and one.name != "kind" and value == one.default:
+            continue
+        found[one.name] = _stated(value, defaults) if dataclasses.is_dataclass(value) else value
+    return found
+
+
+def _is_full(key: str, value) -> bool:
+    """Whether a dotted key, or a table of this name, is of the full form alone."""
+    first, _, rest = key.partition(".")
+    if first == "initial":
+        return (
+            "." in rest
+            or isinstance(value, dict)
+            and any(isinstance(v, dict) for v in value.values())
+        )
+    return first in NAMED or first in ("interfaces", "observed")
+
+
+def case_from_tables(tables: dict, file) -> Case:
+    """Case from TOML tables; relative paths are taken from the folder of `file`.
+
+    Tables with [column] are a short form, see `fecolumn.case.short_form`.
+    """
+    from fecolumn.engines.rocking.model import TABLES, model_engine_of
+
+    if model_engine_of(tables, file):
+        from fecolumn.engines.rocking.model_table import case_of_table
+
+        return case_of_table(tables, file)
+    case = structure_from_tables(
+        {key: table for key, table in tables.items() if key not in TABLES}, file
+    )
+    if case.integration.engine in MODEL_ENGINES and not case.short:
+        from fecolumn.engines.rocking.of_bodies import model_of, start_of
+
+        model_of(case, file)
+        start_of(case, file)
+    return case
+
+
+def read_case(path) -> Case:
+    """Case of a TOML file.
+
+    Raises
+    ------
+    InputError
+        missing file, bad TOML, unknown key, value out of range, parts that do not fit.
+    """
+    return case_from_tables(read_toml(path), path)
+
+
+def check_duration(case: Case, file) -> None:
+    """Refuse to analyse a case that does not say for how long; its mesh may still be looked at."""
+    if case.motion is None and case.integration.duration_s == 0:
+        raise InputError(
+            file,
+            "integration.duration_s",
+            0,
+            "must be greater than 0 s where the case has no motion",
+        )
+
+
+def identity(section) -> dict:
+    """What of a section tells one analysis from another, files by content."""
+    table = section_table("", section)
+    for key in FILES.get(table.get("kind", ""), ()):
+        table[key] = content(table[key])
+    table.pop("between", None)  # a joint is told by slave and on, whichever way it was written
+    return table
+
+
+def structure_from_tables(tables: dict, file) -> Case:
+    """Case of a structure from TOML tables; relative paths are taken from the folder of `file`.
+
+    Raises
+    ------
+    InputError
+        every unknown or missing key, wrong type and value out of range, told at once; or parts that
+        do not fit.
+    """
+    if "column" in tables:
+        return _of_short_form(tables, file)
+    if "interfaces" in tables:
+        return _of_interfaces(tables, file)
+    tables, errors, found = stated(tables), [], {}
+    if not tables.get("grounds"):
+        tables = tables | {"grounds": {GROUND: {}}}
+    grounds = set(tables["grounds"]) if isinstance(tables["grounds"], dict) else {GROUND}
+    for key in tables:
+        if key not in NAMED and key not in COMMON and key not in ("title", "observed"):
+            errors.append(
+                InputError(
+                    file,
+                    key,
+                    None,
+                    f"says nothing of a structure of [bodies]{meant(key, [*NAMED, *COMMON])}; "
+                    f"its tables: {', '.join([*NAMED, *COMMON])}",
+                )
+            )
+    for name, kind in NAMED.items():
+        found[name] = _named(name, kind, tables.get(name, {}), grounds, file, errors)
+    for name, kind in COMMON.items():
+        table = tables.get(name, False)
+        try:
+            if name != "motion" or table is not False:
+                found[name] = located(
+                    name, build(kind, {} if table is False else table, file, f"{name}."), file
+                )
+        except InputError as error:
+            errors.append(error)
+    for key in ("title", "observed"):
+        found[key] = tables.get(key, "")
+        if not isinstance(found[key], str):
+            errors.append(InputError(file, key, found[key], "must be text in quotes"))
+    if errors:
+        raise InputError.of_several(errors)
+    case = Case(**found)
+    check(case, file)
+    return case
+
+
+def _of_short_form(tables: dict, file) -> Case:
+    """Case of TOML tables with [column]; messages name the keys of the short form."""
+    form = short_form(tables, file)
+    try:
+        case = structure_from_tables(full_tables(form), file)
+    except InputError as error:
+        raise InputError.of_several(
+            [
+                InputError(one.file, in_short_form(one.key), one.value, one.allowed)
+                for one in error.all
+            ]
+        ) from None
+    return dataclasses.replace(case, short=form)
+
+
+def _of_interfaces(tables: dict, file) -> Case:
+    """Case of TOML tables with [interfaces], the name of [joints] in earlier versions, by which
+    messages call them.
+    """
+    older, joints = tables["interfaces"], tables.get("joints", {})
+    if not isinstance(older, dict) or not isinstance(joints, dict):
+        raise InputError(file, "joints", joints or older, "must hold tables by name")
+    if twice := set(joints) & set(older):
+        key = f"joints.{min(twice)}"
+        raise InputError(file, key, None, "stands in [interfaces], too: give it once")
+    others = {name: table for name, table in tables.items() if name != "interfaces"}
+
+    def named(text: str) -> str:
+        for name in older:
+            text = text.replace(f"joints.{name}", f"interfaces.{name}")
+        return text
+
+    try:
+        return structure_from_tables(others | {"joints": older | joints}, file)
+    except InputError as error:
+        raise InputError.of_several(
+            [
+                InputError(one.file, named(one.key), one.value, named(one.allowed))
+                for one in error.all
+            ]
+        ) from None
+
+
+def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
+    """Sections by name of one table of tables; grounds: names that no body can have."""
+    if not isinstance(tables, dict):
+        errors.append(
+            InputError(file, name, tables, f"must hold tables by name, such as [{name}.NAME]")
+        )
+        return {}
+    found = {}
+    for key, table in tables.items():
+        if table is False:
+            continue
+        try:
+            if not isinstance(table, dict):
+                raise InputError(
+                    file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys"
+                )
+            if name != "initial" and (
+                set(key) & _TAKEN or not key or name == "bodies" and key in grounds
+            ):
+                raise InputError(
+                    file,
+                    f"{name}.{key}",
+                    None,
+                    "must be named by another word: not that of a ground, without blanks, "
+                    "dots, slashes and quotes",
+                )
+            found[key] = _built(
+                _kind_of(name, key, table, kind, file), table, file, f"{name}.{key}."
+            )
+            if name == "joints":
+                found[key] = _between(found[key], grounds, file, f"{name}.{key}.")
+        except InputError as error:
+            errors.append(error)
+    return found
+
+
+def _between(interface: Interface, grounds: set, file, prefix: str) -> Interface:
+    """The interface with its two bodies as slave and on."""
+    if interface.between:
+        if interface.slave or interface.on:
+            key = "slave" if interface.slave else "on"
+            raise InputError(
+                file,
+                prefix + key,
+                getattr(interface, key),
+                "must be left out beside between, which names both bodies",
+            )
+        if len(interface.between) != 2:
+            raise InputError(
+                file,
+                prefix + "between",
+                list(interface.between),
+                'must be two names, such as ["drum", "capital"]',
+            )
+        bodies = sorted(interface.between, key=lambda one: one in grounds)
+        if bodies[0] in grounds:
+            raise InputError(
+                file,
+                prefix + "between",
+                list(interface.between),
+                "must name a body: grounds do not touch one another",
+            )
+        return dataclasses.replace(interface, between=(), slave=bodies[0], on=bodies[1])
+    for key in ("slave", "on"):
+        if not getattr(interface, key):
+            raise InputError(
+                file,
+                prefix + key,
+                None,
+                f'missing; or give {prefix}between = ["one body", "other body"] instead '
+                "of slave and on",
+            )
+    return interface
+
+
+def _kind_of(name: str, key: str, table: dict, kind, file):
+    """Class of a section: of a body that of its kind."""
+    if name != "bodies":
+        return kind
+    word = table.get("kind")
+    if word not in KINDS:
+        raise InputError(
+            file,
+            f"{name}.{key}.kind",
+            word,
+            f"{'missing; ' if word is None else ''}must be one of {', '.join(KINDS)}",
+        )
+    return KINDS[word]
+
+
+def _built(kind, table, file, prefix):
+    """A section with its relative paths taken from the folder of `file`."""
+    section, folder = build(kind, table, file, prefix), Path(file).resolve().parent
+    if kind is Ground and section.motion:
+        return dataclasses.replace(section, motion=located("motion", section.motion, file))
+    files = {key: getattr(section, key) for key in FILES.get(table.get("kind", ""), ())}
+    for key, path in files.items():
+        if not is_file(path if Path(path).is_absolute() else str(folder / path)):
+            raise InputError(file, prefix + key, path, "no such file")
+    return (
+        dataclasses.replace(section, **{key: str(folder / path) for key, path in files.items()})
+        if files
+        else section
+    )
+
+
+def check(case: Case, file) -> None:
+    """What no single key can know: names that tables use of one another, and keys of which only one
+    may stand.
+    """
+    from fecolumn.case.check_bodies import check_body, check_link
+
+    def refuse(key, value, allowed):
+        raise InputError(file, key, value, allowed)
+
+    if case.own:  # checked by the model
+        return
+    if not case.bodies:
+        refuse("bodies", None, "missing; a structure needs a table [bodies.NAME] at least")
+    for name, body in case.bodies.items():
+        check_body(f"bodies.{name}", body, case.materials, refuse)
+    if not case.joints:
+        refuse(
+            "joints",
+            None,
+            "missing; a structure needs a table [joints.NAME] at least, for what "
+            "stands on the ground",
+        )
+    for name, interface in case.joints.items():
+        _check_name(case, f"joints.{name}", interface.slave, refuse, ground=False)
+        _check_name(case, f"joints.{name}", interface.on, refuse)
+    for name, link in case.links.items():
+        _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
+        _check_name(case, f"links.{name}.to", link.to, refuse)
+        check_link(f"links.{name}", link, refuse)
+        if link.to not in case.grounds and len(case.meant_by(link.to)[1]) > 1:
+            refuse(
+                f"links.{name}.to",
+                link.to,
+                f'must be one of its copies, such as "{case.names_of(link.to)[0]}"',
+            )
+        if (
+            link.to not in case.grounds
+            and (own := case.meant_by(link.body))[0] == (other := case.meant_by(link.to))[0]
+            and other[1][0] in own[1]
+        ):
+            refuse(
+                f"links.{name}.to",
+                link.to,
+                f'must be another body than links.{name}.body = "{link.body}": a link '
+                "from a body to itself does nothing",
+            )
+    for name, start in case.initial.items():
+        _check_name(case, f"initial.{name}", name, refuse, ground=False)
+        for key in ("velocity_m_s", "spin_rad_s"):
+            if len(value := getattr(start, key)) != 3:
+                refuse(f"initial.{name}.{key}", list(value), "must be three numbers: x, y, z")
+    if case.observed:
+        body = case.observed.partition(".")[0]
+        _check_name(case, "observed", body, refuse, ground=False)
+        if len(case.meant_by(body)[1]) > 1:
+            refuse(
+                "observed",
+                case.observed,
+                f'must be one of its copies, such as "{case.names_of(body)[0]}"',
+            )
+    for name, body in case.bodies.items():
+        if isinstance(body, Storeys) and not case.modes_of(name):
+            key, value = (
+                ("integration.engine", "rigid")
+                if case.integration.engine == "rigid"
+                else (f"bodies.{name}.modes", 0)
+            )
+            refuse(
+                key,
+                value,
+                f'leaves the storeys of "{name}" their springs and no inertia: choose '
+                f'integration.engine = "reduced" with modes, of which {2 * body.floors} '
+                "are all",
+            )
+    check_grounds(case, refuse)
+    _check_integration(case, refuse)
+
+
+def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
+    if ground and name in case.grounds:
+        return
+    try:
+        case.meant_by(name)
+    except KeyError:
+        known = (
+            list(case.grounds) * ground
+            + list(case.bodies)
+            + [copy for body in case.bodies for copy in case.names_of(body) if copy != body]
+        )
+        what = "body or ground" if ground else "body"
+        refuse(key, name, f"no such {what}{meant(name, known)}; known: {', '.join(known)}")
+
+
+def _check_integration(case, refuse) -> None:
+    from fecolumn.case.check_full import check_full
+
+    plan = case.integration
+    if plan.engine == "full":
+        check_full(case, refuse)
+    for section, key, needed in (
+        ("integration", "kinematics", "corotated"),
+        ("contact", "impact", "plastic"),
+    ):
+        value = getattr(getattr(case, section), key)
+        if plan.engine != "full" and value != needed:
+            refuse(
+                f"{section}.{key}",
+                value,
+                f"must be {needed} where integration.engine = {plan.engine!r}",
+            )
+    for key in FULL_ORDER_KEYS if plan.engine != "full" else ():
+        if (value := getattr(plan, key)) != DEFAULT[key]:
+            refuse(
+                f"integration.{key}",
+                value,
+                f"has no effect where integration.engine = {plan.engine!r}: leave it out",
+            )
+    time = plan.duration_s or (
+        case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0
+    )
+    if time / plan.dt_s > MOST_STEPS:
+        refuse(
+            "integration.dt_s",
+            plan.dt_s,
+            f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} "
+            f"steps in {time:g} s",
+        )
+    if case.motion and (len(part := case.motion.strong_part) != 2 or not part[0] < part[1]):
+        refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
+
+
+def type_of(key: str):
+    """Type of a dotted key of a structure's case, whatever its bodies are called, or None:
+    "bodies.slab.length_m" is a float.
+    """
+    head, _, last = key.rpartition(".")
+    name = head.partition(".")[0]
+    classes = set(KINDS.values()) if name == "bodies" else {NAMED[name]} if name in NAMED else set()
+    hints = {
+        field: kind for section in classes for field, kind in typing.get_type_hints(section).items()
+    }
+    kind = hints.get(last) if head.count(".") == 1 else None
+    return next((one for one in (kind, *typing.get_args(kind)) if one in (int, float)), kind)

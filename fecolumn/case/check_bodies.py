@@ -1,0 +1,259 @@
+"""What keys of a body and of a link say together."""
+
+from __future__ import annotations
+
+import math
+
+from fecolumn.case.bodies import (
+    Block,
+    Footed,
+    Matrices,
+    Meshed,
+    Plate,
+    Solid,
+    Storeys,
+    Stuff,
+    Tube,
+)
+from fecolumn.case.sections import Material
+from fecolumn.structures.feet import half_sides, rise
+
+
+def material_of(body: Stuff, materials: dict[str, Material]) -> Material:
+    """Material of a body: that of its name, steel without one, with the keys that the body states
+    itself.
+    """
+    named = materials[body.material] if body.material else Material()
+    own = {
+        key: getattr(body, key)
+        for key in ("youngs_modulus_pa", "poissons_ratio", "density_kg_m3", "damping_ratio")
+    }
+    return Material(
+        **{key: getattr(named, key) if value is None else value for key, value in own.items()}
+    )
+
+
+def check_body(key: str, body, materials: dict, refuse) -> None:
+    """Refuse places, materials and dimensions that cannot be."""
+    if len(body.at_m) != 3:
+        refuse(f"{key}.at_m", list(body.at_m), "must be three numbers: x, y, z")
+    if body.copies_m and any(body.at_m):
+        refuse(
+            f"{key}.copies_m",
+            [list(place) for place in body.copies_m],
+            "must stand without at_m: it has the place of each copy",
+        )
+    for place in body.copies_m:
+        if len(place) != 3:
+            refuse(f"{key}.copies_m", list(place), "must be three numbers for each copy: x, y, z")
+    if len(set(body.copies_m)) < len(body.copies_m):
+        refuse(
+            f"{key}.copies_m", [list(place) for place in body.copies_m], "must be different places"
+        )
+    if isinstance(body, Matrices):
+        return
+    if body.material and body.material not in materials:
+        refuse(
+            f"{key}.material",
+            body.material,
+            f"no such table of [materials]; known: {', '.join(materials) or 'none'}",
+        )
+    if body.mass_kg is not None and body.density_kg_m3 is not None:
+        refuse(
+            f"{key}.mass_kg",
+            body.mass_kg,
+            "must stand without density_kg_m3, which follows from it",
+        )
+    if isinstance(body, Tube) and body.wall_m >= body.outer_diameter_m / 2:
+        refuse(
+            f"{key}.wall_m",
+            body.wall_m,
+            f"must be less than the outer radius, {body.outer_diameter_m / 2:g} m; a "
+            'solid one is kind = "cylinder"',
+        )
+    if isinstance(body, Solid):
+        _check_solid(key, body, refuse)
+    if isinstance(body, Storeys):
+        _check_storeys(key, body, refuse)
+
+
+def _check_solid(key: str, body: Solid, refuse) -> None:
+    if body.contact_stiffness_n_m3 is not None and not body.rigid:
+        refuse(
+            f"{key}.contact_stiffness_n_m3",
+            body.contact_stiffness_n_m3,
+            "is of a body with rigid = true; this one deforms",
+        )
+    if isinstance(body, Meshed):
+        if body.coarse_size_m is not None:
+            refuse(
+                f"{key}.coarse_size_m",
+                body.coarse_size_m,
+                'says nothing of a body of kind = "mesh", whose elements are in its file',
+            )
+        return
+    if body.coarse_size_m is not None and body.coarse_size_m < (body.element_size_m or 0.0):
+        refuse(
+            f"{key}.coarse_size_m",
+            body.coarse_size_m,
+            f"must be at least element_size_m = {body.element_size_m:g} m",
+        )
+    if isinstance(body, Footed):
+        _check_foot(key, body, refuse)
+    if isinstance(body, (Block, Plate)):
+        shorter = min(body.length_m, body.width_m)
+        if (size := body.element_size_m) is not None and size > shorter:
+            refuse(
+                f"{key}.element_size_m", size, f"must be at most the shorter side, {shorter:g} m"
+            )
+        return
+    for name in ("flange", "cap"):
+        if (part := getattr(body, name)) is None:
+            continue
+        side = part.outer_diameter_m if name == "flange" else min(part.length_m, part.width_m)
+        if side < body.outer_diameter_m:
+            refuse(
+                f"{key}.{name}.{'outer_diameter_m' if name == 'flange' else 'length_m'}",
+                side,
+                f"must be at least the body's own {body.outer_diameter_m:g} m",
+            )
+    hole = body.outer_diameter_m - 2 * body.wall_m if isinstance(body, Tube) else 0.0
+    if body.flange and body.flange.inner_diameter_m > hole:
+        refuse(
+            f"{key}.flange.inner_diameter_m",
+            body.flange.inner_diameter_m,
+            f"must be at most the body's own {hole:g} m",
+        )
+    around = math.pi * body.outer_diameter_m
+    if (size := body.element_size_m) is not None and size > around / 12:
+        refuse(
+            f"{key}.element_size_m",
+            size,
+            f"must be at most {around / 12:.4g} m: fewer than 12 elements around do not "
+            "make a round body",
+        )
+
+
+def _check_foot(key: str, body: Footed, refuse) -> None:
+    """Refuse spheres and edges that the foot has no room for."""
+    halves = half_sides(body)
+    if (radius := body.foot_radius_m) is not None:
+        if body.edge_radius_m:
+            refuse(
+                f"{key}.edge_radius_m",
+                body.edge_radius_m,
+                "must be 0 where foot_radius_m makes the foot a dome",
+            )
+        if getattr(body, "flange", None):
+            refuse(
+                f"{key}.foot_radius_m",
+                radius,
+                "must stand without a flange: the foot of a flange is flat, or has an "
+                "edge_radius_m",
+            )
+        if radius < (least := math.hypot(*halves)) * (1 - 1e-9):
+            refuse(
+                f"{key}.foot_radius_m",
+                radius,
+                f"must be at least {least:.6g} m, the "
+                f"{'half diagonal' if halves[1] else 'radius'} of the foot",
+            )
+        if rise(body) >= body.height_m:
+            refuse(
+                f"{key}.foot_radius_m",
+                radius,
+                f"makes a dome {rise(body):.4g} m high, which must be less than "
+                f"height_m = {body.height_m:g} m",
+            )
+    if body.edge_radius_m >= (least := min(half for half in halves if half)):
+        refuse(
+            f"{key}.edge_radius_m",
+            body.edge_radius_m,
+            f"must be less than {least:g} m, half the smaller side of the foot",
+        )
+
+
+def _check_storeys(key: str, body: Storeys, refuse) -> None:
+    for name, fewest in (
+        ("floor_masses_kg", 1),
+        ("storey_heights_m", 1),
+        ("stiffness_x_n_m", 0),
+        ("stiffness_y_n_m", 0),
+    ):
+        if len(values := getattr(body, name)) not in (fewest, 1, body.floors):
+            refuse(
+                f"{key}.{name}",
+                list(values),
+                f"must be one number, or floors = {body.floors} numbers",
+            )
+    if bool(body.stiffness_x_n_m) == (body.period_s is not None):
+        refuse(
+            f"{key}.period_s",
+            body.period_s,
+            "must stand where stiffness_x_n_m does not: the building needs one of them",
+        )
+    if body.stiffness_y_n_m and not body.stiffness_x_n_m:
+        refuse(
+            f"{key}.stiffness_y_n_m", list(body.stiffness_y_n_m), "must stand with stiffness_x_n_m"
+        )
+    if body.profile != "uniform" and body.period_s is None:
+        refuse(f"{key}.profile", body.profile, "says nothing without period_s")
+    if body.damping == "rayleigh" and body.floors > 1:
+        modes = body.rayleigh_modes
+        if len(modes) != 2 or not modes[0] < modes[1] <= body.floors:
+            refuse(
+                f"{key}.rayleigh_modes",
+                list(modes),
+                f"must be two rising numbers up to floors = {body.floors}",
+            )
+
+
+def check_link(key: str, link, refuse) -> None:
+    """Refuse a link without what its kind needs, or with what says nothing of it."""
+    for name in ("point_m", "to_point_m"):
+        if len(value := getattr(link, name)) != 3:
+            refuse(f"{key}.{name}", list(value), "must be three numbers: x, y, z")
+    if link.kind == "dashpot":
+        if not link.damping_n_s_m:
+            refuse(
+                f"{key}.damping_n_s_m",
+                link.damping_n_s_m,
+                "must be greater than 0 N s/m of a dashpot",
+            )
+        for name in ("stiffness_n_m", "prestress_n", "slack_m", "yield_n", "breaking_n"):
+            if value := getattr(link, name):
+                refuse(f"{key}.{name}", value, "says nothing of a dashpot")
+    elif not link.stiffness_n_m:
+        refuse(
+            f"{key}.stiffness_n_m",
+            link.stiffness_n_m,
+            f"must be greater than 0 N/m of a {link.kind}",
+        )
+    if link.kind == "spring" and link.slack_m:
+        refuse(
+            f"{key}.slack_m",
+            link.slack_m,
+            "says nothing of a spring; a restrainer or a tendon has slack",
+        )
+    if link.prestress_n and link.slack_m:
+        refuse(
+            f"{key}.prestress_n",
+            link.prestress_n,
+            "must be 0 where slack_m is not: a slack link carries nothing",
+        )
+    if link.yield_n is not None and link.prestress_n > link.yield_n:
+        refuse(
+            f"{key}.prestress_n", link.prestress_n, f"must be at most yield_n = {link.yield_n:g} N"
+        )
+    if link.breaking_n is not None and link.breaking_n < max(link.prestress_n, link.yield_n or 0.0):
+        refuse(f"{key}.breaking_n", link.breaking_n, "must be at least prestress_n and yield_n")
+    if (
+        link.kind != "restrainer"
+        and math.dist(link.point_m, link.to_point_m) == 0
+        and not (link.kind == "tendon" and link.slack_m)
+    ):
+        refuse(
+            f"{key}.to_point_m",
+            list(link.to_point_m),
+            f"must be another point than point_m: a {link.kind} of no length has no direction",
+        )

@@ -1,0 +1,52 @@
+"""What a structure must not state where all degrees of freedom of its bodies move."""
+
+from __future__ import annotations
+
+from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.case.check_bodies import material_of
+
+
+def check_full(case, refuse) -> None:
+    """Refuse keys that a case with integration.engine = "full" cannot have."""
+    for name, body in case.bodies.items():
+        if isinstance(body, (Matrices, Storeys)):
+            continue
+        for key in ("foot_radius_m", "edge_radius_m"):
+            if value := getattr(body, key, None):
+                refuse(
+                    f"bodies.{name}.{key}",
+                    value,
+                    'must be left out with integration.engine = "full": a ball touches beside '
+                    "the nodes that carry it, where elements say nothing of how much they give; "
+                    "the reduced and the rigid engine compute it",
+                )
+        ratio = body.damping_ratio
+        if ratio is None:
+            ratio = material_of(body, case.materials).damping_ratio
+        if ratio and case.integration.kinematics != "corotated":
+            refuse(
+                f"bodies.{name}.damping_ratio",
+                ratio,
+                "must be 0 where integration.kinematics is not 'corotated': modes are those of "
+                "the unstrained body",
+            )
+    if case.contact.impact == "none":
+        _check_no_impacts(case, refuse)
+
+
+def _check_no_impacts(case, refuse) -> None:
+    """Refuse what belongs to an impact where contact is that of the literal HHT scheme."""
+    told = "must be 0 where contact.impact = 'none'"
+    for key in ("restitution", "rolling_resistance"):
+        if value := getattr(case.contact, key):
+            refuse(f"contact.{key}", value, told)
+        for name, interface in case.joints.items():
+            if value := getattr(interface, key, None):
+                refuse(f"joints.{name}.{key}", value, told)
+    if case.integration.substeps == "impacts":
+        refuse(
+            "integration.substeps",
+            case.integration.substeps,
+            "must be rolling or none where contact.impact = 'none': there are no impacts to "
+            "find in a step",
+        )

@@ -1,0 +1,81 @@
+"""What keys of a ground, and of what stands on it, say together."""
+
+from __future__ import annotations
+
+from fecolumn.case.bodies import Ground
+
+#: Keys that say something of some kinds of ground alone, and these.
+OF_KINDS = {
+    **dict.fromkeys(("length_m", "width_m"), ("plate",)),
+    **dict.fromkeys(
+        ("thickness_m", "slide_allowance_m", "element_size_m", "coarse_size_m"),
+        ("plate", "unbounded"),
+    ),
+    **dict.fromkeys(
+        ("stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio", "yield_pa"), ("pad",)
+    ),
+}
+# Of bodies that do not stand on their nodes as they are
+_NOT_FLAT = ("foot_radius_m", "edge_radius_m")
+
+
+def check_grounds(case, refuse) -> None:
+    """Refuse grounds, and joints with them and with pads, that cannot be."""
+    for name, ground in case.grounds.items():
+        _check_keys(case, f"grounds.{name}", ground, refuse)
+        used = [one.on for one in case.joints.values()] + [one.to for one in case.links.values()]
+        if name not in used and ground != Ground():
+            refuse(f"grounds.{name}", None, "nothing stands on it, and no link is held by it")
+    for name, interface in case.joints.items():
+        _check_interface(case, f"joints.{name}", interface, refuse)
+
+
+def _check_keys(case, key: str, ground: Ground, refuse) -> None:
+    for one, kinds in OF_KINDS.items():
+        if (value := getattr(ground, one)) and ground.kind not in kinds:
+            refuse(
+                f"{key}.{one}",
+                value,
+                f"is of a ground of kind {' or '.join(kinds)}; {key}.kind = {ground.kind!r} "
+                "has none",
+            )
+    if ground.kind == "pad" and not ground.stiffness_n_m3:
+        refuse(
+            f"{key}.stiffness_n_m3",
+            ground.stiffness_n_m3,
+            f"must be greater than 0 N/m3 where {key}.kind = 'pad'",
+        )
+    if ground.motion and case.motion is None:
+        refuse(f"{key}.motion", None, "needs a table [motion] as well, that of the other grounds")
+    part = ground.motion.strong_part if ground.motion else (0.0, 1.0)
+    if len(part) != 2 or not part[0] < part[1]:
+        refuse(f"{key}.motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
+
+
+def _check_interface(case, key: str, interface, refuse) -> None:
+    ground = case.grounds.get(interface.on)
+    on_pad = interface.stiffness_n_m3 is not None or ground is not None and ground.kind == "pad"
+    if interface.stiffness_n_m3 is None:
+        for one in ("shear_stiffness_n_m3", "damping_ratio", "yield_pa"):
+            if value := getattr(interface, one):
+                refuse(f"{key}.{one}", value, f"is of a pad, which needs {key}.stiffness_n_m3")
+    for one in ("restitution", "rolling_resistance"):
+        if on_pad and (value := getattr(interface, one)):
+            refuse(
+                f"{key}.{one}",
+                value,
+                "must be 0 on a pad, whose springs take the place of impacts: its damping_ratio "
+                "takes energy there",
+            )
+    if not on_pad and (ground is None or ground.kind == "rigid"):
+        return
+    bodies = [interface.slave] + [interface.on] * (ground is None)
+    for body in (case.meant_by(one)[0] for one in bodies):
+        for one in _NOT_FLAT:
+            if value := getattr(case.bodies[body], one, None):
+                refuse(
+                    f"bodies.{body}.{one}",
+                    value,
+                    f"must be left out where {key} is on a pad or on ground that gives: how a "
+                    "round foot sinks in is not known",
+                )

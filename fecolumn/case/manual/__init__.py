@@ -1,0 +1,83 @@
+"""The manual: one Markdown file a topic, read as it is or by `fecolumn help TOPIC`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+FOLDER = Path(__file__).parent
+# in the order of reading
+TOPICS = (
+    "quick-start",
+    "cases",
+    "keys",
+    "motions",
+    "studies",
+    "statistics",
+    "outputs",
+    "pictures",
+    "examples",
+    "python",
+    "clusters",
+    "structures",
+    "rocking",
+    "rocking-structures",
+    "theory",
+    "algorithm",
+    "contributing",
+    "changelog",
+)
+
+
+def add_arguments(parser) -> None:
+    """Arguments of `fecolumn help`."""
+    parser.add_argument(
+        "topic", nargs="?", default="", metavar="TOPIC", help="a topic; without one: all topics"
+    )
+
+
+def main(args) -> int:
+    """Print a topic, or what there is; returns 0.
+
+    Raises
+    ------
+    InputError
+        no such topic.
+    """
+    print(page(args.topic) if args.topic else contents())
+    return 0
+
+
+def page(topic: str) -> str:
+    """The Markdown of a topic; the beginning of its name is enough.
+
+    Raises
+    ------
+    InputError
+        no such topic.
+    """
+    from fecolumn.foundation.schema import InputError
+
+    found = [name for name in TOPICS if name.startswith(topic.lower())]
+    if topic.lower() not in TOPICS and len(found) != 1:
+        raise InputError("fecolumn help", "TOPIC", topic, f"must be one of {', '.join(TOPICS)}")
+    return _text(topic.lower() if topic.lower() in TOPICS else found[0])
+
+
+def contents() -> str:
+    """Topics with their titles."""
+    lines = [
+        f"  {name:12} {_text(name).partition(chr(10))[0].removeprefix('# ')}" for name in TOPICS
+    ]
+    return "\n".join(
+        [
+            "fecolumn help TOPIC, of:",
+            *lines,
+            "",
+            f"The same as files: {FOLDER}",
+            "Options of a command: fecolumn COMMAND --help",
+        ]
+    )
+
+
+def _text(name: str) -> str:
+    return (FOLDER / f"{name}.md").read_text(encoding="utf-8").rstrip()

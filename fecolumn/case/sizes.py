@@ -1,0 +1,358 @@
+"""Sizes that a case leaves open, from its column's own, and whether all of them fit together.
+
+Brick sizes follow the perimeter of what is meshed, so that a glass tube and a marble drum have some
+thousands of bricks alike:
+
+    tube            48 fine bricks around its middle surface, 16 coarse ones
+    solid cylinder  32 fine bricks around, 16 coarse ones
+    block           12 fine bricks along the geometric mean of its sides, 6 coarse ones; at least 4 and 2 along the shorter side
+    flange          40 fine bricks around, unless the tube's own are still three times smaller
+    own mesh        the base below has bricks as large as the foot's faces, but 8 to 24 along the foot
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+
+from fecolumn.foundation.content import content
+from fecolumn.foundation.files import is_file
+from fecolumn.foundation.schema import InputError
+
+# keys that each shape needs, and those that say nothing of it
+NEEDED = {
+    "tube": ("outer_diameter_m", "height_m", "wall_m"),
+    "solid": ("outer_diameter_m", "height_m"),
+    "block": ("length_m", "width_m", "height_m"),
+}
+_IDLE = {
+    "tube": ("length_m", "width_m"),
+    "solid": ("wall_m", "length_m", "width_m"),
+    "block": ("outer_diameter_m", "wall_m"),
+}
+# fine bricks of a coarse one
+_COARSE = {"tube": 3, "solid": 2, "block": 2}
+
+
+def check_shape(case, file) -> None:
+    """Refuse a column whose shape misses dimensions, all of them told at once, or has some that say
+    nothing of it.
+    """
+    column = case.column
+
+    def refuse(key, value, allowed):
+        raise InputError(file, key, value, allowed)
+
+    if column.mesh_file:
+        if not is_file(column.mesh_file):
+            refuse("column.mesh_file", column.mesh_file, "no such file")
+        if column.shape != "tube":
+            refuse(
+                "column.shape",
+                column.shape,
+                "says nothing where column.mesh_file gives the column; leave it out",
+            )
+        if case.flange:
+            refuse(
+                "flange",
+                None,
+                "a mesh of one's own has its flange in column.mesh_file; leave the section out",
+            )
+        for key in ("length_m", "width_m"):
+            if getattr(column, key) is not None:
+                refuse(
+                    f"column.{key}",
+                    getattr(column, key),
+                    "is read from column.mesh_file; leave it out",
+                )
+        return
+    # a finished case states the wall of a solid cylinder, its radius
+    implied = (
+        {"wall_m": column.outer_diameter_m / 2}
+        if column.shape == "solid" and column.outer_diameter_m
+        else {}
+    )
+    needed, idle = (
+        NEEDED[column.shape],
+        [
+            key
+            for key in _IDLE[column.shape]
+            if getattr(column, key) not in (None, implied.get(key))
+        ],
+    )
+    missing = [key for key in needed if getattr(column, key) is None]
+    if missing:
+        refuse(
+            ", ".join(f"column.{key}" for key in missing),
+            None,
+            f'missing; a column of shape = "{column.shape}" needs {", ".join(needed)}, '
+            "in metres (or a mesh_file of its own)",
+        )
+    if idle:
+        refuse(
+            f"column.{idle[0]}",
+            getattr(column, idle[0]),
+            f'says nothing of a column of shape = "{column.shape}", which has {", ".join(needed)}',
+        )
+
+
+def with_sizes(case, file):
+    """The case with every size that it leaves open.
+
+    Raises
+    ------
+    InputError
+        a mesh of one's own cannot be read.
+    """
+    mesh = content(case.column.mesh_file) if case.column.mesh_file else ""
+    column, base, sizes = sized(case.column, case.flange, case.cap, case.base, case.mesh, mesh)
+    if (column, base, sizes) == (case.column, case.base, case.mesh):
+        return case
+    return dataclasses.replace(case, column=column, base=base, mesh=sizes)
+
+
+def opened(case):
+    """A finished case with those sizes left open that it would be given anyway, so that another
+    column gets its own.
+    """
+    followers = {
+        "mesh": [field.name for field in dataclasses.fields(case.mesh) if field.default is None],
+        "base": [field.name for field in dataclasses.fields(case.base) if field.default is None],
+        "column": [
+            "fine_height_m",
+            *(["height_m"] if case.column.mesh_file else []),
+            *(["wall_m"] if case.column.shape == "solid" else []),
+        ],
+    }
+    for name, keys in followers.items():
+        for key in keys:
+            trial = dataclasses.replace(
+                case, **{name: dataclasses.replace(getattr(case, name), **{key: None})}
+            )
+            if with_sizes(trial, "case") == with_sizes(case, "case"):
+                case = trial
+    return case
+
+
+def foot_sides(case) -> tuple[float, float]:
+    """Length along x and width along y [m] of the rectangle around the foot."""
+    return _foot(case.column, case.flange)
+
+
+def _foot(column, flange) -> tuple[float, float]:
+    if flange:
+        return flange.outer_diameter_m, flange.outer_diameter_m
+    if column.mesh_file:
+        return _own(column).foot
+    return _outline(column)
+
+
+def _outline(column) -> tuple[float, float]:
+    """Length and width [m] of a built column's section."""
+    return (
+        (column.length_m, column.width_m)
+        if column.shape == "block"
+        else (column.outer_diameter_m, column.outer_diameter_m)
+    )
+
+
+def _own(column):
+    from fecolumn.mesh.imported import own_mesh
+
+    return own_mesh(column.mesh_file)
+
+
+@functools.lru_cache(maxsize=256)
+def sized(column, flange, cap, base, mesh, mesh_content):
+    """Column, base and mesh sections without open sizes, those of the short form; `mesh_content`
+    tells that a file is still the one read before.
+    """
+    foot = _foot(column, flange)
+    shorter, longer = min(foot), max(foot)
+    filled = dict(element_order=1)
+    if column.mesh_file:
+        own = _own(column)
+        column = _filled(column, height_m=own.height, fine_height_m=0.0)
+        filled = dict(element_order=2 if own.is_tetrahedral else 1)
+        side = math.sqrt(foot[0] * foot[1])
+        fine, times = min(max(own.foot_edge, side / 24), side / 8), 3
+        coarse = times * fine
+    else:
+        if column.shape == "solid" and column.wall_m is None:
+            column = dataclasses.replace(
+                column, wall_m=column.outer_diameter_m / 2
+            )  # to the last digit: a finished case is finished again
+        fine, times = (
+            _fine(column),
+            _COARSE["solid" if column.shape == "tube" and is_solid(column) else column.shape],
+        )
+        coarse = times * fine
+        if flange:
+            fine = min(math.pi * flange.outer_diameter_m / 40, 3 * fine)
+        if column.fine_height_m is None:
+            half = min(_outline(column)) / 2
+            column = _filled(
+                column, fine_height_m=half if half < column.height_m else column.height_m
+            )
+    mesh = _filled(mesh, fine_size_m=fine, **filled)
+    # what is stated goes before: other bricks follow a stated fine one, none smaller than it
+    mesh = _filled(
+        mesh,
+        coarse_size_m=max(min(coarse, times * mesh.fine_size_m), mesh.fine_size_m),
+        base_size_m=6 * mesh.fine_size_m,
+    )
+    mesh = _filled(
+        mesh,
+        cap_size_m=max(mesh.coarse_size_m, max(cap.length_m, cap.width_m) / 16)
+        if cap
+        else mesh.coarse_size_m,
+    )
+    room = [
+        (stated - side) / 2
+        for side, stated in zip(foot, (base.length_m, base.width_m))
+        if stated is not None
+    ]
+    base = _filled(
+        base,
+        slide_allowance_m=max(0.0, min(shorter / 4, *room, shorter / 4)),
+        thickness_m=shorter / 4,
+    )
+    sides = [side + max(3 * longer, 2 * base.slide_allowance_m) for side in foot]
+    return column, _filled(base, length_m=sides[0], width_m=sides[1]), mesh
+
+
+def _fine(column) -> float:
+    """Size [m] of fine bricks of a built column."""
+    if column.shape == "block":
+        sides = column.length_m, column.width_m
+        return min(math.sqrt(sides[0] * sides[1]) / 12, min(sides) / 4)
+    if is_solid(column):
+        return math.pi * column.outer_diameter_m / 32
+    return math.pi * (column.outer_diameter_m - column.wall_m) / 48
+
+
+def is_solid(column) -> bool:
+    """Whether the round section of a [column] has no hole."""
+    return column.shape == "solid" or column.wall_m >= column.outer_diameter_m / 2 * (1 - 1e-6)
+
+
+def _filled(section, **values):
+    """A section with values for the keys that it leaves open, rounded down to four digits."""
+    found = {
+        key: value if isinstance(value, int) else _rounded(value)
+        for key, value in values.items()
+        if getattr(section, key) is None
+    }
+    return dataclasses.replace(section, **found) if found else section
+
+
+def _rounded(value: float) -> float:
+    unit = 10.0 ** (math.floor(math.log10(value)) - 3) if value > 0 else 1.0
+    return float(f"{math.floor(value / unit * (1 + 1e-12)) * unit:.4g}")
+
+
+def check_sizes(case, file) -> None:
+    """Refuse parts that do not fit, and a mesh above `mesh.limit_dofs`."""
+    column, base, mesh, cap, flange = case.column, case.base, case.mesh, case.cap, case.flange
+    outline = foot_sides(case) if column.mesh_file else _outline(column)
+
+    def refuse(key, value, allowed):
+        raise InputError(file, key, value, allowed)
+
+    if column.mesh_file:
+        from fecolumn.mesh.imported import imported_column
+
+        imported_column(case)
+    else:
+        if column.shape == "tube" and column.wall_m > column.outer_diameter_m / 2 * (1 + 1e-9):
+            refuse(
+                "column.wall_m",
+                column.wall_m,
+                f"must be at most the outer radius, {column.outer_diameter_m / 2:g} m",
+            )
+        if column.fine_height_m > column.height_m:
+            refuse(
+                "column.fine_height_m",
+                column.fine_height_m,
+                f"must lie in [0, height_m = {column.height_m:g}] m",
+            )
+        if (
+            column.shape == "tube"
+            and not flange
+            and mesh.fine_size_m > max(column.wall_m, _fine(column)) * (1 + 1e-9)
+        ):
+            refuse(
+                "mesh.fine_size_m",
+                mesh.fine_size_m,
+                f"must be at most the wall, column.wall_m = {column.wall_m:g} m, or a "
+                f"48th of the circumference, {_fine(column):.4g} m",
+            )
+        if column.shape == "block":
+            if mesh.coarse_size_m > min(_outline(column)) * (1 + 1e-9):
+                refuse(
+                    "mesh.coarse_size_m",
+                    mesh.coarse_size_m,
+                    f"must be at most the block's shorter side, {min(_outline(column)):g} m",
+                )
+        else:
+            around = math.pi * (
+                column.outer_diameter_m if is_solid(column) else 2 * case.mean_radius_m
+            )
+            if around / mesh.coarse_size_m < 8:
+                refuse(
+                    "mesh.coarse_size_m",
+                    mesh.coarse_size_m,
+                    f"must be at most {around / 8:.4g} m: fewer than 8 bricks around do "
+                    "not make a round column",
+                )
+    for key in ("coarse_size_m", "base_size_m"):
+        if getattr(mesh, key) < mesh.fine_size_m * (1 - 1e-9):
+            refuse(
+                f"mesh.{key}",
+                getattr(mesh, key),
+                f"must be at least mesh.fine_size_m = {mesh.fine_size_m:g} m",
+            )
+    if flange:
+        across = math.hypot(*outline) if column.shape == "block" else outline[0]
+        if flange.outer_diameter_m < across:
+            refuse(
+                "flange.outer_diameter_m",
+                flange.outer_diameter_m,
+                f"must be at least the column's own {across:g} m",
+            )
+        hole = (
+            min(outline) - 2 * column.wall_m
+            if column.shape == "tube" and not is_solid(column)
+            else min(outline)
+        )
+        if (
+            flange.inner_diameter_m > max(hole, 0) * (1 + 1e-9)
+            or column.shape != "tube"
+            and flange.inner_diameter_m
+        ):
+            refuse(
+                "flange.inner_diameter_m",
+                flange.inner_diameter_m,
+                f"must be at most the tube's bore, {hole:g} m"
+                if column.shape == "tube"
+                else f"must be 0 below a column of shape = {column.shape!r}",
+            )
+    if not column.mesh_file:
+        for key, side in zip(("length_m", "width_m"), outline):
+            if cap and getattr(cap, key) < side * (1 - 1e-9):
+                named = key if column.shape == "block" else "outer_diameter_m"
+                refuse(
+                    f"cap.{key}", getattr(cap, key), f"must be at least column.{named} = {side:g} m"
+                )
+    for key, side in zip(("length_m", "width_m"), foot_sides(case)) if base.kind == "plate" else ():
+        least = side + 2 * base.slide_allowance_m
+        if getattr(base, key) < least * (1 - 1e-9):
+            refuse(
+                f"base.{key}",
+                getattr(base, key),
+                f"must be at least the foot and twice slide_allowance_m, {least:g} m",
+            )
+    from fecolumn.mesh.estimate import refuse_too_large
+
+    refuse_too_large(case, file)

@@ -1,0 +1,1 @@
+"""Analyses: in full order, reduced, rigid, and rocking models."""

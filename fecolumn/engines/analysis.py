@@ -1,0 +1,481 @@
+"""What an analysis is, whatever its engine: motion, result files, ending, summary."""
+
+from __future__ import annotations
+
+import time
+import warnings
+
+import numpy as np
+
+from fecolumn.case.sections import GRAVITY, MODEL_ENGINES, REST
+from fecolumn.engines.ending import (
+    AT_REST,
+    EDGE,
+    OVERTURNED,
+    REST_SHARE,
+    SLID_OFF,
+    STILL_ROCKING,
+    Ending,
+)
+from fecolumn.engines.summary import NAME
+from fecolumn.foundation.atomic import write_json
+from fecolumn.foundation.files import is_file
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.sources import code, code_text
+
+# Steps in a period of the column's vertical vibration on a pad: needed, and for 3 % in frequency
+# (period error (w dt)^2 / 12)
+FEWEST_STEPS, FEW_STEPS = 4, 10
+CHECKPOINT = "checkpoint.npz"
+
+
+class AnalysisFailed(RuntimeError):
+    """The analysis could not go on; its state is saved in the result folder."""
+
+
+class Analysis:
+    """What an analysis is, whatever its engine: motion, result files, summary.
+
+    Attributes
+    ----------
+    case, folder, comm, quiet
+        as of `run`. motion: None for a base at rest. steps: to be made at most; step: the last one
+        made.
+    motion_steps
+        until the motion is over. until_rest: whether the analysis ends when the column is at rest.
+    history
+        rows so far. stepping_s, earlier_s: wall time of steps, and of earlier runs [s].
+    code
+        version and sources that the result is of; of an analysis that went on from other code's
+        checkpoint, both sources.
+    stance, top_arm
+        of `dynamics.overturning`; standing_j: mechanical energy in gravity equilibrium, where
+        nothing moves [J]; the engine sets these three.
+    """
+
+    def __init__(self, case, folder, comm, file, quiet):
+        from fecolumn.engines.dynamics.history import History
+        from fecolumn.engines.dynamics.overturning import steepest_to_come
+
+        self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
+        self.began, self.cpu_began, self.code = time.perf_counter(), time.process_time(), code()
+        self.motion = self._load_motion(file)
+        self.steps = int(round(self._duration() / case.integration.dt_s))
+        self.motion_steps = len(self.motion.acceleration) if self.motion else 0
+        self.until_rest = (
+            bool(self.motion)
+            and case.motion.free_vibration_s == REST
+            and not case.integration.duration_s
+        )
+        self.cut_at_s = self._cut(file)
+        if case.integration.engine not in MODEL_ENGINES and not (folder / CHECKPOINT).is_file():
+            self.say(self.expected())
+        self.history, self.step = History(), 0
+        self.stepping_s = self.earlier_s = 0.0
+        self.stance, self.top_arm, self.standing_j = None, None, 0.0
+        grounds = self.motion.acceleration[: self.steps + 1] if self.motion else np.zeros((0, 3))
+        self._steepest = steepest_to_come(np.array([0.0, 0.0, -GRAVITY]), grounds)
+
+    def expected(self) -> str:
+        """What meshes and analysis will take, in words."""
+        raise NotImplementedError
+
+    def _load_motion(self, file):
+        if self.case.motion is None:
+            return None
+        from fecolumn.motions.load import load_motion
+
+        return load_motion(self.case.motion, self.case.integration.dt_s, file)
+
+    def _duration(self) -> float:
+        if self.case.integration.duration_s:
+            return self.case.integration.duration_s
+        return (
+            len(self.motion.acceleration) * self.motion.dt
+            + self.case.motion.longest_free_vibration_s
+        )
+
+    def _cut(self, file) -> float | None:
+        """Where the analysis cuts the motion short [s], which is told; None where it does not."""
+        if self.steps >= self.motion_steps - 1:
+            return None
+        dt = self.case.integration.dt_s
+        warnings.warn(cut_text(file, self.steps * dt, (self.motion_steps - 1) * dt), stacklevel=2)
+        return self.steps * dt
+
+    def ground(self, step: int) -> np.ndarray:
+        """Ground acceleration (3,) [m/s2] at a step."""
+        if self.motion is None or step >= len(self.motion.acceleration):
+            return np.zeros(3)
+        return self.motion.acceleration[step]
+
+    def grounds(self, step: int) -> np.ndarray:
+        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
+        return self.ground(step)
+
+    def steepest(self, step: int) -> float:
+        """Tangent of the steepest inclination of apparent gravity from a step on; see
+        `dynamics.overturning`.
+        """
+        return float(self._steepest[step]) if step < len(self._steepest) else 0.0
+
+    @property
+    def barrier_j(self) -> float:
+        """Energy to overturn [J]."""
+        from fecolumn.engines.dynamics.overturning import barrier
+
+        return float(barrier(self.stance))
+
+    @property
+    def rest_j(self) -> float:
+        """Energy left at which the analysis ends as the column is at rest [J]; -inf where it goes
+        on.
+        """
+        return (
+            REST_SHARE * self.barrier_j
+            if self.until_rest and self.step >= self.motion_steps
+            else -np.inf
+        )
+
+    @property
+    def cpu_s(self) -> float | None:
+        """Processor time of this process since the analysis began [s]; None where it went on from
+        an earlier process.
+        """
+        return None if self.earlier_s else time.process_time() - self.cpu_began
+
+    @property
+    def field_steps(self) -> int:
+        """Steps between frames of the fields; 0 for no fields."""
+        every = self.case.output.fields_every_s
+        return max(1, round(every / self.case.integration.dt_s)) if every else 0
+
+    def warn_of_base(self, frequency: float, pad, file) -> None:
+        """Tell of a step that resolves the base plate's vibration, of lowest `frequency` [Hz], or
+        not that of the column on its Pad.
+
+        Raises
+        ------
+        InputError
+            a pad so stiff that its vibration is less than a few steps.
+        """
+        dt = self.case.integration.dt_s
+        if pad is not None:
+            steps, stiffness = 1 / (pad.frequency * dt), self.case.base.stiffness_n_m3
+            told = (
+                f"the column's vertical vibration on its pad, of {pad.frequency:.3g} Hz, "
+                f"takes {steps:.2g} steps"
+            )
+            if steps < FEWEST_STEPS:
+                raise InputError(
+                    file,
+                    "base.stiffness_n_m3",
+                    stiffness,
+                    f"{told}; at least {FEWEST_STEPS} are needed: integration.dt_s at most "
+                    f"{1 / (FEWEST_STEPS * pad.frequency):.2g} s, or base.kind = "
+                    "'unbounded' for a ground that stiff",
+                )
+            if steps < FEW_STEPS:
+                warnings.warn(
+                    f"{file}: {told}; with fewer than {FEW_STEPS} its frequency is off "
+                    "by more than 3 %",
+                    stacklevel=2,
+                )
+        if dt < 1 / frequency:
+            warnings.warn(
+                f"{file}: integration.dt_s = {dt:g} s resolves the base plate's own "
+                f"vibration (period {1 / frequency:.2g} s), "
+                "which is left out: the base responds statically",
+                stacklevel=2,
+            )
+
+    def went_on(self, take) -> bool:
+        """Whether the analysis goes on from its checkpoint; from one that cannot be used it does
+        not, and says so.
+
+        Parameters
+        ----------
+        take
+            takes over the arrays of a checkpoint; it raises, and has changed nothing but what the
+            start sets, where they do not fit.
+        """
+        from fecolumn.engines.dynamics.checkpoint import read_arrays
+        from fecolumn.engines.dynamics.history import History
+
+        path, problem = self.folder / CHECKPOINT, ""
+        if not self.comm.bcast(is_file(path) if self.comm.rank == 0 else None):
+            return False
+        try:
+            take(read_arrays(path))
+        except Exception as error:  # damaged archives lead to errors of a dozen kinds
+            problem = f"{type(error).__name__}: {error}".split("\n")[0]
+        problem = next(filter(None, self.comm.allgather(problem)), "")
+        if problem:
+            if self.comm.rank == 0:
+                warnings.warn(
+                    f"{path} cannot be used ({problem}); the analysis starts afresh", stacklevel=2
+                )
+            self.history, self.step, self.stepping_s, self.earlier_s, self.code = (
+                History(),
+                0,
+                0.0,
+                0.0,
+                code(),
+            )
+        return not problem
+
+    def resumed(self, extra: dict) -> None:
+        """Take over what an earlier run had, from the `extra` arrays of its checkpoint.
+
+        Raises
+        ------
+        ValueError
+            they are of another case, or not whole.
+        """
+        from fecolumn.engines.dynamics.history import History
+
+        rows = {name[5:]: values for name, values in extra.items() if name.startswith("rows.")}
+        step, stepping_s, earlier_s, standing_j = (
+            int(extra["step"]),
+            *(float(extra[name]) for name in ("stepping_s", "wall_s", "standing_j")),
+        )
+        if str(extra["case_id"]) != self.case.id:
+            raise ValueError(f"of another case, {extra['case_id']}")
+        if (
+            not 0 <= step <= self.steps
+            or {len(values) for values in rows.values()} != {step + 1}
+            or min(stepping_s, earlier_s) < 0
+        ):
+            raise ValueError("its history is not whole")
+        self.history, self.step, self.stepping_s, self.earlier_s, self.standing_j = (
+            History(rows),
+            step,
+            stepping_s,
+            earlier_s,
+            standing_j,
+        )
+        self._went_on_from(*(str(extra.get(name, "")) for name in ("version", "sources")))
+
+    def _went_on_from(self, version: str, sources: str) -> None:
+        """Take note of the code that wrote a checkpoint, which is told where it is another than
+        this.
+        """
+        if sources.split("+")[-1] == self.code["sources"]:
+            self.code["sources"] = sources
+            return
+        if self.comm.rank == 0:
+            warnings.warn(
+                f"{self.folder / CHECKPOINT} is of other code, "
+                f"{code_text(version, sources)}; this is {code_text(**self.code)}: "
+                "the result will be of both, a new folder starts afresh",
+                stacklevel=2,
+            )
+        self.code["sources"] = f"{sources or 'not recorded'}+{self.code['sources']}"
+
+    def to_resume(self) -> dict:
+        """The `extra` arrays of a checkpoint that `resumed` takes."""
+        extra = {f"rows.{name}": values for name, values in self.history.arrays().items()}
+        return (
+            extra
+            | self.code
+            | dict(
+                case_id=self.case.id,
+                step=self.step,
+                stepping_s=self.stepping_s,
+                standing_j=self.standing_j,
+                wall_s=self.earlier_s + time.perf_counter() - self.began,
+            )
+        )
+
+    def write_history(self) -> None:
+        """Write history.h5 on rank 0, its rows as far apart as the case says."""
+        every = max(1, round(self.case.output.history_every_s / self.case.integration.dt_s))
+
+        if self.comm.rank == 0:
+            attributes = {"case_id": self.case.id, **self.code, "title": self.case.title}
+            self.history.write(self.folder / "history.h5", attributes, every)
+
+    def energy_left(self) -> float:
+        """Mechanical energy above that of gravity equilibrium now [J]; of what has come lower than
+        that, its kinetic energy.
+        """
+        rows = self.history.last()
+        kinetic, strain, gravity = (
+            float(rows[f"energy/{term}"]) for term in ("kinetic", "strain", "gravity")
+        )
+        return max(0.0, kinetic, kinetic + strain + gravity - self.standing_j)
+
+    def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
+        """How the analysis ends, from the answer of `overturning.fallen` and the last rotation (3,
+        3).
+        """
+        from fecolumn.engines.dynamics.overturning import CAPPED, NO_RETURN
+
+        last, dt = self.history.last(), self.case.integration.dt_s
+        if fallen == CAPPED:
+            return Ending(
+                OVERTURNED,
+                "top displacement reached overturn.displacement_m = "
+                f"{self.stance.cap:g} m, at {last['time']:.3f} s",
+            )
+        if fallen == NO_RETURN:
+            return Ending(
+                OVERTURNED,
+                f"point of no return: {self.no_return(last, rotation)}, at {last['time']:.3f} s",
+            )
+        outcome = AT_REST if self.energy_left() <= REST_SHARE * self.barrier_j else STILL_ROCKING
+        if not self.until_rest:
+            return Ending(outcome, f"end of the analysed time, {last['time']:.3f} s")
+        if outcome == AT_REST:
+            return Ending(
+                outcome,
+                f"at rest {last['time'] - self.motion_steps * dt:.3f} s after the "
+                f"motion's end, at {last['time']:.3f} s",
+            )
+        return Ending(
+            outcome,
+            f"motion.rest_ceiling_s = {self.case.motion.rest_ceiling_s:g} s after the "
+            f"motion's end, at {last['time']:.3f} s",
+        )
+
+    def rigid_loss_share(self) -> float | None:
+        """Of the summary: energy that impacts took over what rigid-body theory says; None where
+        that is not known.
+        """
+        return None
+
+    def results(self, ending: Ending) -> dict:
+        """What the summary has beside what that of any analysis has."""
+        return {}
+
+    def no_return(self, last: dict, rotation: np.ndarray) -> str:
+        """What the point of no return was, from the last row of the history and the last rotation
+        (3, 3).
+        """
+        from fecolumn.engines.dynamics.overturning import critical_tilt_along
+
+        return (
+            f"tilt {last['tilt']:.3g} rad, critical "
+            f"{critical_tilt_along(self.stance, rotation):.3g} rad"
+        )
+
+    def limits(self) -> dict:
+        """Of the summary: tilt and displacement beyond which the column falls."""
+        from fecolumn.engines.dynamics.overturning import critical_displacement
+
+        return dict(
+            critical_tilt_rad=self.stance.critical,
+            u_critical_m=critical_displacement(self.stance, self.top_arm),
+        )
+
+    def slid_off(self, failure, base, foot: np.ndarray, velocity: np.ndarray) -> Ending | None:
+        """The ending of a column whose step failed because its foot, at (n, 3) [m] with velocities
+        (n, 3) [m/s] before, met the edge of the base; None for another failure.
+        """
+        from fecolumn.engines.dynamics.cuts import Stop
+
+        if failure.stop is not Stop.OFF_BASE:
+            return None
+        way = self.case.integration.dt_s * np.hypot(velocity[:, 0], velocity[:, 1]).max()
+        if not base.grid.at_edge(foot, way + EDGE * np.ptp(foot, axis=0)[:2].max()):
+            return None
+        return Ending(SLID_OFF, f"{Stop.OFF_BASE.value}, at {self.history.last()['time']:.3f} s")
+
+    def finish(self, ending: Ending, dofs: int, record, factorizations: int) -> dict:
+        """Write the last history and the summary, which is returned; the checkpoint goes."""
+        from fecolumn.engines.dynamics.energy import TERMS
+
+        rows, plan, overturned = (
+            self.history.arrays(),
+            self.case.integration,
+            ending.outcome == OVERTURNED,
+        )
+        slid_off, slide = ending.outcome == SLID_OFF, rows["slide"][-1]
+        top = np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1])
+        fall, end = rows["u_top"][-1], float(rows["time"][-1])
+        summary = dict(
+            case_id=self.case.id,
+            title=self.case.title,
+            **self.code,
+            engine=plan.engine,
+            kinematics=plan.kinematics,
+            dofs=dofs,
+            steps=self.step,
+            dt=plan.dt_s,
+            alpha_hht=plan.alpha_hht,
+            motion=self.motion.name if self.motion else "",
+            duration_s=end,
+            motion_cut_at_s=self.cut_at_s,
+            outcome=ending.outcome,
+            ended_by=ending.ended_by,
+            # what overturns or slides off goes further than the analysis: its largest displacement
+            # is where that stopped, and no peak
+            u_max_m=float(top.max()),
+            u_max_censored=overturned or slid_off,
+            overturned=overturned,
+            overturn_time_s=end if overturned else None,
+            overturn_direction_deg=float(np.degrees(np.arctan2(fall[1], fall[0])))
+            if overturned
+            else None,
+            slid_off=slid_off,
+            slid_off_time_s=end if slid_off else None,
+            slid_off_direction_deg=float(np.degrees(np.arctan2(slide[1], slide[0])))
+            if slid_off
+            else None,
+            **self.limits(),
+            energy_left_j=None if overturned else self.energy_left(),
+            energy_to_overturn_j=self.barrier_j,
+            tilt_max_rad=float(rows["tilt"].max()),
+            residual_slide_m=float(np.hypot(*rows["slide"][-1])),
+            penetration_max_m=float(rows["penetration"].max()),
+            ranks=self.comm.size,
+            wall_s=self.earlier_s + time.perf_counter() - self.began,
+            cpu_s=self.cpu_s,
+            s_per_step=self.stepping_s / max(self.step, 1),
+            iterations=record.iterations,
+            contact_iterations=record.contact_iterations,
+            impacts=record.impacts,
+            rigid_loss_share=self.rigid_loss_share(),
+            cuts=record.cuts,
+            parts=record.parts,
+            factorizations=factorizations,
+            energy_closure_rel=energy_closure(rows),
+            energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS},
+        ) | self.results(ending)
+        self.write_history()
+        if self.comm.rank == 0:
+            write_json(self.folder / NAME, summary)
+            (self.folder / CHECKPOINT).unlink(missing_ok=True)
+        self.comm.barrier()
+        return summary
+
+    def say(self, text: str) -> None:
+        """Tell the user, unless quiet."""
+        if not self.quiet and self.comm.rank == 0:
+            import sys
+
+            print(text, file=sys.stderr, flush=True)
+
+
+def cut_text(file, end_s: float, motion_s: float) -> str:
+    """Warning of a motion that is not analysed to its end."""
+    return (
+        f"{file}: integration.duration_s = {end_s:g} s cuts the motion short, which "
+        f"lasts {motion_s:g} s; without integration.duration_s "
+        "the whole motion is analysed"
+    )
+
+
+def energy_closure(rows: dict) -> float:
+    """Largest closure error relative to the largest energy that moved, or is held [-].
+
+    Reference is the largest of kinetic energy, swing of the gravity energy, work of the base
+    motion, and strain energy: that which a standing structure holds where nothing moves.
+    """
+    moved = max(
+        rows["energy/kinetic"].max(),
+        np.ptp(rows["energy/gravity"]),
+        np.abs(rows["energy/base_work"]).max(),
+        np.max(rows.get("energy/strain", 0.0)),
+    )
+    return float(np.abs(rows["energy/closure"]).max() / moved) if moved > 0 else 0.0

@@ -1,0 +1,63 @@
+"""Finite-element bodies from meshes, the same on every rank."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.fem.body import Body
+from fecolumn.foundation.schema import InputError
+from fecolumn.mesh.bricks import boundary_faces
+from fecolumn.mesh.specimen import SpecimenMesh
+from fecolumn.mesh.surface import face_basis, face_points
+from fecolumn.mesh.tie import project_to_quads
+
+
+def known_to_all(comm, make):
+    """What `make` makes on rank 0, known on every rank; a refusal is raised on every rank."""
+    result, refusal = None, None
+    if comm.rank == 0:
+        try:
+            result = make()
+        except InputError as error:
+            refusal = error.file, error.key, error.value, error.allowed
+    result, refusal = comm.bcast((result, refusal)) if comm.size > 1 else (result, refusal)
+    if refusal:
+        raise InputError(*refusal)
+    return result
+
+
+def column_body(case, specimen: SpecimenMesh, comm) -> Body:
+    """Column and cap as one body with their ties; case: what has `material` and `mesh`."""
+
+    def ties(body):
+        return {
+            slave: link
+            for one in specimen.ties
+            for slave, link in _tie_links(body, specimen.body, one)
+        }, ()
+
+    return Body(comm, specimen.body, case.material, case.mesh.element_order, ties)
+
+
+def _tie_links(body: Body, mesh, tie):
+    """(slave node, (master nodes, weights)) of one tie, at the Lagrange nodes of the body."""
+    slave_quads = boundary_faces(
+        mesh,
+        tie.slave_part,
+        mesh.points[tie.slave_nodes, 2].mean(),
+        1e-6 * np.ptp(mesh.points[:, 2]),
+    )
+    slaves = np.unique(
+        body.find_nodes(
+            face_points(mesh.points[slave_quads], body.order).reshape(-1, 3), tie.slave_part
+        )
+    )
+    corners = mesh.points[tie.master_quads]
+    masters = body.find_nodes(
+        face_points(corners, body.order).reshape(-1, 3), tie.master_part
+    ).reshape(len(corners), -1)
+    quad, xi, _, _ = project_to_quads(body.all_X[slaves], corners)
+    weights = face_basis(xi, body.order)
+    for slave, nodes, row in zip(slaves, masters[quad], weights):
+        kept = np.abs(row) > 1e-12
+        yield int(slave), (nodes[kept], row[kept] / row[kept].sum())

@@ -1,0 +1,73 @@
+"""Steps that are not made at once: what is made in parts, and steps that fail and are tried again
+in halves.
+"""
+
+from __future__ import annotations
+
+import enum
+
+from fecolumn.engines.dynamics.hht import HHT
+
+#: Words of integration.substeps, for what a step is made in parts: a rim that rolls fast, a point
+#: that lands, nothing at all; their numbers in compiled code.
+SUBSTEPS = ("rolling", "impacts", "none")
+ROLLING, IMPACTS, LITERAL = range(3)
+
+
+class Stop(enum.Enum):
+    """Why the iteration of a step ended."""
+
+    CONVERGED = "converged"
+    ITERATIONS = "no convergence within max_iterations"
+    CONTACT = "the contact problem did not converge"
+    DIVERGED = "the residual grew without bound"
+    OFF_BASE = "the foot reached the edge of the base plate"
+    OFF_PATCH = "a body left the part of the face below it that was prepared for contact"
+
+
+class StepFailed(RuntimeError):
+    """A step did not converge even after the allowed cuts; `stop` says why."""
+
+    def __init__(self, stop: Stop, message: str):
+        super().__init__(message)
+        self.stop = stop
+
+
+def in_halves(
+    take, state, before, after, hht: HHT, max_cuts: int, failure: StepFailed, count, cuts: int = 0
+):
+    """The state after a step that failed with `failure`, made in two halves, and these in halves
+    where they fail, too.
+
+    Parameters
+    ----------
+    take
+        function (state, ground, hht) of the state one hht.dt later, or StepFailed.
+    state
+        at the start of the step.
+    before, after
+        (3,) ground acceleration at the ends of the step [m/s2].
+    max_cuts
+        halvings allowed.
+    count
+        called once for each.
+
+    Raises
+    ------
+    StepFailed
+        even with the smallest step; at once where the foot left the base or the part of a face that
+        is known, which no smaller step mends.
+    """
+    if cuts == max_cuts or failure.stop in (Stop.OFF_BASE, Stop.OFF_PATCH):
+        raise StepFailed(
+            failure.stop,
+            f"{failure} (step cut {cuts} times to {hht.dt:.3g} s)" if cuts else str(failure),
+        )
+    count()
+    half, middle = HHT(hht.dt / 2, hht.alpha), (before + after) / 2
+    for first, last in ((before, middle), (middle, after)):
+        try:
+            state = take(state, last, half)
+        except StepFailed as again:
+            state = in_halves(take, state, first, last, half, max_cuts, again, count, cuts + 1)
+    return state

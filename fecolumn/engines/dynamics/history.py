@@ -1,0 +1,136 @@
+"""The history of an analysis: one row a step in memory, written atomically as HDF5 with units."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.foundation.atomic import write_hdf5
+
+UNITS = {
+    "time": "s",
+    "u_top": "m",
+    "tilt": "rad",
+    "twist": "rad",
+    "slide": "m",
+    "contact_force": "N",
+    "active_nodes": "-",
+    "penetration": "m",
+    "ground": "m/s2",
+    "iterations": "-",
+    "theta_x": "rad",
+    "theta_y": "rad",
+}
+#: Of columns of a structure's bodies, interfaces, marks, storeys and links, by the last word of
+#: their names.
+UNITS_OF_PARTS = {
+    "displacement": "m",
+    "tilt": "rad",
+    "rise": "m",
+    "slide": "m",
+    "force": "N",
+    "drift": "m",
+    "shear": "N",
+    "tension": "N",
+    "elongation": "m",
+    "yielded": "m",
+    "work": "J",
+    "broken": "-",
+}
+MEANING = {
+    "u_top": "displacement of the top's centre relative to the base",
+    "slide": "horizontal displacement of the foot's centre",
+    "tilt": "angle of the column's axis to the vertical",
+    "twist": "rotation about the vertical",
+    "contact_force": "force of the base on the column",
+    "active_nodes": "foot nodes in contact",
+    "penetration": "largest penetration of a foot node",
+    "ground": "acceleration of the base",
+    "iterations": "position iterations of the step",
+    "theta_x": "tilt in the plane of x, positive towards +x",
+    "theta_y": "tilt in the plane of y, positive towards +y",
+}
+
+
+class History:
+    """Rows of measures and energy terms."""
+
+    def __init__(self, rows: dict[str, np.ndarray] | None = None):
+        self._columns: dict[str, list] = {
+            name: list(values) for name, values in (rows or {}).items()
+        }
+
+    def __len__(self) -> int:
+        return len(self._columns.get("time", ()))
+
+    def add(self, measures: dict, energy: np.ndarray, iterations: int) -> None:
+        """Append a row; `energy` in the order of energy.TERMS [J]."""
+        row = dict(
+            measures,
+            iterations=iterations,
+            **{f"energy/{name}": value for name, value in zip(TERMS, energy)},
+        )
+        for name, value in row.items():
+            self._columns.setdefault(name, []).append(value)
+
+    def extend(self, columns: dict[str, np.ndarray]) -> None:
+        """Append many rows, by column."""
+        for name, values in columns.items():
+            self._columns.setdefault(name, []).extend(values)
+
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Columns by name, first axis time."""
+        return {name: np.asarray(values) for name, values in self._columns.items()}
+
+    def last(self) -> dict:
+        """The last row by column."""
+        return {name: values[-1] for name, values in self._columns.items()}
+
+    def write(self, path: Path, attributes: dict, every: int = 1) -> None:
+        """Write one row in `every`, and the last; a reader sees the old file or the new one, never
+        a part.
+        """
+
+        def fill(file):
+            file.attrs.update(attributes)
+            for name, values in self.arrays().items():
+                rows = (
+                    np.unique(np.append(np.arange(0, len(values), every), len(values) - 1))
+                    if every > 1
+                    else slice(None)
+                )
+                values = values[rows]
+                dataset = file.create_dataset(
+                    name, data=values, compression="gzip" if values.size > 1000 else None
+                )
+                dataset.attrs["unit"] = UNITS.get(name) or UNITS_OF_PARTS.get(
+                    name.rpartition("/")[2], "J"
+                )
+                if name in MEANING:
+                    dataset.attrs["meaning"] = MEANING[name]
+
+        write_hdf5(path, fill)
+
+
+def read_history(path, names: tuple[str, ...] = ()) -> dict[str, np.ndarray]:
+    """Columns of a history file, all or those named; energy terms as "energy/<term>".
+
+    Raises
+    ------
+    OSError
+        no such file, or none of HDF5.
+    KeyError
+        one named is not in it.
+    """
+    import h5py
+
+    with h5py.File(path) as file:
+        if names:
+            return {name: file[name][()] for name in names}
+        names = []
+        file.visititems(
+            lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None
+        )
+        return {name: file[name][()] for name in names}

@@ -1,0 +1,123 @@
+"""Links between bodies in full order: forces on their rigid motion, which strain nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.contact.points import BASE
+from fecolumn.contact.pose import frames_at
+from fecolumn.engines.dynamics.links import TIE, end_links, pull_links
+from fecolumn.fem.free_body import rigid_fields
+from fecolumn.fem.rotation import out_of_frames
+
+
+class Linkage:
+    """Forces of links (nl,) of LINK as nodal forces and accelerations of a Composite.
+
+    A link is held by the rigid motion of its bodies: by the places that its ends have from the
+    centres of mass, turned by the mean rotations.
+    """
+
+    def __init__(self, bodies, links: np.ndarray):
+        self._bodies, self.links = bodies, links
+        made = bodies.of_each(lambda part, _: rigid_fields(part))
+        self._fields, self._momenta, masses = zip(*made)
+        self._inverse = [np.linalg.inv(one) for one in masses]
+        #: Bound of the square of the fastest frequency of the bodies on their links [1/s2].
+        self.stiffest = sum(
+            float(link["stiffness"]) * sum(self._gives(b, arm) for b, arm in ends_of(link))
+            for link in links
+        )
+
+    def _gives(self, b: int, arm) -> float:
+        """Bound of the acceleration of an end per force on it [1/kg]."""
+        return (
+            0.0
+            if b == BASE
+            else self._inverse[b][0, 0]
+            + arm @ arm * np.linalg.eigvalsh(self._inverse[b][3:, 3:])[-1]
+        )
+
+    def stored(self, state) -> float:
+        """Strain energy [J] of the links at rest in a State, whose ties become those of the links
+        at rest.
+        """
+        before, frames = state.ties.copy(), frames_at(self._bodies.centers(state.x))
+        kept, _ = end_links(
+            self.links, state.grounds, frames, state.rotation, before, state.ties, np.inf
+        )
+        state.ties["work"] = 0.0  # what they lose on the way there is not of the motion
+        return kept
+
+    def ties(self, centers: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+        """Ties (nl,) of TIE of links that have not been loaded, of bodies with centres of mass (nb,
+        3) [m] turned by (nb, 3, 3).
+        """
+        ties, frames = np.zeros(len(self.links), TIE), frames_at(centers)
+        for tie, link in zip(ties, self.links):
+            first, other = (
+                np.array(arm) if b == BASE else frames["center"][b] + rotation[b] @ arm
+                for b, arm in ends_of(link)
+            )
+            tie["length"] = np.linalg.norm(other - first)
+        return ties
+
+    def pulls(self, stage, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+        """Forces (nl, 3) [N] on the ends a in a Stage that ends at positions x (n_owned, 3) with
+        the bodies turned by `rotation`.
+        """
+        pulls = np.zeros((len(self.links), 3))
+        pull_links(
+            self.links,
+            stage.ties,
+            stage.grounds[0],
+            frames_at(stage.centers),
+            stage.rotation,
+            stage.grounds[1],
+            frames_at(self._bodies.centers(x)),
+            rotation,
+            float(stage.dt),
+            pulls,
+        )
+        return pulls
+
+    def carried(self, pulls, start, end) -> float:
+        """Work [J] that grounds, (G,) of GROUND at start and end of a step, do by the links' forces
+        (nl, 3) on the ends a.
+        """
+        ways = (end["place"] - start["place"])[self.links["ground"]]
+        return float(np.vdot(pulls, ways * (self.links["b"] == BASE)[:, None]))
+
+    def _rigid(self, pulls, halfway) -> list[np.ndarray]:
+        """Rigid accelerations (6,) of each body in its frame, turned by `halfway` (nb, 3, 3)."""
+        wrenches = np.zeros((len(halfway), 6))
+        for link, force in zip(self.links, pulls):
+            for (b, arm), on in zip(ends_of(link), (force, -force)):
+                if b != BASE:
+                    along = on @ halfway[b]
+                    wrenches[b] += [*along, *np.cross(arm, along)]
+        return [inverse @ wrench for inverse, wrench in zip(self._inverse, wrenches)]
+
+    def load(self, pulls: np.ndarray, halfway: np.ndarray) -> np.ndarray:
+        """Nodal forces (n_owned, 3) [N] of the links' forces (nl, 3) on bodies turned by
+        `halfway`.
+        """
+        return self._spread(self._momenta, pulls, halfway)
+
+    def acceleration(self, pulls: np.ndarray, halfway: np.ndarray) -> np.ndarray:
+        """Accelerations (n_owned, 3) [m/s2] of the links' forces."""
+        return self._spread(self._fields, pulls, halfway)
+
+    def _spread(self, fields, pulls, halfway) -> np.ndarray:
+        rows = np.concatenate(
+            [
+                (field @ rigid).reshape(-1, 3)
+                for field, rigid in zip(fields, self._rigid(pulls, halfway))
+            ]
+        )
+        return out_of_frames(rows, halfway, self._bodies.rows)
+
+
+def ends_of(link) -> tuple:
+    """Body and arm of both ends of a LINK."""
+    return (int(link["a"]), link["arm_a"]), (int(link["b"]), link["arm_b"])

@@ -1,0 +1,353 @@
+"""The reduced engine: a reduced structure, its motion and its ledger, advanced by steps."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.contact.ball import from_center
+from fecolumn.contact.joints import left_faces
+from fecolumn.contact.points import BASE
+from fecolumn.contact.pose import SLAVE, frames_at, grounds_at, poses_of
+from fecolumn.contact.problem import (
+    CONTACT_FAILED,
+    ENDED,
+    FAR_BASE,
+    IMPACT_FAILED,
+    ITERATIONS_SPENT,
+    N_COUNTS,
+    N_CUTS,
+    OFF_BASE,
+    OFF_PATCH,
+    OK,
+    ROLLS_FAST,
+)
+from fecolumn.contact.projection import grounds_for_steps
+from fecolumn.engines.dynamics.cuts import SUBSTEPS, StepFailed, Stop, in_halves
+from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.links import span
+from fecolumn.engines.dynamics.overturning import STANDS, steepest_to_come
+from fecolumn.engines.dynamics.record import Record
+from fecolumn.engines.reduced import motion as motions
+from fecolumn.engines.reduced.equilibrium import work_of
+from fecolumn.engines.reduced.ledger import N_PLACES
+from fecolumn.engines.reduced.model import scheme
+from fecolumn.engines.reduced.observe import ENERGY, lost
+from fecolumn.engines.reduced.run import LENGTHS, Chunk, Course, advance
+from fecolumn.foundation._compiled import compile_for, interpreted
+
+# of the halves of a step, whose end alone counts: nothing is past returning, nothing at rest
+_NO_END, _NO_REST = np.array([np.inf]), (0.0, -np.inf)
+_STOPS = {
+    CONTACT_FAILED: Stop.CONTACT,
+    IMPACT_FAILED: Stop.CONTACT,
+    ITERATIONS_SPENT: Stop.ITERATIONS,
+    OFF_BASE: Stop.OFF_BASE,
+    OFF_PATCH: Stop.OFF_PATCH,
+}
+
+
+class Engine:
+    """Reduced bodies on their base, their motion and their ledger.
+
+    Parameters
+    ----------
+    build
+        function of an HHT that returns Structure and points, see `model.structure_of` and
+        `structure.structure_of`.
+    bases
+        of each ground a BasePlate, or another holder of its compliance with `grid`, `slot`,
+        `compliance` and `need`.
+    eye
+        View.
+    hht
+        HHT.
+    start
+        function of the engine that returns the first Motion; see `reduced.start`.
+    model
+        what `start` needs of the bodies.
+    substeps
+        of `cuts.SUBSTEPS`, for what a step is made in parts.
+    """
+
+    def __init__(
+        self,
+        build,
+        bases,
+        eye,
+        hht: HHT,
+        start,
+        max_cuts: int = 4,
+        model=None,
+        substeps: str = "rolling",
+    ):
+        self.model, self.bases, self.eye, self.hht, self.max_cuts, self.substeps = (
+            model,
+            bases,
+            eye,
+            hht,
+            max_cuts,
+            SUBSTEPS.index(substeps),
+        )
+        self.structure, self.points = build(hht)
+        self.work, self.spare, self.kept = (
+            work_of(self.structure, self.points),
+            self.motion_at_rest(),
+            self.motion_at_rest(),
+        )
+        self._schemes = {}
+        self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
+        upright = np.tile(np.eye(3), (len(eye.center), 1, 1))
+        self._need_below(eye.center, upright, self.spare.grounds, 0)
+        self.surface = grounds_for_steps(self.bases)
+        compile_for(advance, self._arguments(self._schemes_of(hht), self.spare, self.spare))
+        self.motion = start(self)
+        self.ledger[0] = self.mechanical()
+
+    def motion_at_rest(self) -> motions.Motion:
+        """A Motion with zeros."""
+        structure = self.structure
+        return motions.at_rest(
+            len(self.points),
+            structure.squares.shape[1],
+            len(structure.squares),
+            len(structure.interfaces),
+            len(structure.links),
+            self.eye.levels,
+        )
+
+    def _need_below(self, centers, rotations, grounds: np.ndarray, rows: int) -> None:
+        """Make the compliance of the grounds known below the nodes that may touch them, of bodies
+        with centres of mass (nb, 3) turned by (nb, 3, 3), and so many rows of nodes around.
+        """
+        standing = self.points[self.points["master"] == BASE]
+        for number, (base, ground) in enumerate(zip(self.bases, grounds)):
+            points = standing[standing["ground"] == number]
+            if len(points):
+                arms, slaves = self.structure.bodies.arms[points["node"]], points["slave"]
+                places = centers[slaves] + np.einsum("pab,pb->pa", rotations[slaves], arms)
+                base.need(base.grid.around(places - ground["place"], rows))
+
+    def places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Places (P, 3) [m] of the points in the frames of their interfaces, of bodies with centres
+        of mass (nb, 3) turned by (nb, 3, 3).
+        """
+        points, interfaces = self.points, self.structure.interfaces
+        each = poses_of(interfaces, centers, rotations, grounds_at(self.eye.levels))
+        offsets = np.zeros((len(interfaces), 3))
+        for interface, pose, offset in zip(interfaces, each, offsets):
+            interpreted(from_center)(interface, pose["turned"][SLAVE, 2], offset)
+        poses, arms = (
+            each[points["interface"]],
+            self.structure.bodies.arms[points["node"]] + offsets[points["interface"]],
+        )
+        table = centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
+        return np.einsum("pba,pb->pa", poses["frame"], table - poses["origin"])
+
+    def link_lengths(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Lengths (nl,) [m] of the links; arguments as of `places`."""
+        frames, grounds = frames_at(centers), grounds_at(self.eye.levels)
+        return np.array(
+            [
+                interpreted(span)(link, grounds, frames, rotations, np.empty(3))
+                for link in self.structure.links
+            ]
+        )
+
+    def settle(self, scheme, motion, end) -> int:
+        """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way
+        to end.
+        """
+        return advance(*self._arguments((scheme,) * LENGTHS, motion, end))[1]
+
+    def _arguments(
+        self,
+        schemes,
+        motion,
+        spare,
+        grounds=None,
+        steepest=np.empty(0),
+        rest=_NO_REST,
+        rows=None,
+    ) -> tuple:
+        rows = np.empty((0, self.eye.width)) if rows is None else rows
+        grounds = np.empty((0, 3 * len(self.bases))) if grounds is None else grounds
+        course = Course(motion, spare, self.kept, self.ledger, self.counts)
+        chunk = Chunk(grounds, steepest, rest, self.substeps, rows)
+        return self.structure, self.surface, schemes, self.work, self.eye, course, chunk
+
+    @property
+    def record(self) -> Record:
+        """Counts as the full-order engine gives them."""
+        return Record(*self.counts[:5].tolist())
+
+    def row(self) -> np.ndarray:
+        """The present row (eye.width,) of the history."""
+        row = np.empty((1, self.eye.width))
+        advance(*self._arguments(self._schemes_of(self.hht), self.motion, self.spare, rows=row))
+        return row[0]
+
+    def mechanical(self) -> float:
+        """Kinetic, strain and gravity energy now [J]."""
+        return float(self.row()[ENERGY : ENERGY + 3].sum())
+
+    def potential(self) -> float:
+        """Strain and gravity energy now [J]."""
+        return float(self.row()[ENERGY + 1 : ENERGY + 3].sum())
+
+    def fallen(self, steepest: float) -> int:
+        """As `overturning.fallen`, now; steepest: tangent of the steepest inclination of apparent
+        gravity to come.
+        """
+        return interpreted(lost)(self.eye, self.motion, self.row(), steepest)
+
+    def advance(
+        self,
+        grounds: np.ndarray,
+        steepest: np.ndarray | None = None,
+        rest: tuple[float, float] = _NO_REST,
+    ) -> tuple[np.ndarray, bool]:
+        """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k',
+        eye.width) and whether the column is lost or at rest.
+
+        Parameters
+        ----------
+        grounds
+            (k, 3) of all grounds, or (k, 3 G) of each.
+        steepest
+            (k,) as of `overturning.steepest_to_come`; of these grounds alone unless given.
+        rest
+            mechanical energy in gravity equilibrium, and what may be left above it of a column at
+            rest, which ends the steps [J]; never more than that is kinetic, for what has come to
+            stand lower has less potential energy. -inf not to ask.
+
+        Raises
+        ------
+        StepFailed
+            no convergence after max_cuts halvings, or the column left the base; the motion is that
+            before the step, the rows of the steps made are in `made`. So they are where anything
+            else stops the steps, a base that cannot be extended for example.
+        """
+        grounds, done = np.array(grounds, float), 0
+        if not np.isfinite(grounds).all():
+            raise ValueError("a ground acceleration is not a finite number")
+        if grounds.shape[1] == 3:
+            grounds = np.tile(grounds, len(self.bases))
+        steepest = (
+            steepest_to_come(self.structure.gravity, np.ascontiguousarray(grounds[:, :3]))
+            if steepest is None
+            else np.asarray(steepest, float)
+        )
+        rows = np.empty((len(grounds), self.eye.width))
+        self.made = rows[:0]
+        while done < len(grounds):
+            made, answer = self._steps(self.hht, grounds[done:], rows[done:], steepest[done:], rest)
+            done += made
+            self.made = rows[:done]
+            if answer == ENDED:
+                return rows[:done], True
+            if answer == FAR_BASE:
+                self.extend_base(self.spare)
+            elif answer != OK:
+                self._cut(grounds[done], answer)
+                rows[done] = self.row()
+                done += 1
+                self.made = rows[:done]
+                kinetic, strain, gravity = rows[done - 1, ENERGY : ENERGY + 3]
+                if (
+                    self.fallen(steepest[done - 1]) != STANDS
+                    or max(kinetic, kinetic + strain + gravity - rest[0]) <= rest[1]
+                ):
+                    return rows[:done], True
+        return rows, False
+
+    def _steps(self, hht, grounds, rows, steepest, rest) -> tuple[int, int]:
+        made, answer = advance(
+            *self._arguments(
+                self._schemes_of(hht), self.motion, self.spare, grounds, steepest, rest, rows
+            )
+        )
+        if answer == ROLLS_FAST:
+            parts = (
+                scheme(self.structure, self.points, HHT(hht.dt / 2**k, hht.alpha))
+                for k in range(1, LENGTHS)
+            )
+            self._schemes[hht] = (*self._schemes[hht][:1], *parts)
+            more, answer = self._steps(hht, grounds[made:], rows[made:], steepest[made:], rest)
+            made += more
+        return made, answer
+
+    def _cut(self, ground, answer) -> None:
+        """The step that failed with `answer`, in two halves and these in halves as far as it needs;
+        nothing has changed where it fails.
+        """
+        saved, booked, row = (
+            self.motion_at_rest(),
+            self.ledger.copy(),
+            np.empty((1, self.eye.width)),
+        )
+        motions.copy(self.motion, saved)
+
+        def take(_, target, hht):
+            while (answer := self._steps(hht, target[None], row, _NO_END, _NO_REST)[1]) == FAR_BASE:
+                self.extend_base(self.spare)
+            if answer not in (OK, ENDED):
+                raise StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
+
+        failure = StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
+        try:
+            in_halves(
+                take,
+                None,
+                self._accelerations(),
+                ground,
+                self.hht,
+                self.max_cuts,
+                failure,
+                self._count_cut,
+            )
+        except BaseException as error:
+            motions.copy(saved, self.motion)
+            self.ledger[:] = booked
+            if isinstance(error, StepFailed):
+                raise StepFailed(error.stop, f"t = {self.motion.time:.6g} s: {error}") from None
+            raise
+
+    def _accelerations(self) -> np.ndarray:
+        """Accelerations (3 G,) of the grounds now [m/s2]."""
+        found = self.motion.grounds["acceleration"].ravel().copy()
+        found[:3] = self.motion.whole["ground"][0]
+        return found
+
+    def begin_shaking(self, accelerations: np.ndarray) -> None:
+        """Let the grounds begin with accelerations (3 G,) [m/s2]."""
+        self.motion.whole["ground"] = accelerations[:3]
+        self.motion.grounds["acceleration"] = accelerations.reshape(-1, 3)
+
+    def _left(self, answer) -> str:
+        """Which interface a body has left and what helps, after a step that failed with OFF_PATCH."""
+        if answer != OFF_PATCH:
+            return ""
+        return f": {left_faces([joint.name for joint in self.model.joints], self.work.points)}"
+
+    def _count_cut(self) -> None:
+        self.counts[N_CUTS] += 1
+
+    def _schemes_of(self, hht) -> tuple:
+        """Schemes of steps and of their parts, which are made when they are needed."""
+        if hht not in self._schemes:
+            self._schemes[hht] = (scheme(self.structure, self.points, hht),) * LENGTHS
+        return self._schemes[hht]
+
+    def extend_base(self, motion) -> None:
+        """Make the grounds' compliance known under the feet and two rows of its nodes around."""
+        self._need_below(motion.frames["center"], motion.rotation, motion.grounds, 2)
+        self.surface = grounds_for_steps(self.bases)
+
+    def know_base(self, nodes: np.ndarray) -> None:
+        """Make the grounds' compliance known at top nodes (k,) of all of them, one after another."""
+        first = 0
+        for base in self.bases:
+            last = first + len(base.grid.points)
+            base.need(nodes[(nodes >= first) & (nodes < last)] - first)
+            first = last
+        self.surface = grounds_for_steps(self.bases)

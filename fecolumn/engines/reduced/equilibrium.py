@@ -1,0 +1,377 @@
+"""Contact forces and motion at the end of a step: laws of contact on the moved points, laws of
+motion under the forces.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn.contact.arrays import put_matrix
+from fecolumn.contact.outline import mark_sunk, was_beyond
+from fecolumn.contact.pad import begin_yielding, find_yielding
+from fecolumn.contact.points import BASE, CONTACT, OVER, UNPREPARED
+from fecolumn.contact.pose import POSE, SLAVE, find_poses
+from fecolumn.contact.problem import (
+    ASSEMBLED,
+    ITERATIONS_SPENT,
+    N_ITERATIONS,
+    OFF_PATCH,
+    OK,
+    STICKS_STILL,
+    WORTH_STICK,
+    Problem,
+    begin_problem,
+    find_forces,
+    find_residual,
+    mark_close,
+    near_points,
+    present_points,
+    room,
+    stored_energy,
+)
+from fecolumn.contact.stick import Stick, holds, is_worth, no_stick, same_points
+from fecolumn.contact.tolerances import CLOSE, ITERATIONS
+from fecolumn.engines.reduced.elastic import (
+    COORDINATE,
+    END,
+    START,
+    Elastic,
+    find_all_elastic,
+    find_elastic,
+    find_on_master,
+    find_position,
+    locate_start,
+    no_elastic,
+)
+from fecolumn.engines.reduced.motion import Action, begin_frames, follow, no_action
+from fecolumn.engines.reduced.secant import Secant, foresee, learn, no_secant
+from fecolumn.foundation._compiled import njit
+
+
+class Work(NamedTuple):
+    """Room and memory of steps. points: (P,) of POINT in the step; before: (P,) of CONTACT, what
+    the start brings to them; problem, stick: of `contact`; secant: of `reduced.secant`; action,
+    elastic: of `reduced.motion`; poses: (2, ni) of POSE at START and END of a step; positions,
+    early, late: (P, 3); places: (N, 3); marked, landing, turning: (P,) or (N,) masks.
+    """
+
+    points: np.ndarray
+    before: np.ndarray
+    problem: Problem
+    stick: Stick
+    secant: Secant
+    action: Action
+    elastic: Elastic
+    poses: np.ndarray
+    positions: np.ndarray
+    early: np.ndarray
+    late: np.ndarray
+    places: np.ndarray
+    wanted: np.ndarray
+    landing: np.ndarray
+    turning: np.ndarray
+
+
+def work_of(structure, points) -> Work:
+    """For the points (P,) of a Structure."""
+    n, nodes = len(points), len(structure.bodies.arms)
+    bodies, modes = structure.squares.shape
+    return Work(
+        points.copy(),
+        np.zeros(n, CONTACT),
+        room(points),
+        no_stick(n, len(structure.interfaces)),
+        no_secant(n),
+        no_action(modes, bodies, len(structure.interfaces), len(structure.links)),
+        no_elastic(nodes, n),
+        np.zeros((2, len(structure.interfaces)), POSE),
+        *(np.zeros((n, 3)) for _ in range(3)),
+        np.zeros((nodes, 3)),
+        np.zeros(nodes, bool),
+        np.zeros(n, bool),
+        np.zeros(n, bool),
+    )
+
+
+@njit
+def stays(interfaces, poses, start, rims, free_center, advance):
+    """Whether all feet stay in their places long enough for finding their stick operator to pay;
+    poses: at the start, rims: (ni,) of RIM at the end.
+    """
+    for k in range(len(interfaces)):
+        way, turn, b = 0.0, 0.0, interfaces[k].slave
+        if not same_points(start.rims[k].angle, rims[k].angle):
+            # they rolled in this step, and would in the next
+            return False
+        for a in range(3):
+            turn = max(turn, abs(advance[b, a]))
+            if a < 2:
+                way = max(way, abs(free_center[b, a] - start.frames[b].center[a]))
+        if not is_worth(interfaces[k], poses[k], turn, way):
+            return False
+    return True
+
+
+@njit
+def find_positions(structure, work, start, end):
+    """Positions of the points at the END of the step, those of points too high to matter without
+    their elastic displacement; whether all are over surfaces that are known.
+    """
+    interfaces, points, elastic, positions, poses = (
+        structure.interfaces,
+        work.points,
+        work.elastic,
+        work.positions,
+        work.poses[END],
+    )
+    all_of_them, reach, known = work.problem.flags[STICKS_STILL], np.zeros(len(end.frames)), True
+    most = all_of_them or 2 * work.problem.count[0] > work.problem.count[2]
+    find_poses(interfaces, end.grounds, end.frames, end.rotation, poses)
+    for b in range(len(end.frames)):
+        for k in range(end.modal.shape[2]):
+            reach[b] += structure.squares[b, k] * end.modal[b, COORDINATE, k] ** 2
+        # no node moves farther than the modes' energy allows
+        reach[b] = np.sqrt(reach[b])
+        if most and end.modal.shape[2] > 0:
+            find_all_elastic(structure, b, end, elastic, END)
+    turned, center = np.empty((len(interfaces), 3, 3)), np.empty((len(interfaces), 3))
+    for k in range(len(interfaces)):
+        _slave_in_frame(interfaces[k], poses[k], end, turned[k], center[k])
+    for i in present_points(work.problem):
+        point = points[i]
+        k, x, y, z = point.interface, point.arm[0], point.arm[1], point.arm[2]
+        for a in range(3):
+            positions[i, a] = (
+                center[k, a] + turned[k, a, 0] * x + turned[k, a, 1] * y + turned[k, a, 2] * z
+            )
+        positions[i, 2] += point.lift
+        # a point of the rim moves with nodes near to its own, which may reach farther, but not
+        # twice as far
+        low = CLOSE * interfaces[k].width + 2 * reach[point.slave] * structure.reach[point.node]
+        if point.master != BASE:
+            low += reach[point.master] * interfaces[k].reach
+        if (
+            positions[i, 2] > low
+            and not all_of_them
+            and not (work.before[i].force[2] > 0 or end.contact[i].force[2] > 0)
+        ):
+            continue
+        if work.before[i].force[2] <= 0:
+            locate_start(
+                structure, points, i, start, work.poses[START], elastic, work.before, work.places[0]
+            )
+        find_elastic(structure, points, i, end, elastic, END)
+        find_position(points, i, end, elastic, END, positions[i])
+        if point.master != BASE:
+            find_on_master(structure, points, i, end, poses, elastic, END, positions[i])
+            known &= points[i].beyond != UNPREPARED
+    return known
+
+
+@njit
+def find_sunk(structure, base, work, start, rims):
+    """Mark those points as SUNK that come from beyond an outline and are below the surface at the
+    START of a step; see `contact.outline`.
+    """
+    points, before, problem, poses, place = (
+        work.points,
+        work.before,
+        work.problem,
+        work.poses[START],
+        work.places[0],
+    )
+    loaded = problem.count[0]
+    count = loaded
+    for i in present_points(problem):
+        k = points[i].interface
+        if not was_beyond(before[i], start.rims[k], rims[k]):
+            continue
+        find_elastic(structure, points, i, start, work.elastic, START)
+        find_position(points, i, start, work.elastic, START, place)
+        find_on_master(structure, points, i, start, poses, work.elastic, START, place)
+        if points[i].beyond == OVER and place[2] < 0.0:
+            problem.near[count], problem.slack[i, 2] = i, place[2]
+            count += 1
+    if count > loaded:
+        mark_sunk(
+            structure.bodies,
+            base,
+            points,
+            structure.interfaces,
+            poses,
+            before,
+            problem.near[:count],
+            loaded,
+            problem.slack,
+            problem.displaced,
+        )
+
+
+@njit
+def _slave_in_frame(interface, pose, motion, turned, center):
+    """Turned (3, 3), center (3,): how the slave is turned towards the frame of an interface, and
+    where its centre of mass is in it.
+    """
+    place, offset, frame = motion.frames[interface.slave].center, pose.origin, pose.frame
+    put_matrix(pose.turned[SLAVE], turned)
+    for a in range(3):
+        center[a] = 0.0
+        for c in range(3):
+            center[a] += frame[c, a] * (place[c] - offset[c])
+
+
+@njit
+def find_arms(structure, work, end):
+    """Elastic displacements and seats at the END of the step of the points that carry, on which
+    their moments depend.
+    """
+    points, elastic, poses, place = work.points, work.elastic, work.poses[END], np.empty(3)
+    find_poses(structure.interfaces, end.grounds, end.frames, end.rotation, poses)
+    for i in near_points(work.problem):
+        if end.contact[i].force[2] > 0:
+            find_elastic(structure, points, i, end, elastic, END)
+            if points[i].master != BASE:
+                find_position(points, i, end, elastic, END, place)
+                find_on_master(structure, points, i, end, poses, elastic, END, place)
+
+
+@njit
+def equilibrate(
+    structure, base, scheme, work, start, free_center, free_modal, advance, rims, end, counts
+):
+    """Find forces and motion at the end of a step; the motion is exact for the forces at every
+    iteration of `contact.problem`.
+
+    Parameters
+    ----------
+    start
+        Motion at the start; work.points and work.before bring the first guess of the forces, and
+        the anchors.
+    free_center, free_modal, advance
+        see `motion.follow`.
+    rims
+        (ni,) of RIM at the end.
+    end
+        gets center, rotation, modal coordinates, contact, static energy.
+
+    Returns: a way to end.
+    """
+    interfaces, points, before, problem, elastic, poses = (
+        structure.interfaces,
+        work.points,
+        work.before,
+        work.problem,
+        work.elastic,
+        work.poses,
+    )
+    carrying, foreseen = 0, False
+    find_poses(interfaces, start.grounds, start.frames, start.rotation, poses[START])
+    for i in range(len(points)):
+        end.contact[i] = before[i]
+        points[i].beyond = OVER
+        if before[i].force[2] > 0:
+            problem.near[carrying] = i
+            carrying += 1
+    problem.count[0] = carrying
+    still = holds(work.stick, interfaces, rims, scheme.half, poses[START])
+    put_matrix(advance, work.action.turn)
+    for i in near_points(problem):
+        find_elastic(structure, points, i, start, elastic, START)
+        if points[i].master != BASE:
+            find_position(points, i, start, elastic, START, work.places[0])
+            find_on_master(
+                structure, points, i, start, poses[START], elastic, START, work.places[0]
+            )
+        for a in range(3):
+            elastic.point[END, i, a], elastic.seat[END, i, a] = (
+                elastic.point[START, i, a],
+                elastic.seat[START, i, a],
+            )
+    find_sunk(structure, base, work, start, rims)
+    begin_problem(
+        problem,
+        still,
+        not still and stays(interfaces, poses[START], start, rims, free_center, advance),
+    )
+    begin_frames(structure, start, free_center, advance, end, work.action)
+    begin_yielding(points, scheme.springs)
+    for iteration in range(ITERATIONS):
+        counts[N_ITERATIONS] += 1
+        if not follow(
+            structure,
+            scheme,
+            points,
+            near_points(problem),
+            start,
+            free_center,
+            free_modal,
+            advance,
+            elastic,
+            end,
+            work.action,
+        ):
+            return ITERATIONS_SPENT
+        if iteration == 1 and len(interfaces) > 1 and not problem.flags[STICKS_STILL]:
+            # the first forces found in the step bend the bodies: with the arms that these then
+            # have, else there would be one iteration more
+            find_arms(structure, work, end)
+            if not follow(
+                structure,
+                scheme,
+                points,
+                near_points(problem),
+                start,
+                free_center,
+                free_modal,
+                advance,
+                elastic,
+                end,
+                work.action,
+            ):
+                return ITERATIONS_SPENT
+        if not find_positions(structure, work, start, end):
+            return OFF_PATCH
+        if iteration == 0 or not problem.flags[STICKS_STILL]:
+            mark_close(problem, points, interfaces, work.positions, before, end.contact)
+        if find_yielding(points, scheme.springs, near_points(problem), end.contact):
+            # the operator of feet that stick is that of pads that do not yield
+            problem.flags[ASSEMBLED] = problem.flags[STICKS_STILL] = False
+            problem.flags[WORTH_STICK] = False
+        answer, residual = find_residual(
+            problem,
+            structure.bodies,
+            base,
+            points,
+            interfaces,
+            scheme.springs,
+            scheme.dynamic,
+            scheme.half,
+            work.stick,
+            rims,
+            poses[END],
+            work.positions,
+            iteration == 0,
+            before,
+            end.contact,
+            counts,
+        )
+        if answer != OK:
+            return answer
+        if foreseen and iteration == 1:
+            learn(work.secant, points, near_points(problem), problem.slack, end.contact)
+        if residual <= 1.0:
+            for i in present_points(problem):
+                end.contact[i].beyond = points[i].beyond != OVER
+            end.whole[0].static = stored_energy(
+                problem, points, interfaces, scheme.springs, before, end.contact
+            )
+            return OK
+        if iteration == 0 and problem.flags[STICKS_STILL]:
+            foresee(work.secant, near_points(problem), problem.slack)
+            foreseen = True
+        answer = find_forces(problem, points, interfaces, work.stick, end.contact, counts)
+        if answer != OK:
+            return answer
+    return ITERATIONS_SPENT

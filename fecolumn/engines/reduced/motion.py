@@ -1,0 +1,426 @@
+"""Motion of floating frames and modes under given contact forces, to the end of a step."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn.contact.arrays import put, put_matrix
+from fecolumn.contact.interface import rims_at_rest
+from fecolumn.contact.points import BASE, CONTACT
+from fecolumn.contact.pose import MASTER, SLAVE, grounds_at
+from fecolumn.contact.record import record
+from fecolumn.engines.dynamics.links import TIE, pull_links
+from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START
+from fecolumn.engines.reduced.rotation import turn_by, turning
+from fecolumn.foundation._compiled import njit
+
+#: A body's frame: center of mass [m], its velocity [m/s] and the acceleration that HHT remembers,
+#: without contact [m/s2]; spin: angular velocity in the body's frame [rad/s].
+FRAME = record(
+    ("center", "f8", 3), ("velocity", "f8", 3), ("acceleration", "f8", 3), ("spin", "f8", 3)
+)
+#: What belongs to no body: time [s]; static: strain energy of base, static rest of the bodies,
+#: penalty springs and pad [J]; ground: acceleration [m/s2].
+WHOLE = record(("time", "f8"), ("static", "f8"), ("ground", "f8", 3))
+
+# Times that the motion under present forces is found anew, at most, the change, over a turn of 1 or
+# the largest force of a link, at which it is found, and that at which it is not: the forces of
+# links tight enough for `links.STIFFEST` change by less after as many sweeps
+SWEEPS, SETTLED, UNSETTLED = 30, 1e-14, 1e-6
+
+
+class Motion(NamedTuple):
+    """State of a structure in the table frame; arrays, so that compiled code may change them.
+
+    frames: (nb,) of FRAME; rotation: (nb, 3, 3) body to table; modal: (nb, 3, m) of unit modal
+    mass; contact: (P,) of CONTACT; rims: (ni,) of RIM; ties: (nl,) of TIE; whole: (1,) of WHOLE;
+    grounds: (G,) of GROUND.
+    """
+
+    frames: np.ndarray
+    rotation: np.ndarray
+    modal: np.ndarray
+    contact: np.ndarray
+    rims: np.ndarray
+    ties: np.ndarray
+    whole: np.ndarray
+    grounds: np.ndarray
+
+    @property
+    def time(self) -> float:
+        """[s]"""
+        return float(self.whole["time"][0])
+
+    @property
+    def forces(self) -> np.ndarray:
+        """Contact forces (P, 3) on the slaves [N], in the frames of their interfaces."""
+        return self.contact["force"]
+
+
+def at_rest(
+    points: int,
+    modes: int,
+    bodies: int = 1,
+    interfaces: int = 1,
+    links: int = 0,
+    levels: tuple[float, ...] = (0.0,),
+) -> Motion:
+    """Zeros everywhere but for upright rotations, and the levels of the grounds [m]."""
+    return Motion(
+        np.zeros(bodies, FRAME),
+        np.tile(np.eye(3), (bodies, 1, 1)),
+        np.zeros((bodies, 3, modes)),
+        np.zeros(points, CONTACT),
+        rims_at_rest(interfaces),
+        np.zeros(links, TIE),
+        np.zeros(1, WHOLE),
+        grounds_at(levels),
+    )
+
+
+class Action(NamedTuple):
+    """What contact and links do to the bodies in a step, for the ledger: turn: (nb, 3) [rad] in a
+    body's frame, moment: (nb, 3) [N m] there, conjugate to the turn; push: (nb, 3) force [N];
+    modal: (nb, m) forces on the modes; halfway: (nb, 3, 3) rotation in the middle of the step;
+    resistance: (nb, 3) part of the moment by which a rim resists to roll; frames: (ni, 3, 3) of the
+    interfaces in the middle of the step; total: (ni, 3) sums of the forces on their slaves [N],
+    spread: (ni, 2, 3, 3) of the arms of slave and master times these forces [N m], in their frames;
+    pulls: (nl, 3) forces of the links on their ends a [N].
+    """
+
+    turn: np.ndarray
+    moment: np.ndarray
+    push: np.ndarray
+    modal: np.ndarray
+    halfway: np.ndarray
+    resistance: np.ndarray
+    frames: np.ndarray
+    total: np.ndarray
+    spread: np.ndarray
+    pulls: np.ndarray
+
+
+def no_action(modes: int, bodies: int = 1, interfaces: int = 1, links: int = 0) -> Action:
+    return Action(
+        *(np.zeros((bodies, 3)) for _ in range(3)),
+        np.zeros((bodies, modes)),
+        np.zeros((bodies, 3, 3)),
+        np.zeros((bodies, 3)),
+        np.tile(np.eye(3), (interfaces, 1, 1)),
+        np.zeros((interfaces, 3)),
+        np.zeros((interfaces, 2, 3, 3)),
+        np.zeros((links, 3)),
+    )
+
+
+@njit
+def copy(source, target):
+    """Copy a Motion."""
+    for b in range(len(source.frames)):
+        target.frames[b] = source.frames[b]
+    for i in range(len(source.contact)):
+        target.contact[i] = source.contact[i]
+    for k in range(len(source.rims)):
+        target.rims[k] = source.rims[k]
+    for n in range(len(source.ties)):
+        target.ties[n] = source.ties[n]
+    target.whole[0] = source.whole[0]
+    copy_grounds(source, target)
+    for b in range(len(source.frames)):
+        put_matrix(source.rotation[b], target.rotation[b])
+        put_matrix(source.modal[b], target.modal[b])
+
+
+@njit
+def copy_grounds(source, target):
+    """Copy the grounds of a Motion."""
+    for g in range(len(source.grounds)):
+        target.grounds[g] = source.grounds[g]
+
+
+@njit
+def begin_frames(structure, start, free_center, advance, end, action):
+    """First guess of what `follow` finds of frames that move and of links: bodies that are free."""
+    moving, part = len(structure.links) > 0, np.empty(3)
+    for k in range(len(structure.interfaces)):
+        moving |= structure.interfaces[k].master != BASE
+    if not moving:
+        return
+    for b in range(len(start.frames)):
+        for a in range(3):
+            part[a], end.frames[b].center[a] = advance[b, a] / 2, free_center[b, a]
+        turn_by(start.rotation[b], part, action.halfway[b])
+        turn_by(start.rotation[b], advance[b], end.rotation[b])
+
+
+@njit
+def _turn_frames(structure, action):
+    """Find the frames of the interfaces in the middle of the step; the largest change."""
+    change = 0.0
+    for k in range(len(structure.interfaces)):
+        b, axes = structure.interfaces[k].master, structure.interfaces[k].axes
+        if b == BASE:
+            continue
+        R = action.halfway[b]
+        for a in range(3):
+            for c in range(3):
+                value = R[a, 0] * axes[0, c] + R[a, 1] * axes[1, c] + R[a, 2] * axes[2, c]
+                change = max(change, abs(value - action.frames[k, a, c]))
+                action.frames[k, a, c] = value
+    return change
+
+
+@njit
+def follow(
+    structure, scheme, points, listed, start, free_center, free_modal, advance, elastic, end, action
+):
+    """Carry the bodies to the end of the step under the forces of `end` at the listed points (k,),
+    which has all that carry, and of the links.
+
+    Forces act along the frames that the interfaces have in the middle of the step, and links along
+    their mean direction, which are found along with the motion. Returns: whether they were.
+
+    The elastic displacement of points that carry is the last one known at the END, a guess; end
+    gets center, rotation and modal coordinates, action the conjugates.
+
+    Parameters
+    ----------
+    free_center
+        (nb, 3), free_modal: (nb, m): the end of the step without contact.
+    advance
+        (nb, 3) dt times the spins at the start.
+    """
+    change = 0.0
+    _sum_forces(points, listed, end.contact, elastic, action)
+    for sweep in range(SWEEPS):
+        change = max(
+            _turn_frames(structure, action),
+            pull_links(
+                structure.links,
+                start.ties,
+                start.grounds,
+                start.frames,
+                start.rotation,
+                end.grounds,
+                end.frames,
+                end.rotation,
+                scheme.dt,
+                action.pulls,
+            ),
+        )
+        if sweep > 0 and change <= SETTLED:
+            break
+        _carry_bodies(structure, scheme, start, free_center, advance, end, action)
+    _push_modes(structure, points, listed, end.contact, action)
+    for b in range(len(start.frames)):
+        for k in range(free_modal.shape[1]):
+            end.modal[b, COORDINATE, k] = scheme.shrink[b, k] * (
+                free_modal[b, k] + scheme.half * action.modal[b, k]
+            )
+    elastic.now[END] += 1
+    # false of what is not a number, too
+    return change <= UNSETTLED
+
+
+@njit
+def _sum_forces(points, listed, contact, elastic, action):
+    """Sums of the forces of `contact` at the listed points (k,), interface by interface, in whose
+    frames they are: they turn with these.
+    """
+    action.total[:] = 0.0
+    action.spread[:] = 0.0
+    for i in listed:
+        if contact[i].force[2] <= 0.0:
+            continue
+        k, force = points[i].interface, contact[i].force
+        total, spread = action.total[k], action.spread[k]
+        for a in range(3):
+            total[a] += force[a]
+            arm = points[i].arm[a] + (elastic.point[START, i, a] + elastic.point[END, i, a]) / 2
+            for c in range(3):
+                spread[SLAVE, a, c] += arm * force[c]
+        if points[i].master != BASE:
+            for a in range(3):
+                seat = (elastic.seat[START, i, a] + elastic.seat[END, i, a]) / 2
+                for c in range(3):
+                    spread[MASTER, a, c] -= seat * force[c]
+
+
+@njit
+def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
+    """`follow`, with frames and links where they are, without modes."""
+    bodies = structure.bodies.body
+    spread = np.zeros((len(bodies), 3, 3))
+    for b in range(len(bodies)):
+        for a in range(3):
+            action.push[b, a] = 0.0
+    for k in range(len(structure.interfaces)):
+        Q, total = action.frames[k], action.total[k]
+        for side in range(2):
+            b, sign = (
+                structure.interfaces[k].master if side else structure.interfaces[k].slave,
+                -1.0 if side else 1.0,
+            )
+            if b == BASE:
+                continue
+            for c in range(3):
+                action.push[b, c] += sign * (
+                    Q[c, 0] * total[0] + Q[c, 1] * total[1] + Q[c, 2] * total[2]
+                )
+                for a in range(3):
+                    along = action.spread[k, side, a]
+                    spread[b, a, c] += Q[c, 0] * along[0] + Q[c, 1] * along[1] + Q[c, 2] * along[2]
+    for n in range(len(structure.links)):
+        for side in range(2):
+            b = structure.links[n].b if side else structure.links[n].a
+            if b == BASE:
+                continue
+            ends = structure.links[n].arm_b if side else structure.links[n].arm_a
+            for c in range(3):
+                value = -action.pulls[n, c] if side else action.pulls[n, c]
+                for a in range(3):
+                    spread[b, a, c] += ends[a] * value
+                action.push[b, c] += value
+    for b in range(len(bodies)):
+        for a in range(3):
+            end.frames[b].center[a] = (
+                free_center[b, a] + scheme.half * action.push[b, a] / bodies[b].mass
+            )
+        turning(
+            bodies[b],
+            advance[b],
+            start.rotation[b],
+            scheme.half,
+            spread[b],
+            action.resistance[b],
+            action.turn[b],
+            action.moment[b],
+            action.halfway[b],
+        )
+        turn_by(start.rotation[b], action.turn[b], end.rotation[b])
+
+
+@njit
+def _push_modes(structure, points, listed, contact, action):
+    """Find what the forces of `contact` at the listed points (k,) do on the modes of the bodies,
+    turned as they are in the middle of the step.
+    """
+    target = action.modal
+    target[:] = 0.0
+    if target.shape[1] == 0:
+        return
+    few, turned = 2 * len(listed) <= len(points), np.empty((len(structure.interfaces), 2, 3, 3))
+    for k in range(len(structure.interfaces)):
+        for side in range(2):
+            b, sign = (
+                structure.interfaces[k].master if side else structure.interfaces[k].slave,
+                -1.0 if side else 1.0,
+            )
+            if b != BASE:
+                R, Q = action.halfway[b], action.frames[k]
+                for a in range(3):
+                    for c in range(3):
+                        turned[k, side, a, c] = sign * (
+                            R[0, a] * Q[0, c] + R[1, a] * Q[1, c] + R[2, a] * Q[2, c]
+                        )
+    nodal, along = np.zeros((0 if few else len(structure.pushes), 3)), np.empty(3)
+    for i in listed:
+        force = contact[i].force
+        if force[2] <= 0.0:
+            continue
+        for side in range(2):
+            b, T = points[i].master if side else points[i].slave, turned[points[i].interface, side]
+            if b == BASE:
+                continue
+            for a in range(3):
+                along[a] = T[a, 0] * force[0] + T[a, 1] * force[1] + T[a, 2] * force[2]
+            if few:
+                _add_modal(
+                    structure.pushes, points[i], side == 0, along[0], along[1], along[2], target[b]
+                )
+                continue
+            # of whole feet: forces on their nodes first, then one product a body
+            for q in range(3 if side else points[i].count):
+                node, w = (
+                    points[i].below[q] if side else points[i].carriers[q],
+                    points[i].shares[q] if side else points[i].weights[q],
+                )
+                for a in range(3):
+                    nodal[node, a] += w * along[a]
+    if few:
+        return
+    loads, flat = (
+        nodal.reshape(3 * len(nodal)),
+        structure.pushes.reshape(3 * len(structure.pushes), target.shape[1]),
+    )
+    for b in range(len(target)):
+        first, count = structure.bodies.body[b].first, structure.bodies.body[b].count
+        put(
+            loads[3 * first : 3 * (first + count)] @ flat[3 * first : 3 * (first + count)],
+            target[b],
+        )
+
+
+@njit
+def _add_modal(pushes, point, on, x, y, z, target):
+    """Add to target (m,) what the force (x, y, z) at a point of POINT, in the body's frame, does on
+    the modes of its slave, `on`, or of its master.
+    """
+    for q in range(point.count if on else 3):
+        node, share = (
+            (point.carriers[q], point.weights[q]) if on else (point.below[q], point.shares[q])
+        )
+        first, second, third = pushes[node, 0], pushes[node, 1], pushes[node, 2]
+        for k in range(len(target)):
+            target[k] += share * (x * first[k] + y * second[k] + z * third[k])
+
+
+@njit
+def push_bodies(structure, scheme, points, arms, poses, impulses, motion):
+    """Velocity jump by impulses (P, 3) [N s] on the slaves at the points with `arms` (P, 3) [m], in
+    the frames of their interfaces, and by the opposite on the masters.
+    """
+    jump, arm, pushed = np.empty(motion.modal.shape[2]), np.empty(3), np.empty(3)
+    for b in range(len(motion.frames)):
+        body, R, moment = structure.bodies.body[b], motion.rotation[b], np.zeros(3)
+        jump[:] = 0.0
+        for i in range(len(points)):
+            p0, p1, p2, on = impulses[i, 0], impulses[i, 1], impulses[i, 2], points[i].slave == b
+            if not (on or points[i].master == b) or p0 == 0.0 and p1 == 0.0 and p2 == 0.0:
+                continue
+            if points[i].master != BASE:
+                Q = poses[points[i].interface].frame
+                for a in range(3):
+                    pushed[a] = Q[a, 0] * p0 + Q[a, 1] * p1 + Q[a, 2] * p2
+                p0, p1, p2 = pushed[0], pushed[1], pushed[2]
+            if not on:
+                p0, p1, p2 = -p0, -p1, -p2
+            motion.frames[b].velocity[0] += p0 / body.mass
+            motion.frames[b].velocity[1] += p1 / body.mass
+            motion.frames[b].velocity[2] += p2 / body.mass
+            for a in range(3):
+                arm[a] = arms[i, a] if on else points[i].seat[a]
+            b0, b1, b2 = (
+                R[0, 0] * p0 + R[1, 0] * p1 + R[2, 0] * p2,
+                R[0, 1] * p0 + R[1, 1] * p1 + R[2, 1] * p2,
+                R[0, 2] * p0 + R[1, 2] * p1 + R[2, 2] * p2,
+            )
+            moment[0] += arm[1] * b2 - arm[2] * b1
+            moment[1] += arm[2] * b0 - arm[0] * b2
+            moment[2] += arm[0] * b1 - arm[1] * b0
+            if len(jump) == 0:
+                continue
+            _add_modal(structure.pushes, points[i], on, b0, b1, b2, jump)
+        J = body.inverse_inertia
+        for a in range(3):
+            motion.frames[b].spin[a] += (
+                J[a, 0] * moment[0] + J[a, 1] * moment[1] + J[a, 2] * moment[2]
+            )
+        for k in range(len(jump)):
+            motion.modal[b, RATE, k] += jump[k]
+            # the damping that HHT remembers is that of the new rates
+            motion.modal[b, ACCELERATION, k] -= (
+                (1 + scheme.alpha) * structure.damping[b, k] * jump[k]
+            )

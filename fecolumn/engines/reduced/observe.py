@@ -1,0 +1,256 @@
+"""Rows of the history of a reduced analysis, and when the column is lost."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn.contact.points import BASE
+from fecolumn.contact.pose import SLAVE, find_poses
+from fecolumn.contact.record import record
+from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.engines.dynamics.overturning import (
+    CAPPED,
+    FELL,
+    NO_RETURN,
+    STANDS,
+    Stance,
+    fallen,
+    gone,
+)
+from fecolumn.engines.reduced.elastic import COORDINATE
+from fecolumn.engines.reduced.ledger import N_TERMS, kinetic, strain, weight_energy
+from fecolumn.foundation._compiled import njit
+
+#: Columns of a row: name in the history file and how many numbers.
+COLUMNS = (
+    ("time", 1),
+    ("u_top", 3),
+    ("tilt", 1),
+    ("twist", 1),
+    ("slide", 2),
+    ("contact_force", 3),
+    ("active_nodes", 1),
+    ("penetration", 1),
+    ("ground", 3),
+    ("iterations", 1),
+    *((f"energy/{term}", 1) for term in TERMS),
+)
+WIDTH = sum(count for _, count in COLUMNS)
+
+
+def place_of(column: str, columns=COLUMNS) -> int:
+    """Place in a row of the first number of a column."""
+    names = [name for name, _ in columns]
+    return sum(count for _, count in columns[: names.index(column)])
+
+
+_TOP, _TILT, _TWIST, _SLIDE, _FORCE, _ACTIVE, _DEPTH, _GROUND, _SPENT = (
+    place_of(name)
+    for name in (
+        "u_top",
+        "tilt",
+        "twist",
+        "slide",
+        "contact_force",
+        "active_nodes",
+        "penetration",
+        "ground",
+        "iterations",
+    )
+)
+#: Place of the energy terms in a row.
+ENERGY = WIDTH - len(TERMS)
+
+
+#: A point of a body that is watched: arm: (3,) from its centre of mass in its frame [m].
+MARK = record(("body", "i8"), ("arm", "f8", 3))
+#: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its
+#: centre of mass [m], tilt [rad] and rotation vector [rad]; of each interface tilt of the slave
+#: from the master [rad], rise of the middle of its foot and its slide along two tangents [m],
+#: normal force [N]; of each mark its displacement [m]; of each link tension [N], elongation from its
+#: unstressed length and the part of it that has yielded [m], energy that it has taken [J], whether
+#: it is broken.
+OF_BODY, OF_INTERFACE, OF_MARK = (
+    (("displacement", 3), ("tilt", 1), ("rotation", 3)),
+    (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1)),
+    (("displacement", 3),),
+)
+OF_LINK = (("tension", 1), ("elongation", 1), ("yielded", 1), ("work", 1), ("broken", 1))
+#: Numbers in a row of each of them
+PER_BODY, _N_INTERFACE, _N_MARK, _N_LINK = (
+    sum(count for _, count in columns) for columns in (OF_BODY, OF_INTERFACE, OF_MARK, OF_LINK)
+)
+_BODY_TILT, _TURN, _RISE, _SHIFT, _NORMAL = (
+    place_of("tilt", OF_BODY),
+    place_of("rotation", OF_BODY),
+    *(place_of(name, OF_INTERFACE) for name in ("rise", "slide", "force")),
+)
+
+
+class View(NamedTuple):
+    """What is watched: center: (nb, 3) of mass in the reference configuration; body: the one of
+    which top_arm (3,), top_shape (3, m), foot_arm (3,), foot_shape (3, m) are means over top and
+    foot; stance: when it is lost, if it stands alone. limits: (nb,) tilts [rad] at which a body of
+    many is lost, none for one alone; standing: (nb,) of `overturning.STANDING`, by which it is lost
+    before, with the corners (k, 2) [m] of all. feet: (ni, 3) of the interfaces [m] and normals:
+    (ni, 3) of them in the frames of their slaves, in the reference configuration; marks: (nm,) of
+    MARK, their shapes (nm, 3, m). links: how many. levels: (G,) heights of the grounds [m].
+    """
+
+    center: np.ndarray
+    body: int
+    top_arm: np.ndarray
+    top_shape: np.ndarray
+    foot_arm: np.ndarray
+    foot_shape: np.ndarray
+    stance: Stance
+    limits: np.ndarray
+    standing: np.ndarray
+    corners: np.ndarray
+    feet: np.ndarray
+    normals: np.ndarray
+    marks: np.ndarray
+    shapes: np.ndarray
+    links: int = 0
+    levels: np.ndarray = np.zeros(1)
+
+    @property
+    def width(self) -> int:
+        """Numbers in a row."""
+        return (
+            WIDTH
+            if not len(self.limits)
+            else WIDTH
+            + PER_BODY * len(self.center)
+            + _N_INTERFACE * len(self.feet)
+            + _N_MARK * len(self.marks)
+            + _N_LINK * self.links
+        )
+
+
+@njit
+def _displace(b, arm, shape, center, motion, axes, row, place):
+    """Put the displacement along the first `axes` of a point of body b from `place` on in the row."""
+    for axis in range(axes):
+        row[place + axis] = motion.frames[b].center[axis] - center[b, axis] - arm[axis]
+    for a in range(3):
+        local = arm[a]
+        for k in range(shape.shape[1]):
+            local += shape[a, k] * motion.modal[b, COORDINATE, k]
+        for axis in range(axes):
+            row[place + axis] += motion.rotation[b, axis, a] * local
+
+
+@njit
+def observe(structure, points, poses, eye, motion, ledger, iterations, row):
+    """Fill a row (eye.width,); points: (P,) of POINT, poses: room for (ni,) of POSE."""
+    R, contact = motion.rotation[eye.body], motion.contact
+    row[:] = 0.0
+    row[0] = motion.whole[0].time
+    _displace(eye.body, eye.top_arm, eye.top_shape, eye.center, motion, 3, row, _TOP)
+    row[_TILT] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
+    row[_TWIST] = np.arctan2(R[1, 0] - R[0, 1], R[0, 0] + R[1, 1])
+    _displace(eye.body, eye.foot_arm, eye.foot_shape, eye.center, motion, 2, row, _SLIDE)
+    for i in range(len(contact)):
+        if contact[i].force[2] > 0:
+            row[_ACTIVE] += 1
+            if structure.interfaces[points[i].interface].master == BASE:
+                for a in range(3):
+                    row[_FORCE + a] += contact[i].force[a]
+        if contact[i].located:
+            row[_DEPTH] = max(row[_DEPTH], -contact[i].relative[2])
+    for a in range(3):
+        row[_GROUND + a] = motion.whole[0].ground[a]
+    row[_SPENT] = iterations
+    row[ENERGY], row[ENERGY + 1], row[ENERGY + 2] = (
+        kinetic(structure, motion),
+        strain(structure, motion),
+        weight_energy(structure, eye.center, motion),
+    )
+    closure = row[ENERGY] + row[ENERGY + 1] + row[ENERGY + 2]
+    for k in range(N_TERMS):
+        closure -= ledger[k]
+        if k:
+            row[ENERGY + 2 + k] = ledger[k]
+    row[WIDTH - 1] = closure
+    if len(eye.limits):
+        _observe_all(structure, points, poses, eye, motion, row)
+
+
+@njit
+def _observe_all(structure, points, poses, eye, motion, row):
+    """Fill what a row has of bodies, interfaces, marks and links."""
+    place = WIDTH
+    for b in range(len(motion.frames)):
+        R = motion.rotation[b]
+        for a in range(3):
+            row[place + a] = motion.frames[b].center[a] - eye.center[b, a]
+        row[place + _BODY_TILT] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
+        # sine and cosine of the angle of the rotation, along its axis the first
+        x, y, z = (R[2, 1] - R[1, 2]) / 2, (R[0, 2] - R[2, 0]) / 2, (R[1, 0] - R[0, 1]) / 2
+        sine, cosine = np.sqrt(x * x + y * y + z * z), (R[0, 0] + R[1, 1] + R[2, 2] - 1) / 2
+        factor = np.arctan2(sine, cosine) / sine if sine > 0 else 1.0
+        row[place + _TURN], row[place + _TURN + 1] = factor * x, factor * y
+        row[place + _TURN + 2] = factor * z
+        place += PER_BODY
+    find_poses(structure.interfaces, motion.grounds, motion.frames, motion.rotation, poses)
+    first = place
+    for k in range(len(structure.interfaces)):
+        T, foot, normal = poses[k].turned[SLAVE], poses[k].foot, eye.normals[k]
+        x, y, z = (
+            T[2, 1] * normal[2] - T[2, 2] * normal[1],
+            T[2, 2] * normal[0] - T[2, 0] * normal[2],
+            T[2, 0] * normal[1] - T[2, 1] * normal[0],
+        )
+        row[place] = np.arctan2(
+            np.hypot(np.hypot(x, y), z),
+            T[2, 0] * normal[0] + T[2, 1] * normal[1] + T[2, 2] * normal[2],
+        )
+        row[place + _RISE] = foot[2] - eye.feet[k, 2]
+        for a in range(2):
+            row[place + _SHIFT + a] = foot[a] - eye.feet[k, a]
+        place += _N_INTERFACE
+    for i in range(len(points)):
+        if motion.contact[i].force[2] > 0:
+            row[first + _N_INTERFACE * points[i].interface + _NORMAL] += motion.contact[i].force[2]
+    for n in range(len(eye.marks)):
+        _displace(
+            eye.marks[n].body, eye.marks[n].arm, eye.shapes[n], eye.center, motion, 3, row, place
+        )
+        place += _N_MARK
+    for n in range(len(motion.ties)):
+        tie = motion.ties[n]
+        row[place], row[place + 1], row[place + 2] = (
+            tie.force,
+            tie.length - structure.links[n].length,
+            tie.flowed,
+        )
+        row[place + 3], row[place + 4] = tie.work, tie.broken
+        place += _N_LINK
+
+
+@njit
+def lost(eye, motion, row, steepest):
+    """As `overturning.fallen`, of a motion and its row; FELL where one of many bodies has fallen
+    past the lowest ground.
+    """
+    top, force = np.hypot(row[_TOP], row[_TOP + 1]), row[_FORCE : _FORCE + 3]
+    if len(eye.limits):
+        spins = np.empty((len(eye.limits), 3))
+        for b in range(len(eye.limits)):
+            for a in range(3):
+                spins[b, a] = motion.frames[b].spin[a]
+        for b in range(len(eye.limits)):
+            if motion.frames[b].center[2] < eye.levels.min():
+                return FELL
+            if row[WIDTH + PER_BODY * b + _BODY_TILT] > eye.limits[b] or gone(
+                eye.standing, eye.corners, motion.rotation, spins, b, force, steepest
+            ):
+                return NO_RETURN
+        return CAPPED if top >= eye.stance.cap else STANDS
+    # what is short of both its cap and its critical tilt stands: most steps, at no cost
+    if top < eye.stance.cap and row[_TILT] <= eye.stance.critical:
+        return STANDS
+    return fallen(eye.stance, motion.rotation[0], motion.frames[0].spin, force, top, steepest)

@@ -1,0 +1,121 @@
+"""Rotation of a floating frame in a step."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.foundation._compiled import njit
+
+
+@njit
+def turn_by(rotation, vector, target):
+    """Target = rotation exp(vector), by Rodrigues' formula; orthonormal to rounding if `rotation`
+    is nearly so.
+    """
+    x, y, z = vector[0], vector[1], vector[2]
+    square = x * x + y * y + z * z
+    angle = np.sqrt(square)
+    if angle < 1e-4:
+        a, b = 1 - square / 6, 0.5 - square / 24
+    else:
+        a, b = np.sin(angle) / angle, (1 - np.cos(angle)) / square
+    e00, e01, e02 = 1 - b * (y * y + z * z), b * x * y - a * z, b * x * z + a * y
+    e10, e11, e12 = b * x * y + a * z, 1 - b * (x * x + z * z), b * y * z - a * x
+    e20, e21, e22 = b * x * z - a * y, b * y * z + a * x, 1 - b * (x * x + y * y)
+    for i in range(3):
+        r0, r1, r2 = rotation[i, 0], rotation[i, 1], rotation[i, 2]
+        target[i, 0] = r0 * e00 + r1 * e10 + r2 * e20
+        target[i, 1] = r0 * e01 + r1 * e11 + r2 * e21
+        target[i, 2] = r0 * e02 + r1 * e12 + r2 * e22
+
+
+@njit
+def orthonormal(rotation):
+    """Take the rounding of many turns out of a rotation, in place: R (3 - R^T R) / 2."""
+    product = np.empty((3, 3))
+    for i in range(3):
+        for j in range(3):
+            product[i, j] = (
+                rotation[0, i] * rotation[0, j]
+                + rotation[1, i] * rotation[1, j]
+                + rotation[2, i] * rotation[2, j]
+            )
+    for i in range(3):
+        r0, r1, r2 = rotation[i, 0], rotation[i, 1], rotation[i, 2]
+        for j in range(3):
+            rotation[i, j] = 1.5 * rotation[i, j] - 0.5 * (
+                r0 * product[0, j] + r1 * product[1, j] + r2 * product[2, j]
+            )
+
+
+@njit
+def turning(body, advance, rotation, half, spread, resistance, turn, moment, halfway):
+    """Solve Th = advance/2 + J^-1 exp(-Th) (J advance/2 + half R0^T M) for the turn Th, and its
+    moment M, in the column's frame.
+
+    Energy-momentum conserving (Simo and Wong 1991): with M = sinc(|Th|/2) sum (Rh A) x r, Th . M is
+    the work of the forces on the path of rigid arms A.
+
+    Parameters
+    ----------
+    body
+        of BODY.
+    advance
+        (3,) dt times the spin at the start.
+    spread
+        (3, 3) sum of A r^T, r in the table frame.
+    resistance
+        (3,) added to M.
+    turn
+        first guess, and the result.
+    moment, halfway
+        results; the moment in the column's frame at the start.
+    """
+    momentum, part, inertia, inverse = np.empty(3), np.empty(3), body.inertia, body.inverse_inertia
+    for i in range(3):
+        momentum[i] = 0.5 * (
+            inertia[i, 0] * advance[0] + inertia[i, 1] * advance[1] + inertia[i, 2] * advance[2]
+        )
+    for _ in range(50):
+        x, y, z = turn[0], turn[1], turn[2]
+        quarter = (x * x + y * y + z * z) / 4
+        sinc = (
+            1 - quarter / 6 * (1 - quarter / 20)
+            if quarter < 1e-4
+            else np.sin(np.sqrt(quarter)) / np.sqrt(quarter)
+        )
+        part[0], part[1], part[2] = x / 2, y / 2, z / 2
+        turn_by(rotation, part, halfway)
+        # arms turned into the table frame: B = Rh spread
+        m0 = m1 = m2 = 0.0
+        for a in range(3):
+            m0 += halfway[1, a] * spread[a, 2] - halfway[2, a] * spread[a, 1]
+            m1 += halfway[2, a] * spread[a, 0] - halfway[0, a] * spread[a, 2]
+            m2 += halfway[0, a] * spread[a, 1] - halfway[1, a] * spread[a, 0]
+        for i in range(3):
+            moment[i] = (
+                sinc * (rotation[0, i] * m0 + rotation[1, i] * m1 + rotation[2, i] * m2)
+                + resistance[i]
+            )
+        b0, b1, b2 = (
+            momentum[0] + half * moment[0],
+            momentum[1] + half * moment[1],
+            momentum[2] + half * moment[2],
+        )
+        # exp(-Th) b
+        square = x * x + y * y + z * z
+        if square < 1e-8:
+            s, c = 1 - square / 6, 0.5 - square / 24
+        else:
+            angle = np.sqrt(square)
+            s, c = np.sin(angle) / angle, (1 - np.cos(angle)) / square
+        k0, k1, k2 = y * b2 - z * b1, z * b0 - x * b2, x * b1 - y * b0
+        l0, l1, l2 = y * k2 - z * k1, z * k0 - x * k2, x * k1 - y * k0
+        b0, b1, b2 = b0 - s * k0 + c * l0, b1 - s * k1 + c * l1, b2 - s * k2 + c * l2
+        change = 0.0
+        for i in range(3):
+            new = 0.5 * advance[i] + inverse[i, 0] * b0 + inverse[i, 1] * b1 + inverse[i, 2] * b2
+            change = max(change, abs(new - turn[i]))
+            turn[i] = new
+        if change <= 1e-17 + 2e-16 * (abs(turn[0]) + abs(turn[1]) + abs(turn[2])):
+            break

@@ -1,0 +1,166 @@
+"""Bodies that stand on one another, as the compiled engine takes them: from the plain numbers of a
+`structures.model.StructureModel`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
+from fecolumn.contact.joints import joints_of
+from fecolumn.contact.points import BASE
+from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
+from fecolumn.contact.tolerances import RIGID_GIVE
+from fecolumn.engines.dynamics.links import links_of
+from fecolumn.engines.dynamics.overturning import Limits, never_alone
+from fecolumn.engines.reduced.model import Structure, modal_sum
+from fecolumn.engines.reduced.observe import MARK, View
+
+
+def structure_of(model, hht, gravity, parts_of_step: int = 1) -> tuple[Structure, np.ndarray]:
+    """Structure as steps of `hht` see it, and its points (P,) of POINT.
+
+    Parameters
+    ----------
+    model
+        StructureModel, each part with the modes that are to move.
+    parts_of_step
+        in one of so many points land: what bodies that do not deform give in it is by its length.
+
+    Raises
+    ------
+    ValueError
+        a link is too stiff for the step; names it and the longest step.
+    """
+    parts, modes = model.parts, max(len(part.model.frequencies) for part in model.parts)
+    squares, damping, pushes, bodies = (
+        np.zeros((len(parts), modes)),
+        np.zeros((len(parts), modes)),
+        [],
+        [],
+    )
+    for b, part in enumerate(parts):
+        body, m = part.model, len(part.model.frequencies)
+        squares[b, :m], ratio = (
+            body.frequencies**2,
+            part.damping_ratio if body.damping is None else body.damping,
+        )
+        damping[b, :m] = 2 * ratio * body.frequencies
+        shrink = 1 / (1 + squares[b, :m] * hht.stiffness_factor / hht.mass_factor)
+        own = body.shapes * (2 * shrink - shrink**2)
+        static = (
+            node_matrix(body.flexibility) - modal_sum(own, 1 / squares[b, :m])
+            if body.flexibility.any()
+            else _least_give(body, hht.dt / parts_of_step)
+        )
+        bodies.append(
+            one_body(body.arms, static, modal_sum(own, np.ones(m)), float(body.mass), body.inertia)
+        )
+        pushes.append(np.pad(own, ((0, 0), (0, 0), (0, modes - m))))
+    whole, first = joined(bodies), np.cumsum([0] + [len(part.model.arms) for part in parts])
+    reach = np.concatenate(
+        [
+            np.sqrt(
+                (own[..., : len(part.model.frequencies)] ** 2 / part.model.frequencies**2).sum(
+                    axis=(1, 2)
+                )
+            )
+            for own, part in zip(pushes, parts)
+        ]
+    )
+    joints = joints_of(parts, model.joints)
+    for interface, joint in zip(joints.interfaces, model.joints):
+        if joint.master != BASE:
+            interface["reach"] = reach[
+                first[joint.master] + parts[joint.master].model.surfaces[joint.master_surface].nodes
+            ].max()
+    structure = Structure(
+        Bodies(*whole[:4], joints.facets),
+        np.ascontiguousarray(np.concatenate(pushes)),
+        squares,
+        damping,
+        reach,
+        joints.interfaces,
+        joints.rim,
+        joints.overlaps,
+        links_of(model, hht),
+        np.array(gravity, float),
+    )
+    return structure, joints.points
+
+
+def _least_give(body, dt: float) -> np.ndarray:
+    """Static compliance (3 n, 3 n) [m/N] of a BodyModel that does not deform, in steps dt [s]: each
+    contact point gives alone, RIGID_GIVE of what the body's points move on the mean.
+    """
+    touching = np.unique(
+        np.concatenate(
+            [np.zeros(0, np.int64), *(surface.nodes for surface in body.surfaces.values())]
+        )
+    )
+    turning = np.linalg.inv(body.inertia)
+    # trace of 1 / m + [a] J^-1 [a]^T
+    turned = [np.trace(turning) * (arm @ arm) - arm @ turning @ arm for arm in body.arms[touching]]
+    static = np.zeros(2 * (3 * len(body.arms),))
+    rows = (3 * touching[:, None] + np.arange(3)).ravel()
+    static[rows, rows] = (
+        RIGID_GIVE * dt**2 / 2 * (1 / body.mass + np.sum(turned) / (3 * max(len(touching), 1)))
+    )
+    return static
+
+
+def view_of(model, structure, weight: float, limits: Limits, cap: float = 0.0) -> View:
+    """What is watched of a StructureModel.
+
+    Parameters
+    ----------
+    weight
+        of all bodies [N].
+    cap
+        horizontal displacement of the observed mark that counts as overturned [m], 0 for none.
+    limits
+        when a body is lost.
+    """
+    centers, rotations = (
+        np.array([part.center for part in model.parts]),
+        np.tile(np.eye(3), (len(model.parts), 1, 1)),
+    )
+    modes, (body, name) = structure.squares.shape[1], model.observed
+    names = [(b, mark) for b, part in enumerate(model.parts) for mark in part.model.marks]
+    marks, shapes = np.zeros(len(names), MARK), np.zeros((len(names), 3, modes))
+    for n, (b, mark) in enumerate(names):
+        arm, shape = model.parts[b].model.marks[mark]
+        marks[n]["body"], marks[n]["arm"], shapes[n, :, : shape.shape[1]] = b, arm, shape
+    place = names.index((body, name))
+    feet = [joint for joint in model.joints if joint.slave == body]
+    foot, foot_shape = np.zeros(3), np.zeros((3, modes))
+    if feet:
+        own = model.parts[body].model
+        surface = own.surfaces[feet[0].slave_surface]
+        share = surface.areas / surface.areas.sum()
+        foot = share @ own.arms[surface.nodes]
+        foot_shape[:, : own.shapes.shape[2]] = np.einsum(
+            "i,iam->am", share, own.shapes[surface.nodes]
+        )
+        if feet[0].ball:
+            foot += feet[0].ball.radius * surface.normal
+    reference = poses_of(structure.interfaces, centers, rotations, grounds_at(model.levels))
+    stance = never_alone(model.parts[body].model.inertia, weight, cap)
+    return View(
+        centers,
+        body,
+        np.array(marks[place]["arm"]),
+        np.ascontiguousarray(shapes[place]),
+        foot,
+        foot_shape,
+        stance,
+        limits.tilts,
+        limits.standing,
+        limits.corners,
+        np.array(reference["foot"]),
+        np.array(reference["turned"][:, SLAVE, 2]),
+        marks,
+        shapes,
+        len(structure.links),
+        np.array(model.levels, float),
+    )

@@ -1,0 +1,79 @@
+"""The result folder of an analysis: one process at a time, one case."""
+
+from __future__ import annotations
+
+import contextlib
+import fcntl
+import os
+from pathlib import Path
+
+from fecolumn.case.case import Case
+from fecolumn.foundation.atomic import disk_full, write_json
+from fecolumn.foundation.files import Unreadable, read_json
+from fecolumn.foundation.lock import open_lock
+from fecolumn.foundation.schema import InputError
+
+
+@contextlib.contextmanager
+def held(folder: Path, case: Case, comm, file):
+    """Hold the folder for one process; yields the function that makes it this case's, for when the
+    analysis has started.
+
+    Nothing is written where it is another case's, and what does not start leaves the folder free
+    for any case.
+    """
+    refusal, lock, made, known = None, None, False, folder / "case.json"
+    if comm.rank == 0:
+        try:
+            made = not folder.exists()
+            folder.mkdir(parents=True, exist_ok=True)
+            if known.is_file():
+                other = read_json(known)["id"]
+                if other != case.id:
+                    refusal = (
+                        "-o",
+                        str(folder),
+                        f"holds the results of another case ({other}, this one is "
+                        f"{case.id}); give a new folder",
+                    )
+            elif any(folder.iterdir()) and not (folder / ".lock").exists():
+                refusal = "-o", str(folder), "must be a new or empty folder, or one of this case"
+            if refusal is None:
+                lock = open_lock(folder / ".lock")
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                # its holder has just given the folder up
+                if not os.path.samestat(os.fstat(lock.fileno()), os.stat(folder / ".lock")):
+                    raise BlockingIOError
+        except (BlockingIOError, FileNotFoundError):
+            refusal = "-o", str(folder), "another run is writing into this folder"
+        except (NotADirectoryError, FileExistsError):
+            refusal = "-o", str(folder), "is a file; a folder is needed"
+        except PermissionError:
+            refusal = "-o", str(folder), "may not be written (permission denied)"
+        except (Unreadable, KeyError, TypeError):
+            refusal = "-o", str(folder), "its case.json is damaged; give a new folder"
+        except OSError as error:
+            if disk_full(error):
+                raise
+            refusal = (
+                "-o",
+                str(folder),
+                f"cannot be written ({error.strerror}); give another folder",
+            )
+    refusal = comm.bcast(refusal)
+    if refusal:
+        raise InputError(file, *refusal)
+
+    def claim():
+        if lock and not known.is_file():
+            write_json(known, {"id": case.id, "file": str(file), "case": case.as_stated()})
+
+    try:
+        yield claim
+    finally:
+        if lock:
+            if [entry.name for entry in folder.iterdir()] == [".lock"]:
+                (folder / ".lock").unlink()
+                if made:
+                    folder.rmdir()
+            lock.close()

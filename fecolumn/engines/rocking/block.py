@@ -1,0 +1,411 @@
+"""The planar rocking block (Housner 1963): free or held by springs, a tendon, a roof; leaning to
+both sides or to one.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from fecolumn.engines.rocking.column import RigidColumn
+from fecolumn.engines.rocking.impact import body_restitution, one_sided_restitution
+from fecolumn.engines.rocking.model import ModelResponse
+from fecolumn.engines.rocking.plane import Plane, respond
+from fecolumn.engines.rocking.restraint import Restraint
+from fecolumn.foundation.schema import InputError, Section, parameter
+from fecolumn.motions.record import GroundMotion
+
+
+@dataclass(frozen=True, slots=True)
+class BlockSection(Section):
+    """Rectangular rigid block that rocks along x, about the edges of its foot; with depth_m along
+    y, too, as if each did not know of the other.
+    """
+
+    width_m: float | None = parameter(
+        None,
+        doc="width along x; or slenderness_rad and half_diagonal_m",
+        unit="m",
+        above=0,
+        high=1000,
+    )
+    height_m: float | None = parameter(
+        None, doc="height; or slenderness_rad and half_diagonal_m", unit="m", above=0, high=1000
+    )
+    slenderness_rad: float | None = parameter(
+        None,
+        doc="alpha: tilt at which the centre of mass stands over the edge",
+        unit="rad",
+        above=0,
+        high=1.5,
+    )
+    half_diagonal_m: float | None = parameter(
+        None, doc="R: half the diagonal", unit="m", above=0, high=1000
+    )
+    depth_m: float | None = parameter(
+        None,
+        doc="depth along y; left out: 1 m of a wall that rocks along x alone",
+        unit="m",
+        above=0,
+        high=1000,
+    )
+    density_kg_m3: float = parameter(
+        2000.0,
+        doc="density; of a free block it matters to forces and energies alone",
+        unit="kg/m3",
+        above=0,
+        high=1e5,
+    )
+    friction_coefficient: float = parameter(
+        0.6,
+        doc="Coulomb friction coefficient of the foot: only checked, the block does not slide",
+        above=0,
+        high=10,
+    )
+    restitution: float | None = parameter(
+        None,
+        doc="angular velocity after over before an impact; left out: by the plastic impact",
+        low=0,
+        high=1,
+    )
+    sides: int = parameter(
+        2, doc="2: leans to both sides; 1: to +x alone, held by a wall behind it", low=1, high=2
+    )
+    spring_n_m: float = parameter(
+        0.0,
+        doc="stiffness of a horizontal spring on the block's axis",
+        unit="N/m",
+        low=0,
+        high=1e12,
+    )
+    spring_height_m: float | None = parameter(
+        None, doc="height of that spring; left out: at the top", unit="m", above=0, high=1000
+    )
+    bed_n_m2: float = parameter(
+        0.0,
+        doc="stiffness over height of horizontal springs smeared over the block's axis",
+        unit="N/m2",
+        low=0,
+        high=1e12,
+    )
+    bed_from_m: float = parameter(
+        0.0, doc="lower end of that bed of springs", unit="m", low=0, high=1000
+    )
+    bed_to_m: float | None = parameter(
+        None,
+        doc="upper end of that bed of springs; left out: the top",
+        unit="m",
+        above=0,
+        high=1000,
+    )
+    tendon_n_m: float = parameter(
+        0.0,
+        doc="stiffness of a tendon in a duct on the block's axis, anchored below the foot",
+        unit="N/m",
+        low=0,
+        high=1e12,
+    )
+    tendon_prestress_n: float = parameter(
+        0.0, doc="force of that tendon upright", unit="N", low=0, high=1e12
+    )
+    roof_mass_kg: float = parameter(
+        0.0, doc="mass on the top, which moves with it as a point", unit="kg", low=0, high=1e9
+    )
+    roof_eccentricity_m: float = parameter(
+        0.0,
+        doc="distance of that mass from the block's axis, towards +x",
+        unit="m",
+        low=-1000,
+        high=1000,
+    )
+    roof_thrust_n: float = parameter(
+        0.0,
+        doc="constant horizontal force of the roof at the top, towards +x",
+        unit="N",
+        low=-1e9,
+        high=1e9,
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class RockingBlock:
+    """A rigid body that rocks in the planes of x and y, each as if the other did not move.
+
+    Attributes
+    ----------
+    planes
+        one for each axis along which it can rock.
+    """
+
+    TABLE: ClassVar[str] = "block"
+    SECTION: ClassVar[type] = BlockSection
+
+    planes: tuple[Plane, ...]
+
+    @classmethod
+    def of_section(cls, section: BlockSection, file) -> RockingBlock:
+        """Block of its table.
+
+        Raises
+        ------
+        InputError
+            keys that do not fit together.
+        """
+        width, height = outline(section, "block", file)
+        own = dataclasses.replace(section, width_m=width, height_m=height)
+        mass = section.density_kg_m3 * width * height * (section.depth_m or 1.0)
+        for key, value, high in (
+            ("spring_height_m", section.spring_height_m, height),
+            ("bed_to_m", section.bed_to_m, height),
+            ("bed_from_m", section.bed_from_m, section.bed_to_m or height),
+        ):
+            if value is not None and value > high:
+                raise InputError(file, f"block.{key}", value, f"must be at most {high:g} m")
+        if abs(section.roof_eccentricity_m) > width / 2:
+            raise InputError(
+                file,
+                "block.roof_eccentricity_m",
+                section.roof_eccentricity_m,
+                f"must lie on the top, within {width / 2:g} m",
+            )
+        if section.sides == 1 and section.depth_m:
+            raise InputError(
+                file,
+                "block.depth_m",
+                section.depth_m,
+                "must be left out where block.sides = 1: such a block leans to +x alone",
+            )
+        planes = [_plane(own, 0, width, mass)]
+        if section.depth_m:
+            planes.append(
+                _plane(
+                    dataclasses.replace(own, roof_eccentricity_m=0.0, roof_thrust_n=0.0),
+                    1,
+                    section.depth_m,
+                    mass,
+                )
+            )
+        block = cls(tuple(planes))
+        for plane in block.planes:
+            _refuse_fallen(plane, file, section)
+        return block
+
+    @classmethod
+    def of_body(cls, body: RigidColumn, friction: float, file, restitution=None) -> RockingBlock:
+        """A body on its foot, with its mass, centre and inertia; its restitution by the plastic
+        impact unless given.
+
+        Raises
+        ------
+        InputError
+            the body does not stand on its foot.
+        """
+        planes = []
+        for axis in (0, 1):
+            edges = (
+                body.half_foot[axis] - body.offset[axis],
+                body.half_foot[axis] + body.offset[axis],
+            )
+            if min(edges) <= 0:
+                raise InputError(
+                    file,
+                    "column",
+                    None,
+                    f"its centre of mass stands {body.offset[axis]:.3g} m from the "
+                    f"middle of the foot, whose half is {body.half_foot[axis]:.3g} m",
+                )
+            planes.append(
+                body_plane(
+                    axis,
+                    body.mass,
+                    edges,
+                    body.height,
+                    body.inertia[1 - axis],
+                    body.top,
+                    (body.half_foot[axis],) * 2,
+                    restitution=restitution,
+                    friction=friction,
+                )
+            )
+        return cls(tuple(planes))
+
+    @property
+    def critical_tilt(self) -> float:
+        """Least tilt at which it is lost without help [rad]."""
+        return min(plane.verge()[0] for plane in self.planes)
+
+    @property
+    def critical_displacement(self) -> float:
+        """Displacement of the top there [m]."""
+        return min(plane.verge() for plane in self.planes)[1]
+
+    @property
+    def energy_to_overturn(self) -> float:
+        """That takes it there from upright [J]."""
+        return min(plane.verge()[2] for plane in self.planes)
+
+    def respond(
+        self,
+        motion: GroundMotion,
+        *,
+        free_s: float = 0.0,
+        every_s: float = 0.0,
+        tilt: float = 0.0,
+        tilt_rate: float = 0.0,
+        direction: float = 0.0,
+    ) -> ModelResponse:
+        """As of Model."""
+        return respond(self.planes, motion, free_s, every_s, tilt, tilt_rate, direction)
+
+    def describe(self) -> dict[str, tuple[float, str]]:
+        """Derived parameters, name to (value, unit)."""
+        return {
+            name: value
+            for plane in self.planes
+            for name, value in described(plane, len(self.planes) > 1).items()
+        }
+
+
+def outline(section, table: str, file) -> tuple[float, float]:
+    """Width and height [m] of a table that states them, or slenderness and half diagonal.
+
+    Raises
+    ------
+    InputError
+        neither pair is there, or both are.
+    """
+    sides, angles = ("width_m", "height_m"), ("slenderness_rad", "half_diagonal_m")
+    given = [
+        tuple(key for key in pair if getattr(section, key) is not None) for pair in (sides, angles)
+    ]
+    if sides == given[0] and not given[1]:
+        return section.width_m, section.height_m
+    if angles == given[1] and not given[0]:
+        return 2 * section.half_diagonal_m * math.sin(
+            section.slenderness_rad
+        ), 2 * section.half_diagonal_m * math.cos(section.slenderness_rad)
+    key = next(iter(given[0] + given[1]), "width_m")
+    raise InputError(
+        file,
+        f"{table}.{key}",
+        getattr(section, key),
+        f"state {table}.width_m and {table}.height_m, or {table}.slenderness_rad and "
+        f"{table}.half_diagonal_m",
+    )
+
+
+def body_plane(
+    axis: int,
+    mass: float,
+    edges,
+    height: float,
+    central: float,
+    top: float,
+    top_inside,
+    *,
+    restitution=None,
+    **more,
+) -> Plane:
+    """Plane of a rigid body of inertia `central` about its centre of mass; other arguments as of
+    Plane; restitution of both sides, None: by the plastic impact.
+    """
+    inertia = tuple(central + mass * (edge**2 + height**2) for edge in edges)
+    if restitution is None:
+        vectors = (-edges[0], height), (edges[1], height)
+        kept = (
+            body_restitution(mass, central, *vectors),
+            body_restitution(mass, central, *vectors[::-1]),
+        )
+    else:
+        kept = restitution, restitution
+    return Plane(axis, mass, tuple(edges), height, inertia, kept, top, tuple(top_inside), **more)
+
+
+def _plane(section: BlockSection, axis: int, width: float, mass: float) -> Plane:
+    height, roof, off = section.height_m, section.roof_mass_kg, section.roof_eccentricity_m
+    total = mass + roof
+    centre = np.array([roof * off, mass * height / 2 + roof * height]) / total
+    own, there = centre - (0.0, height / 2), centre - (off, height)
+    central = mass * (width**2 + height**2) / 12 + mass * own @ own + roof * there @ there
+    restraints = []
+    for side in (1, -1):
+        middle = width / 2
+        springs = (
+            ((section.spring_n_m, section.spring_height_m or height, middle),)
+            if section.spring_n_m
+            else ()
+        )
+        bed = (
+            ((section.bed_n_m2, section.bed_from_m, section.bed_to_m or height, middle),)
+            if section.bed_n_m2
+            else ()
+        )
+        tendons = (
+            ((section.tendon_n_m, section.tendon_prestress_n, 2 * middle),)
+            if section.tendon_n_m or section.tendon_prestress_n
+            else ()
+        )
+        restraints.append(
+            Restraint(springs, bed, tendons, (side * section.roof_thrust_n, height, middle))
+        )
+    restitution = section.restitution
+    if section.sides == 1 and restitution is None:
+        restitution = one_sided_restitution(math.atan2(width, height))
+    return body_plane(
+        axis,
+        total,
+        (width / 2 - centre[0], width / 2 + centre[0]),
+        float(centre[1]),
+        float(central),
+        height,
+        (width / 2, width / 2),
+        restitution=restitution,
+        restraints=tuple(restraints),
+        friction=section.friction_coefficient,
+        only=1 if section.sides == 1 else 0,
+    )
+
+
+def _refuse_fallen(plane: Plane, file, section) -> None:
+    rocker = plane.rocker
+    for side in plane.sides:
+        if not rocker.restoring(0.0, side) > 0:
+            raise InputError(
+                file,
+                "block.roof_thrust_n",
+                section.roof_thrust_n,
+                "overturns the block by itself towards "
+                f"{'+' if side > 0 else '-'}{'xy'[plane.axis]}",
+            )
+
+
+def described(plane: Plane, several: bool = False) -> dict[str, tuple[float, str]]:
+    """Derived parameters of a plane, name to (value, unit); those of its axis told apart where
+    there are several.
+    """
+    rocker, along = plane.rocker, f" along {'xy'[plane.axis]}" if several else ""
+    tilt, displacement, energy = plane.verge()
+    found = {
+        "mass": (plane.mass, "kg"),
+        f"slenderness alpha{along}": (rocker.alpha[0], "rad"),
+        f"R{along}": (rocker.radius[0], "m"),
+        f"frequency parameter p{along}": (math.sqrt(rocker.p2[0]), "rad/s"),
+    }
+    if rocker.alpha[0] != rocker.alpha[1]:
+        found |= {
+            f"alpha to the other side{along}": (rocker.alpha[1], "rad"),
+            f"p to the other side{along}": (math.sqrt(rocker.p2[1]), "rad/s"),
+        }
+    if rocker.restitution[0] != rocker.restitution[1]:
+        found[f"restitution from the other side{along}"] = (rocker.restitution[1], "-")
+    return found | {
+        f"restitution of the angular velocity{along}": (rocker.restitution[0], "-"),
+        f"uplift{along} at": (min(plane.uplift(side) for side in plane.sides), "g"),
+        f"critical tilt{along}": (tilt, "rad"),
+        f"displacement of the top there{along}": (displacement, "m"),
+        f"energy to overturn{along}": (energy, "J"),
+    }

@@ -1,0 +1,187 @@
+"""What a rocking model is: parameters, and its response to a motion.
+
+Any ensemble runs through any model.
+
+A model is a frozen dataclass with the methods of `Model`. Its name is a word of `MODELS`: of
+`fecolumn rocking NAME CASE`, and of integration.engine where it can be made from a column's case.
+"""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+
+from fecolumn.foundation.schema import InputError
+
+if TYPE_CHECKING:  # the command line asks for the names alone, and must not wait for libraries
+    import numpy as np
+
+    from fecolumn.motions.record import GroundMotion
+
+#: Name of each model: "module:class" in this package. The modules are imported only when asked for.
+MODELS = {
+    "housner": "block:RockingBlock",
+    "rocking_frame": "frame:RockingFrame",
+    "wobbling": "wobbling:Wobbling",
+    "wobbling_frame": "wobbling_frame:WobblingFrame",
+    "podium": "podium:Podium",
+}
+#: Name of a model's own table in a case file: name of the model.
+TABLES = {
+    "block": "housner",
+    "frame": "rocking_frame",
+    "wobbling": "wobbling",
+    "wobbling_frame": "wobbling_frame",
+    "podium": "podium",
+}
+SAFE, OVERTURNED = "safe", "overturned"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ModelResponse:
+    """How a model moved in one motion, relative to its base.
+
+    Attributes
+    ----------
+    time
+        (n,) rising [s].
+    coordinates
+        the model's own coordinates, name to (n,).
+    units
+        name of each coordinate to its unit, such as "rad".
+    tilt
+        (n,) angle of the (first) column's axis to the vertical, at least 0 [rad].
+    u_top
+        (n, 3) displacement of the top's centre along x, y and z (up) [m].
+    overturned
+        whether it fell; the rows end there.
+    impact_times
+        (k,) of all impacts, rising [s].
+    energy
+        term to (n,) [J]; names as in dynamics.energy.TERMS, zero terms may be left out. State
+        terms: kinetic, strain (of springs and tendons), gravity (0 upright); added up from the
+        start, losses negative: base_work, impact, damping; closure is what is left over of kinetic
+        + strain + gravity = start + base_work + impact + damping + closure.
+    notes
+        sentences a user must read, such as when the friction demanded exceeds the friction there
+        is.
+    peaks
+        further peak values by name with unit, such as "friction demanded [-]", "base shear [N]".
+    """
+
+    time: np.ndarray
+    coordinates: dict[str, np.ndarray]
+    units: dict[str, str]
+    tilt: np.ndarray
+    u_top: np.ndarray
+    overturned: bool
+    impact_times: np.ndarray
+    energy: dict[str, np.ndarray]
+    notes: tuple[str, ...] = ()
+    peaks: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def outcome(self) -> str:
+        """SAFE or OVERTURNED."""
+        return OVERTURNED if self.overturned else SAFE
+
+    @property
+    def u_max(self) -> float:
+        """Largest horizontal displacement of the top [m]; where the rows end if it overturned."""
+        return float((self.u_top[:, 0] ** 2 + self.u_top[:, 1] ** 2).max() ** 0.5)
+
+
+class Model(Protocol):
+    """A rocking model with its parameters.
+
+    Attributes
+    ----------
+    TABLE
+        name of its own table in a model's case file, such as "block".
+    SECTION
+        dataclass (schema.Section) of that table's keys.
+    """
+
+    TABLE: ClassVar[str]
+    SECTION: ClassVar[type]
+
+    @property
+    def critical_tilt(self) -> float:
+        """Tilt at which it is lost without help [rad]."""
+
+    @property
+    def critical_displacement(self) -> float:
+        """Displacement of the top at the critical tilt [m]."""
+
+    @property
+    def energy_to_overturn(self) -> float:
+        """Energy that takes it from upright to the critical tilt [J]."""
+
+    @classmethod
+    def of_section(cls, section: Any, file) -> Model:
+        """Model of its own table; InputError(file, "block.height_m", value, allowed) where keys do
+        not fit.
+        """
+
+    def respond(
+        self,
+        motion: GroundMotion,
+        *,
+        free_s: float = 0.0,
+        every_s: float = 0.0,
+        tilt: float = 0.0,
+        tilt_rate: float = 0.0,
+        direction: float = 0.0,
+    ) -> ModelResponse:
+        """Response to a motion, all of its components, from rest or from a tilt.
+
+        Parameters
+        ----------
+        free_s
+            time followed after the motion's end [s].
+        every_s
+            interval of the rows [s]; 0 for every sample of the motion.
+        tilt, tilt_rate
+            at the start [rad, rad/s], towards `direction`, from x to y [rad].
+        """
+
+    def describe(self) -> dict[str, tuple[float, str]]:
+        """Derived parameters for a table: name to (value, unit), such as {"frequency parameter p":
+        (2.1, "rad/s")}.
+        """
+
+
+def model_class(name: str) -> Any:
+    """Class of a model of MODELS."""
+    module, _, attribute = MODELS[name].partition(":")
+    return getattr(importlib.import_module(f"fecolumn.engines.rocking.{module}"), attribute)
+
+
+def model_engine_of(tables: dict, file) -> str | None:
+    """Name of the model that a case's tables ask for by a table of its own; None where an engine of
+    finite elements is asked for, or no model's table is there.
+
+    Raises
+    ------
+    InputError
+        integration.engine is not that of the model's table, or several tables and no engine.
+    """
+    there = {TABLES[name]: name for name in TABLES if isinstance(tables.get(name), dict)}
+    if not there or "column" in tables:
+        return None
+    plan = tables.get("integration")
+    engine = plan.get("engine") if isinstance(plan, dict) else None
+    if engine in there:
+        return engine
+    if "bodies" in tables:
+        return None
+    if engine is None and len(there) == 1:
+        return next(iter(there))
+    raise InputError(
+        file,
+        "integration.engine",
+        engine,
+        f"must be {' or '.join(there)}, as the case has "
+        f"{' and '.join(f'[{name}]' for name in there.values())}",
+    )

@@ -1,0 +1,132 @@
+"""The case of a rocking model by its own table, such as [podium]: one analysis of `fecolumn run`,
+or of a study.
+
+    [podium]                   [motion]               [integration]
+    column_mass_kg = 2500      source = "lick:12"     dt_s = 0.005    # the table gives the engine
+    ...
+
+The same file may describe the structure in [bodies], too. integration.engine then says which of
+both is analysed: the name of a model, or an engine of bodies.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fecolumn.case.case import Case
+from fecolumn.case.sections import Contact, Initial, Integration, Motion, Output, Overturn, located
+from fecolumn.engines.rocking.model import TABLES, model_class, model_engine_of
+from fecolumn.foundation.schema import InputError, Section, build, parameter
+
+#: Tables of a structure of [bodies] that a model of the same file passes over
+OF_BODIES = ("bodies", "materials", "joints", "links", "contact", "observed", "mesh")
+
+
+@dataclass(frozen=True, slots=True)
+class Start(Section):
+    """State at t = 0."""
+
+    tilt_rad: float = parameter(0.0, doc="tilt; 0 starts upright", unit="rad", low=0, high=1.5)
+    direction_deg: float = parameter(
+        0.0,
+        doc="direction towards which the top leans, from x to y",
+        unit="deg",
+        low=-360,
+        high=360,
+    )
+
+
+#: Sections beside the model's own table
+COMMON = {
+    "integration": Integration,
+    "initial": Start,
+    "overturn": Overturn,
+    "output": Output,
+    "motion": Motion,
+}
+
+
+def case_of_table(tables: dict, file, engine: str | None = None) -> Case:
+    """Case from TOML tables that have a model's own; relative paths are taken from the folder of
+    `file`.
+
+    Parameters
+    ----------
+    engine
+        name of the model; left out: as `model.model_engine_of` says.
+
+    Raises
+    ------
+    InputError
+        unknown key, value out of range, parts that do not fit.
+    """
+    engine = engine or model_engine_of(tables, file)
+    table = next(name for name, model in TABLES.items() if model == engine)
+    structure = "bodies" in tables
+    tables = {
+        key: value
+        for key, value in tables.items()
+        if not (structure and key in OF_BODIES or key in TABLES and key != table)
+        and value is not False
+    }
+    # tables by the names of bodies stand beside the model's own keys
+    if structure and isinstance(tables.get("initial"), dict):
+        tables["initial"] = {
+            key: value
+            for key, value in tables["initial"].items()
+            if value is not False and not isinstance(value, dict)
+        }
+    section = model_class(engine).SECTION
+    for key in tables:
+        if key not in COMMON and key not in (table, "title"):
+            raise InputError(
+                file,
+                key,
+                None,
+                f"unknown key; a case of the model {engine} has title, "
+                f"{', '.join([table, *COMMON])}, or is a case of fecolumn run with "
+                "[column]",
+            )
+    if not isinstance(tables.get("title", ""), str):
+        raise InputError(file, "title", tables["title"], "must be text in quotes")
+    tables["integration"] = {**tables.get("integration", {}), "engine": engine}
+    found = {
+        name: located(name, build(kind, tables.get(name, {}), file, f"{name}."), file)
+        for name, kind in COMMON.items()
+        if name != "motion" or "motion" in tables
+    }
+    if found["output"].fields_every_s:
+        raise InputError(
+            file,
+            "output.fields_every_s",
+            found["output"].fields_every_s,
+            f"must be 0 where integration.engine = {engine!r}: a rigid model has no fields",
+        )
+    start = found.pop("initial")
+    own = build(section, tables[table], file, f"{table}.")
+    model_class(engine).of_section(own, file)
+    return Case(
+        **found,
+        bodies={},
+        materials={},
+        grounds={},
+        joints={},
+        links={},
+        initial={table: Initial(start.tilt_rad, start.direction_deg)},
+        contact=Contact(),
+        title=tables.get("title", ""),
+        own={table: own},
+    )
+
+
+def model_key_type(key: str):
+    """Type of a dotted key of a model's table, such as podium.storeys, or None."""
+    import typing
+
+    table, _, name = key.partition(".")
+    kind = (
+        typing.get_type_hints(model_class(TABLES[table]).SECTION).get(name)
+        if table in TABLES
+        else None
+    )
+    return next((one for one in (kind, *typing.get_args(kind)) if one in (int, float)), kind)

@@ -1,0 +1,285 @@
+"""Rocking models of rigid bodies from the case of a structure: its bodies and where they stand."""
+
+from __future__ import annotations
+
+import math
+from typing import NoReturn
+
+import numpy as np
+
+from fecolumn.case import bodies as keys
+from fecolumn.case.check_bodies import material_of
+from fecolumn.engines.rocking.block import RockingBlock
+from fecolumn.engines.rocking.column import RigidColumn
+from fecolumn.engines.rocking.frame import RockingFrame
+from fecolumn.engines.rocking.model import Model, model_class
+from fecolumn.engines.rocking.model_table import Start
+from fecolumn.engines.rocking.podium import Podium
+from fecolumn.engines.rocking.storeys import shear_building
+from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
+from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
+from fecolumn.foundation.schema import InputError
+from fecolumn.structures.storeys import building_of
+
+
+def model_of(case, file) -> Model:
+    """The model that integration.engine of a case names, of its own table or of its bodies.
+
+    housner, wobbling: one body on the ground. rocking_frame, wobbling_frame: equal columns on the
+    ground and a body on all of them. podium: the same, a body of storeys on them.
+
+    Raises
+    ------
+    InputError
+        the bodies are not those of the model; it says what they lack.
+    """
+    for section in case.own.values():
+        return model_class(case.integration.engine).of_section(section, file)
+    return _Reader(case, file).model()
+
+
+def start_of(case, file) -> Start:
+    """Tilt and direction at the start of the body that rocks, or of all columns alike.
+
+    Raises
+    ------
+    InputError
+        columns that start unlike, or what a model cannot start with.
+    """
+    for name in case.own:
+        start = case.initial[name]
+        return Start(start.tilt_rad, start.direction_deg)
+    return _Reader(case, file).start()
+
+
+class _Reader:
+    """Reads a Case for a model, which it refuses by name."""
+
+    def __init__(self, case, file):
+        self.case, self.file, self.engine = case, file, case.integration.engine
+
+    def model(self) -> Model:
+        """As `model_of`."""
+        self._refuse_laws()
+        if self.engine in ("housner", "wobbling"):
+            body = rigid_body(self.case, self._alone(), self.file)
+            friction = self._friction(self._alone())
+            kind = RockingBlock if self.engine == "housner" else Wobbling
+            return kind.of_body(body, friction, self.file)
+        name, slab = self._columns()
+        count, friction = len(self.case.bodies[name].places), self._friction(name)
+        body = rigid_body(self.case, name, self.file)
+        if self.engine == "wobbling_frame":
+            return self._wobbling_frame(name, body, slab, count, friction)
+        half, height = self._upright_block(name)
+        alpha, diagonal = math.atan2(half, height / 2), math.hypot(half, height / 2)
+        if self.engine == "rocking_frame":
+            return RockingFrame.of(
+                count, alpha, diagonal, body.mass, self._mass(slab), friction=friction
+            )
+        return self._podium(name, slab, alpha, diagonal, count * body.mass)
+
+    def start(self) -> Start:
+        """As `start_of`."""
+        single = self.engine in ("housner", "wobbling")
+        name, slab = (self._alone(), None) if single else self._columns()
+        found = {}
+        for key in sorted(self.case.initial, key=lambda one: one not in self.case.bodies):
+            one = self.case.initial[key]
+            if one.moves:
+                moving = "velocity_m_s" if any(one.velocity_m_s) else "spin_rad_s"
+                self._refuse(
+                    f"initial.{key}.{moving}",
+                    list(getattr(one, moving)),
+                    f"must be 0 where integration.engine = {self.engine!r}; it starts from "
+                    "tilt_rad",
+                )
+            body, numbers = self.case.meant_by(key)
+            if body == slab and one.tilt_rad:
+                self._lacks(f'starts upright, and "{key}" is what stands on the columns')
+            found |= {number: one for number in numbers if body == name}
+        starts = {(one.tilt_rad, one.direction_deg) for one in found.values()}
+        if found and len(found) < len(self.case.bodies[name].places):
+            starts.add((0.0, 0.0))
+        if len(starts) > 1:
+            self._lacks(f'needs one start for all of "{name}", which lean alike')
+        return Start(*starts.pop()) if starts else Start()
+
+    def _refuse(self, key: str, value, allowed: str) -> NoReturn:
+        raise InputError(self.file, key, value, allowed)
+
+    def _lacks(self, told: str) -> NoReturn:
+        """Refuse the model, which `told` says what it needs."""
+        self._refuse("integration.engine", self.engine, told)
+
+    def _refuse_laws(self) -> None:
+        """Refuse keys of which the model knows nothing."""
+        contact = self.case.contact
+        stated = {
+            "contact.restitution": contact.restitution,
+            "contact.rolling_resistance": contact.rolling_resistance,
+        }
+        for name, interface in self.case.joints.items():
+            stated[f"joints.{name}.restitution"] = interface.restitution
+        for name, body in self.case.bodies.items():
+            for key in ("foot_radius_m", "edge_radius_m", "turned_deg"):
+                stated[f"bodies.{name}.{key}"] = getattr(body, key, None)
+        for key, value in stated.items():
+            if value:
+                self._refuse(
+                    key,
+                    value,
+                    f"must be left out where integration.engine = {self.engine!r}: a rigid model "
+                    "with an impact law of its own, on flat feet along x and y",
+                )
+        if self.case.links:
+            self._lacks("knows no links: leave them out, or choose the reduced or rigid engine")
+
+    def _joints(self) -> set[tuple[str, str]]:
+        """Pairs of bodies, or a body and the ground, between which there are interfaces."""
+        pairs = set()
+        for interface in self.case.joints.values():
+            own, other = (
+                one if one == keys.GROUND else self.case.meant_by(one)[0]
+                for one in (interface.slave, interface.on)
+            )
+            pairs |= {(own, other), (other, own)}
+        return pairs
+
+    def _alone(self) -> str:
+        """The one body, which stands on the ground."""
+        (name, body), *more = self.case.bodies.items()
+        if more or len(body.places) > 1:
+            count = sum(len(one.places) for one in self.case.bodies.values())
+            self._lacks(f"is of one body on the ground; there are {count}")
+        if (name, keys.GROUND) not in self._joints():
+            self._lacks(f'needs an interface between "{name}" and the ground')
+        return name
+
+    def _columns(self) -> tuple[str, str]:
+        """The body whose copies are the columns, and that on them."""
+        joints = self._joints()
+        below = [name for name in self.case.bodies if (name, keys.GROUND) in joints]
+        if len(self.case.bodies) != 2 or len(below) != 1:
+            self._lacks(
+                "is of equal columns on the ground, one body with copies_m, and of one body on "
+                f"them; there are {len(self.case.bodies)} different bodies, {len(below)} of them "
+                "on the ground"
+            )
+        (slab,) = set(self.case.bodies) - set(below)
+        if (slab, below[0]) not in joints or len(self.case.bodies[slab].places) > 1:
+            self._lacks(f'needs one "{slab}" that has an interface with "{below[0]}"')
+        return below[0], slab
+
+    def _upright_block(self, name: str) -> tuple[float, float]:
+        """Half width along x and height [m] of columns that rock along x."""
+        body = self.case.bodies[name]
+        if not isinstance(body, keys.Block):
+            self._lacks(
+                f'needs columns of kind = "block"; "{name}" is a {body.kind}'
+                + ("" if self.engine == "podium" else ": wobbling_frame is the model of round ones")
+            )
+        if body.length_m > body.width_m:
+            self._lacks(
+                f'rocks along x, where "{name}" must be no longer than wide: '
+                f"length_m = {body.length_m:g} m, width_m = {body.width_m:g} m"
+            )
+        return body.length_m / 2, body.height_m
+
+    def _wobbling_frame(self, name, column: RigidColumn, slab, count, friction) -> WobblingFrame:
+        body = self.case.bodies[name]
+        if not isinstance(body, (keys.Tube, keys.Cylinder)) or body.flange or body.cap:
+            self._lacks(f'needs round columns without flange and cap; "{name}" is a {body.kind}')
+        radius = body.outer_diameter_m / 2
+        inner = radius - body.wall_m if isinstance(body, keys.Tube) else 0.0
+        share = self._mass(slab) / count
+        own = cylinder_body(radius, inner, body.height_m, column.mass, share)
+        return WobblingFrame(own, count, friction=friction)
+
+    def _podium(self, name: str, slab: str, alpha, diagonal, columns_mass) -> Podium:
+        body = self.case.bodies[slab]
+        if not isinstance(body, keys.Storeys):
+            self._lacks(f'needs storeys on the columns; "{slab}" is a {body.kind}')
+        building = building_of(body)
+        found = Podium(
+            alpha,
+            diagonal,
+            columns_mass,
+            self._mass(slab),
+            shear_building(
+                building.masses,
+                building.stiffness[:, 0],
+                material_of(body, self.case.materials).damping_ratio,
+                body.rayleigh_modes if body.damping == "rayleigh" else (),
+            ),
+        )
+        if not found.restitution > 0:
+            self._lacks(f'throws columns as stout as "{name}" back: its impact law has no answer')
+        return found
+
+    def _friction(self, name: str) -> float:
+        """Coefficient of friction between a body and the ground."""
+        for interface in self.case.joints.values():
+            if interface.on == keys.GROUND and self.case.meant_by(interface.slave)[0] == name:
+                own = interface.friction_coefficient
+                return self.case.contact.friction_coefficient if own is None else own
+        return self.case.contact.friction_coefficient
+
+    def _mass(self, name: str) -> float:
+        """Mass [kg] of a body; of storeys that of the slab alone."""
+        return rigid_body(self.case, name, self.file).mass
+
+
+def rigid_body(case, name: str, file) -> RigidColumn:
+    """A body of a Case as one rigid body on its foot, from closed forms; of a mesh, by its
+    volume.
+
+    Raises
+    ------
+    InputError
+        a body of matrices, whose shape is not known.
+    """
+    from fecolumn.mesh.imported import own_mesh
+    from fecolumn.mesh.quality import box, mass_properties, ring
+
+    body, is_round = case.bodies[name], False
+    if isinstance(body, keys.Matrices):
+        raise InputError(
+            file,
+            f"bodies.{name}.kind",
+            body.kind,
+            f"has no foot that is known; integration.engine = {case.integration.engine!r} needs "
+            "a body of another kind",
+        )
+    density = material_of(body, case.materials).density_kg_m3
+    flange, cap = getattr(body, "flange", None), getattr(body, "cap", None)
+    seat = flange.thickness_m if flange else 0.0
+    if isinstance(body, keys.Meshed):
+        own = own_mesh(body.mesh_file)
+        found, extent, top = mass_properties(own.mesh, density), own.foot, own.height
+    elif isinstance(body, (keys.Tube, keys.Cylinder)):
+        is_round, outer = True, body.outer_diameter_m / 2
+        inner = outer - body.wall_m if isinstance(body, keys.Tube) else 0.0
+        found, top = ring(outer, inner, body.height_m, seat, density), seat + body.height_m
+        extent = (2 * outer,) * 2
+    else:
+        extent = body.length_m, body.width_m
+        height = body.height_m if isinstance(body, keys.Block) else body.thickness_m
+        found, top = box(*extent, height, seat, density), seat + height
+    if flange:
+        wide, bore = flange.outer_diameter_m, flange.inner_diameter_m
+        found, extent = found + ring(wide / 2, bore / 2, seat, 0.0, density), (wide,) * 2
+        is_round = True
+    if cap:
+        found = found + box(cap.length_m, cap.width_m, cap.thickness_m, top, density)
+        top += cap.thickness_m
+    more = 1.0 if body.mass_kg is None else body.mass_kg / found.mass
+    return RigidColumn(
+        float(found.mass * more),
+        float(found.centre[2]),
+        tuple((np.diag(found.inertia) * more).tolist()),
+        tuple(found.centre[:2].tolist()),
+        tuple((np.array(extent) / 2).tolist()),
+        float(top),
+        is_round,
+    )

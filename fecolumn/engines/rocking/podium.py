@@ -1,0 +1,326 @@
+"""The podium: an elastic building of n storeys on a beam that free-standing columns carry, which
+rock (Bantilas, Kavvadias and Vasiliadis 2021).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.rocking.block import outline
+from fecolumn.engines.rocking.model import ModelResponse
+from fecolumn.engines.rocking.podium_impact import CRV, LAWS, podium_restitution
+from fecolumn.engines.rocking.storeys import PROFILES, ElasticBuilding, storeys
+from fecolumn.foundation.schema import InputError, Section, parameter
+from fecolumn.motions.record import GroundMotion
+
+_SHARE = 30  # steps in the period of the highest mode
+
+
+@dataclass(frozen=True, slots=True)
+class PodiumSection(Section):
+    """Building of equal storeys on a beam on rocking rectangular columns, along x."""
+
+    column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
+    floor_mass_kg: float = parameter(doc="mass of each floor", unit="kg", above=0, high=1e9)
+    columns: int = parameter(4, doc="number of columns", low=1, high=10_000)
+    width_m: float | None = parameter(
+        None,
+        doc="width of a column along x; or slenderness_rad and half_diagonal_m",
+        unit="m",
+        above=0,
+        high=1000,
+    )
+    height_m: float | None = parameter(
+        None,
+        doc="height of a column; or slenderness_rad and half_diagonal_m",
+        unit="m",
+        above=0,
+        high=1000,
+    )
+    slenderness_rad: float | None = parameter(
+        None, doc="alpha of a column", unit="rad", above=0, high=1.5
+    )
+    half_diagonal_m: float | None = parameter(
+        None, doc="R of a column: half its diagonal", unit="m", above=0, high=1000
+    )
+    beam_mass_kg: float | None = parameter(
+        None,
+        doc="mass of the beam on the columns; left out: that of a floor",
+        unit="kg",
+        above=0,
+        high=1e9,
+    )
+    storeys: int = parameter(3, doc="number of storeys", low=1, high=200)
+    period_s: float | None = parameter(
+        None,
+        doc="period of the building's first mode on a fixed base; left out: a tenth of the "
+        "number of storeys",
+        unit="s",
+        above=0,
+        high=100,
+    )
+    damping_ratio: float = parameter(0.05, doc="of modes 1 and 2 (Rayleigh)", low=0, high=0.5)
+    profile: str = parameter(
+        "shear",
+        doc="first mode over the height x: flexural 1 - cos(pi x/2), shear sin(pi x/2), "
+        "triangular x",
+        choices=tuple(PROFILES),
+    )
+    impact: str = parameter(
+        CRV,
+        doc="floors at an impact keep their velocity relative to the beam (CRV) or their "
+        "absolute one (CAV)",
+        choices=LAWS,
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Podium:
+    """A building on a rocking storey.
+
+    Attributes
+    ----------
+    slenderness
+        alpha of the columns [rad]
+    half_diagonal
+        R [m].
+    columns_mass, beam_mass
+        of all columns, of the beam [kg].
+    building
+        on a fixed base.
+    law
+        of the impact, CRV or CAV.
+    inertia
+        of a column about its edge over m_c R^2.
+    """
+
+    TABLE: ClassVar[str] = "podium"
+    SECTION: ClassVar[type] = PodiumSection
+
+    slenderness: float
+    half_diagonal: float
+    columns_mass: float
+    beam_mass: float
+    building: ElasticBuilding
+    law: str = CRV
+    inertia: float = 4 / 3
+
+    @classmethod
+    def of_section(cls, section: PodiumSection, file) -> Podium:
+        """Podium of its table.
+
+        Raises
+        ------
+        InputError
+            keys that do not fit together, or columns so stout that the impact law would throw them
+            back.
+        """
+        width, height = outline(section, cls.TABLE, file)
+        building = storeys(
+            section.profile,
+            section.storeys,
+            section.floor_mass_kg,
+            section.period_s or section.storeys / 10,
+            section.damping_ratio,
+        )
+        found = cls(
+            math.atan2(width, height),
+            math.hypot(width, height) / 2,
+            section.columns * section.column_mass_kg,
+            section.beam_mass_kg or section.floor_mass_kg,
+            building,
+            section.impact,
+        )
+        if not found.restitution > 0:
+            raise InputError(
+                file,
+                f"{cls.TABLE}.impact",
+                section.impact,
+                f"throws columns of slenderness {found.slenderness:.3g} rad back "
+                f"(restitution {found.restitution:.3g}); must be CRV, or the columns "
+                "more slender",
+            )
+        return found
+
+    @property
+    def building_mass(self) -> float:
+        """M: of all floors [kg]."""
+        return float(self.building.mass.sum())
+
+    @property
+    def gamma(self) -> float:
+        """Mass of the beam over that of all columns."""
+        return self.beam_mass / self.columns_mass
+
+    @property
+    def eta(self) -> float:
+        """Mass of the building over that of the beam."""
+        return self.building_mass / self.beam_mass
+
+    @property
+    def restitution(self) -> float:
+        """Angular velocity of the columns after over before an impact."""
+        return podium_restitution(self.law, self.slenderness, self.gamma, self.eta, self.inertia)
+
+    @property
+    def static_shear(self) -> float:
+        """V_st: base shear of the building as the podium lifts off in a steady acceleration, M g
+        tan alpha [N].
+        """
+        return self.building_mass * GRAVITY * math.tan(self.slenderness)
+
+    @property
+    def critical_tilt(self) -> float:
+        """alpha: the building moves along with the beam [rad]."""
+        return self.slenderness
+
+    @property
+    def critical_displacement(self) -> float:
+        """Of the beam there [m]."""
+        return 2 * self.half_diagonal * math.sin(self.slenderness)
+
+    @property
+    def energy_to_overturn(self) -> float:
+        """That takes it there from upright [J]."""
+        return self._weight * self.half_diagonal * (1 - math.cos(self.slenderness))
+
+    @property
+    def _weight(self) -> float:
+        return (self.columns_mass + 2 * self.beam_mass + 2 * self.building_mass) * GRAVITY
+
+    def shake(self, ground: np.ndarray, dt: float, tilt: float = 0.0, tilt_rate: float = 0.0):
+        """What `podium_motion.shake` returns for accelerations (n, 2) along x and up [m/s2] at
+        steps dt [s].
+        """
+        from fecolumn.engines.rocking.podium_motion import shake
+
+        building, root = self.building, math.sqrt(self.building_mass)
+        base = np.array(
+            [self.slenderness, self.half_diagonal, self.inertia, self.gamma, self.eta, GRAVITY]
+        )
+        modes = np.array([building.omega, building.damping, building.participation / root])
+        return shake(
+            np.ascontiguousarray(ground, float),
+            dt,
+            base,
+            modes,
+            building.storey_shears / root,
+            np.ascontiguousarray(building.shapes[-1] * root),
+            self.restitution,
+            self.law == CRV,
+            2 * math.pi / building.omega[-1] / _SHARE,
+            float(tilt),
+            float(tilt_rate),
+        )
+
+    def respond(
+        self,
+        motion: GroundMotion,
+        *,
+        free_s: float = 0.0,
+        every_s: float = 0.0,
+        tilt: float = 0.0,
+        tilt_rate: float = 0.0,
+        direction: float = 0.0,
+    ) -> ModelResponse:
+        """As of Model; along x alone.
+
+        The top is the roof; `peaks` have the base shear and the shear of every storey.
+        """
+        from fecolumn.engines.rocking.podium_motion import (
+            DAMPED,
+            GRAVITATIONAL,
+            KINETIC,
+            LOSS,
+            ROOF,
+            SHEAR,
+            STRAIN,
+            TILT,
+            TIME,
+            WORK,
+        )
+
+        ground = np.concatenate(
+            [motion.acceleration[:, [0, 2]], np.zeros((math.ceil(free_s / motion.dt), 2))]
+        )
+        rows, impacts, shears, peak, fallen = self.shake(
+            ground, motion.dt, tilt * math.cos(direction), tilt_rate * math.cos(direction)
+        )
+        steps = max(1, round(every_s / motion.dt)) if every_s else 1
+        rows = rows[np.unique(np.append(np.arange(0, len(rows), steps), len(rows) - 1))]
+        terms = {
+            name: self.columns_mass * rows[:, column]
+            for name, column in (
+                ("kinetic", KINETIC),
+                ("strain", STRAIN),
+                ("gravity", GRAVITATIONAL),
+                ("base_work", WORK),
+                ("impact", LOSS),
+                ("damping", DAMPED),
+            )
+        }
+        total = terms["kinetic"] + terms["strain"] + terms["gravity"]
+        terms["closure"] = (
+            total - total[0] - terms["base_work"] - terms["impact"] - terms["damping"]
+        )
+        theta = rows[:, TILT]
+        beta = self.slenderness - np.abs(theta)
+        beam = np.sign(theta) * 2 * self.half_diagonal * (math.sin(self.slenderness) - np.sin(beta))
+        up = 2 * self.half_diagonal * (np.cos(beta) - math.cos(self.slenderness))
+        shears = self.building_mass * shears
+        peaks = {
+            "tilt over alpha [-]": peak / self.slenderness,
+            "base shear [N]": float(shears[0]),
+            "base shear over V_st [-]": float(shears[0] / self.static_shear),
+            **{f"shear of storey {number} [N]": float(one) for number, one in enumerate(shears, 1)},
+        }
+        return ModelResponse(
+            time=rows[:, TIME],
+            coordinates={
+                "theta": theta,
+                "beam": beam,
+                "base shear": self.building_mass * rows[:, SHEAR],
+            },
+            units={"theta": "rad", "beam": "m", "base shear": "N"},
+            tilt=np.abs(theta),
+            u_top=np.column_stack([rows[:, ROOF], np.zeros(len(rows)), up]),
+            overturned=bool(fallen),
+            impact_times=impacts,
+            energy=terms,
+            peaks=peaks,
+        )
+
+    def describe(self) -> dict[str, tuple[float, str]]:
+        """Derived parameters, name to (value, unit)."""
+        building = self.building
+        return {
+            "mass of the building": (self.building_mass, "kg"),
+            "gamma": (self.gamma, "-"),
+            "eta": (self.eta, "-"),
+            "slenderness alpha": (self.slenderness, "rad"),
+            "R": (self.half_diagonal, "m"),
+            "frequency parameter p of a column": (
+                math.sqrt(GRAVITY / (self.inertia * self.half_diagonal)),
+                "rad/s",
+            ),
+            "period of mode 1": (2 * math.pi / building.omega[0], "s"),
+            "period of the highest mode": (2 * math.pi / building.omega[-1], "s"),
+            "effective mass of mode 1": (building.effective_mass[0], "-"),
+            f"restitution ({self.law})": (self.restitution, "-"),
+            "static base shear at uplift": (self.static_shear, "N"),
+            "critical tilt": (self.critical_tilt, "rad"),
+            "displacement of the beam there": (self.critical_displacement, "m"),
+            "energy to overturn": (self.energy_to_overturn, "J"),
+        }
+
+
+def study_podium(profile: str, n: int, law: str) -> Podium:
+    """The podium of Bantilas et al.: R = 1.5 m, tan alpha = 0.15, gamma = 10, beam as heavy as a
+    floor, T_1 = n/10 s, damping 5 %.
+    """
+    return Podium(math.atan(0.15), 1.5, 1e4, 1e5, storeys(profile, n, 1e5, n / 10), law)

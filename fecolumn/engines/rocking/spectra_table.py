@@ -1,0 +1,31 @@
+"""Overturning spectra of the pulses of the literature: bands over frequency and amplitude."""
+
+from __future__ import annotations
+
+from fecolumn.engines.rocking.overturning import Band, overturning_bands
+
+SHAPES = ("one_sine", "one_cosine", "symmetric_ricker", "antisymmetric_ricker")
+FREQUENCIES = tuple(0.25 * number for number in range(1, 41))
+_POINTS = 801  # amplitudes of the grid: steps of 0.33 %
+
+
+def spectra_table(
+    slenderness: float,
+    restitution: float,
+    shapes=SHAPES,
+    frequencies=FREQUENCIES,
+    *,
+    show=lambda text: None,
+) -> list[tuple[str, float, Band]]:
+    """(shape, w_p/p, band) of all that overturns, in this order; `show` is told what is done."""
+    found = []
+    for shape in shapes:
+        for frequency in frequencies:
+            found += [
+                (shape, frequency, band)
+                for band in overturning_bands(
+                    shape, frequency, slenderness, points=_POINTS, restitution=restitution
+                )
+            ]
+        show(f"{shape}: {len(frequencies)} frequencies done")
+    return found

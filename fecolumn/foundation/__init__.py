@@ -1,0 +1,1 @@
+"""What everything stands on: files, locks, compiled code, messages, checked keys."""

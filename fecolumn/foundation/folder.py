@@ -1,0 +1,125 @@
+"""Folders that a user names for figures and tables: nothing that fecolumn did not write is removed
+or written over.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import shutil
+import tempfile
+from pathlib import Path, PurePosixPath
+
+from fecolumn.foundation.atomic import UNFINISHED, write_json
+from fecolumn.foundation.files import Unreadable, read_json
+from fecolumn.foundation.schema import InputError
+
+#: The mark of a folder: {"written": {work: [file, ...]}}, files relative to the folder
+MARK = ".fecolumn.json"
+
+
+@contextlib.contextmanager
+def written(folder, work: str, *, names: tuple[str, ...] = (), alone: bool = False):
+    """A draft folder to write into; what is in it when the block ends takes its place in `folder`.
+
+    What the same work wrote there before and does not write now is removed. Until the block ends
+    the folder stays as it was.
+
+    Parameters
+    ----------
+    folder
+        made if missing.
+    work
+        what is written, such as "report"; a folder may hold several.
+    names
+        files known beforehand, so that long work is refused before it begins.
+    alone
+        whether the folder must be new, empty, or marked by fecolumn.
+
+    Raises
+    ------
+    InputError
+        it is no folder or cannot be written, is not empty where it should be, or a file that
+        fecolumn did not write is in the way.
+    """
+    folder = Path(folder)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        raise InputError(
+            "fecolumn " + work, "-o", str(folder), "is a file, or lies in one; a folder is needed"
+        ) from None
+    marked = os.path.lexists(folder / MARK)
+    if alone and not marked and any(folder.iterdir()):
+        raise InputError(
+            "fecolumn " + work,
+            "-o",
+            str(folder),
+            f"is not empty and holds nothing that fecolumn wrote (no {MARK}); give a "
+            "new or an empty folder",
+        )
+    mark = _read_mark(folder) if marked else {}
+    _refuse_foreign(folder, work, names, mark)
+    write_json(folder / MARK, {"written": mark})
+    draft = Path(tempfile.mkdtemp(prefix=UNFINISHED, dir=folder))
+    try:
+        yield draft
+        new = sorted(
+            file.relative_to(draft).as_posix() for file in draft.rglob("*") if not file.is_dir()
+        )
+        _refuse_foreign(folder, work, new, mark)
+        old = mark.get(work, [])
+        # first claimed, then written: a process that is killed between leaves no file that looks
+        # like the user's
+        write_json(folder / MARK, {"written": {**mark, work: sorted({*old, *new})}})
+        for name in new:
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            os.replace(draft / name, folder / name)
+        others = {name for key, files in mark.items() if key != work for name in files}
+        for name in {*old} - {*new} - others:
+            _remove(folder, name)
+        write_json(folder / MARK, {"written": {**mark, work: new}})
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)
+
+
+def _read_mark(folder: Path) -> dict[str, list[str]]:
+    """Files that each work wrote."""
+    try:
+        mark = read_json(folder / MARK)
+        written = mark["written"]
+        for names in written.values():
+            for name in names:
+                if PurePosixPath(name).is_absolute() or ".." in PurePosixPath(name).parts:
+                    raise Unreadable("is damaged: it names files outside the folder")
+        return {str(work): [str(name) for name in names] for work, names in written.items()}
+    except Unreadable as error:
+        raise InputError(folder / MARK, "", None, f"{error}; give another folder") from None
+    except (KeyError, TypeError, AttributeError):
+        raise InputError(
+            folder / MARK,
+            "",
+            None,
+            "is damaged: it must state what fecolumn wrote here; give another folder",
+        ) from None
+
+
+def _refuse_foreign(folder: Path, work: str, names, mark: dict) -> None:
+    own = {name for files in mark.values() for name in files}
+    for name in names:
+        if name not in own and os.path.lexists(folder / name):
+            raise InputError(
+                "fecolumn " + work,
+                "-o",
+                str(folder),
+                f"holds a file {name} that fecolumn did not write; move it away or give "
+                "another folder",
+            )
+
+
+def _remove(folder: Path, name: str) -> None:
+    """Remove a file that fecolumn wrote, and the folders within `folder` that are empty then."""
+    with contextlib.suppress(OSError):
+        os.unlink(folder / name)
+        for parent in PurePosixPath(name).parents[:-1]:
+            os.rmdir(folder / parent)

@@ -1,0 +1,477 @@
+"""Typed, validated sections of a TOML file: every key knows its unit, its range and its meaning."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import functools
+import math
+import numbers
+import re
+import reprlib
+import tomllib
+import types
+import typing
+from pathlib import Path
+
+from fecolumn.foundation.files import Unreadable, read_bytes
+from fecolumn.foundation.paths import taken_over
+
+# A case has three levels; a file with more than these is damaged, and would exhaust the stack
+_DEEPEST = 20
+_LONGEST_CHAIN = 50
+_LONGEST_FILE = 20_000_000  # [bytes]
+_LONGEST_WORDS = 800  # of a message, in one of its parts
+_LONGEST_TEXT = 4096  # a path's most on Linux
+
+
+class InputError(ValueError):
+    """What a user gave cannot be used; the message names file, key, value and the allowed range.
+
+    Attributes
+    ----------
+    file, key, value, allowed
+        of the first thing that is wrong. all: one InputError for each, in the order of the
+        message's lines.
+    """
+
+    def __init__(self, file, key: str, value, allowed: str):
+        self.file, self.key, self.value, self.allowed = (
+            _in_text(str(file)),
+            key,
+            value,
+            _in_text(allowed),
+        )
+        told = f" = {shown(value)}" if value is not None else ""
+        self.all: tuple[InputError, ...] = (self,)
+        super().__init__(
+            f"{self.file}: {_in_text(key)}{told}: {self.allowed}"
+            if key
+            else f"{self.file}: {self.allowed}"
+        )
+
+    @classmethod
+    def of_several(cls, errors: list[InputError]) -> InputError:
+        """One error that tells of all, a line each."""
+        first = errors[0]
+        error = cls(first.file, first.key, first.value, first.allowed)
+        error.all = tuple(one for several in errors for one in several.all)
+        error.args = (
+            "\n".join(str(one) for one in error.all) if len(error.all) > 1 else str(first),
+        )
+        return error
+
+
+class _Shown(reprlib.Repr):
+    """Values for messages: long ones shortened."""
+
+    def __init__(self):
+        super().__init__()
+        self.maxstring = self.maxother = 300
+        self.maxlist = self.maxtuple = 12
+        self.maxdict, self.maxlevel = 6, 4
+
+    def repr_int(self, value, level):
+        if value.bit_length() < 200:
+            return repr(value)
+        # Python writes no more than 4300 digits
+        return f"{'-' if value < 0 else ''}1e{round(value.bit_length() * math.log10(2))} or so"
+
+
+shown = _Shown().repr
+
+
+def _in_text(words: str) -> str:
+    """Words without line breaks and other control characters, so that a message stays one line;
+    shortened where very long.
+    """
+    words = re.sub(r"[\x00-\x1f\x7f\ud800-\udfff]", lambda found: repr(found[0])[1:-1], words)
+    return (
+        words
+        if len(words) <= _LONGEST_WORDS
+        else f"{words[: _LONGEST_WORDS // 2]} ... {words[-_LONGEST_WORDS // 2 :]}"
+    )
+
+
+class Rules(typing.TypedDict, total=False):
+    """What the value of a key must be, and what the key is for.
+
+    Attributes
+    ----------
+    low, high
+        closed bounds of a number.
+    above
+        open lower bound of a number.
+    choices
+        the words a text key may take.
+    words
+        words that a number's key takes in place of a number.
+    since
+        version that brought a key younger than its section; at its default it is no part of
+        `Case.id`, so that older results keep their names.
+    counts
+        whether the key makes another analysis; False for what only guards or tells.
+    """
+
+    low: float | None
+    high: float | None
+    above: float | None
+    choices: typing.Sequence[str] | None
+    words: typing.Sequence[str]
+    since: str
+    counts: bool
+
+
+_NO_RULES = dict(low=None, high=None, above=None, choices=None, words=(), since="", counts=True)
+
+
+def parameter(
+    default=dataclasses.MISSING,
+    *,
+    doc: str,
+    unit: str = "-",
+    **rules: typing.Unpack[Rules],
+) -> typing.Any:
+    """Dataclass field of a case section.
+
+    Parameters
+    ----------
+    default
+        value when the key is absent; without one the key is required.
+    doc
+        meaning of the key, shown in error messages.
+    unit
+        physical unit, "-" when dimensionless.
+    rules
+        what a value must be.
+    """
+    metadata = _NO_RULES | rules | dict(doc=doc, unit=unit)
+    if isinstance(default, (list, dict)):
+        raise TypeError("defaults must be immutable")
+    return dataclasses.field(default=default, metadata=metadata)
+
+
+def allowed_range(metadata) -> str:
+    """The allowed values of a parameter in words, with the unit."""
+    return " or ".join([_number_range(metadata), *(f'"{word}"' for word in metadata["words"])])
+
+
+def _number_range(metadata) -> str:
+    unit = "" if metadata["unit"] == "-" else f" [{metadata['unit']}]"
+    if metadata["choices"]:
+        return "one of " + ", ".join(metadata["choices"])
+    if metadata["above"] is not None:
+        upper = f" and at most {metadata['high']:g}" if metadata["high"] is not None else ""
+        return f"must be greater than {metadata['above']:g}{upper}{unit}"
+    if metadata["low"] is not None and metadata["high"] is not None:
+        return f"must lie in [{metadata['low']:g}, {metadata['high']:g}]{unit}"
+    if metadata["low"] is not None:
+        return f"must be at least {metadata['low']:g}{unit}"
+    return f"must be a number{unit}"
+
+
+def _typed(kind, value):
+    """`value` as `kind`, or None where the TOML type does not fit."""
+    if kind is float and isinstance(value, numbers.Real) and not isinstance(value, bool):
+        try:
+            return float(value)
+        except OverflowError:
+            return math.inf if value > 0 else -math.inf
+    if kind is int and isinstance(value, numbers.Integral) and not isinstance(value, bool):
+        return int(value)
+    if kind in (str, bool) and isinstance(value, kind):
+        return value
+    if typing.get_origin(kind) is tuple and isinstance(value, (list, tuple)):
+        items = [_typed(typing.get_args(kind)[0], item) for item in value]
+        return None if None in items else tuple(items)
+    return None
+
+
+def _items(typed):
+    """Single values of a key, those of lists of lists, too."""
+    if not isinstance(typed, tuple):
+        return (typed,)
+    return tuple(item for inner in typed for item in _items(inner))
+
+
+_WORDS = {float: "a number", int: "a whole number", str: "text in quotes", bool: "true or false"}
+_ITEMS = {str: "texts", float: "numbers", int: "whole numbers"}
+
+
+def _checked(kind, metadata, value, file, key):
+    """`value` as the type of a key.
+
+    Raises
+    ------
+    InputError
+        wrong type, or out of range.
+    """
+    if isinstance(kind, types.UnionType):
+        if value is None and types.NoneType in typing.get_args(kind):
+            return None
+        kind = next(k for k in typing.get_args(kind) if k is not types.NoneType)
+    if isinstance(value, str) and value in metadata["words"]:
+        return value
+    typed = _typed(kind, value)
+    if typed is None:
+        word = _WORDS.get(kind) or "a list of " + _ITEMS.get(
+            typing.get_args(kind)[0], "lists of numbers"
+        )
+        word = " or ".join([word, *(f'"{text}"' for text in metadata["words"])])
+        raise InputError(file, key, value, f"must be {word}; {metadata['doc']}")
+    for item in _items(typed):
+        bad = False
+        if isinstance(item, (int, float)) and not isinstance(item, bool):
+            bad = (
+                (isinstance(item, float) and not math.isfinite(item))
+                or (metadata["low"] is not None and item < metadata["low"])
+                or (metadata["high"] is not None and item > metadata["high"])
+                or (metadata["above"] is not None and item <= metadata["above"])
+            )
+        if metadata["choices"] and item not in metadata["choices"]:
+            bad = True
+        if bad:
+            raise InputError(file, key, value, f"{allowed_range(metadata)}; {metadata['doc']}")
+        if isinstance(item, str) and (
+            len(item) > _LONGEST_TEXT or re.search(r"[\x00-\x08\x0b-\x1f\x7f]", item)
+        ):
+            raise InputError(
+                file,
+                key,
+                value,
+                f"must be text of at most {_LONGEST_TEXT} characters, without control "
+                f"characters; {metadata['doc']}",
+            )
+    return typed
+
+
+@functools.cache
+def _kinds(section) -> dict[str, tuple]:
+    """Fields of a dataclass by name: (field, type, dataclass of a section or None, whether the
+    section may be absent).
+    """
+    hints, kinds = typing.get_type_hints(section), {}
+    for field in dataclasses.fields(section):
+        kind = hints[field.name]
+        inner = next(
+            (k for k in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(k)), None
+        )
+        kinds[field.name] = field, kind, inner, isinstance(kind, types.UnionType)
+    return kinds
+
+
+class Section:
+    """Base of a case and its sections: none can be made, or made of another by
+    `dataclasses.replace`, with a value out of range.
+    """
+
+    __slots__ = ()
+
+    def __post_init__(self):
+        """Check every key, and turn numbers into the key's own type.
+
+        Raises
+        ------
+        InputError
+            names section, key, value and range.
+        """
+        prefix, errors = (
+            "" if type(self).__name__ == "ShortForm" else f"{type(self).__name__.lower()}.",
+            [],
+        )
+        for key, (field, kind, inner, optional) in _kinds(type(self)).items():
+            value = getattr(self, key)
+            try:
+                if inner is None:
+                    object.__setattr__(
+                        self, key, _checked(kind, field.metadata, value, "case", prefix + key)
+                    )
+                elif not (isinstance(value, inner) or (optional and value is None)):
+                    raise InputError(
+                        "case",
+                        prefix + key,
+                        value,
+                        f"must be a {inner.__name__}" + (" or None" if optional else ""),
+                    )
+            except InputError as error:
+                errors.append(error)
+        if errors:
+            raise InputError.of_several(errors)
+
+
+def build(section, table, file, prefix: str = ""):
+    """Instance of the dataclass `section` from a TOML table, every key checked; a section that is
+    `false` is as if it were absent.
+
+    Raises
+    ------
+    InputError
+        every unknown or missing key, wrong type and value out of range, told at once.
+    """
+    if not isinstance(table, dict):
+        raise InputError(file, prefix.rstrip("."), table, "must be a table of keys")
+    kinds, errors, values = _kinds(section), [], {}
+    for key, value in table.items():
+        if key not in kinds:
+            hint = meant(key, kinds, prefix) or f"; known keys: {', '.join(kinds)}"
+            errors.append(
+                InputError(
+                    file,
+                    prefix + key,
+                    None if isinstance(value, dict) else value,
+                    "unknown key" + hint,
+                )
+            )
+    for name, (field, kind, inner, optional) in kinds.items():
+        try:
+            if inner is not None:
+                if table.get(name, False) is not False:
+                    values[name] = build(inner, table[name], file, f"{prefix}{name}.")
+                elif not optional:
+                    values[name] = build(inner, {}, file, f"{prefix}{name}.")
+            elif name in table:
+                values[name] = _checked(kind, field.metadata, table[name], file, prefix + name)
+            elif field.default is dataclasses.MISSING:
+                raise InputError(
+                    file,
+                    prefix + name,
+                    None,
+                    f"missing; {field.metadata['doc']}, {allowed_range(field.metadata)}",
+                )
+        except InputError as error:
+            errors.append(error)
+    if errors:
+        raise InputError.of_several(errors)
+    return section(**values)
+
+
+def read_toml(path, _heirs: tuple[Path, ...] = ()) -> dict:
+    """Tables of a TOML file; `extends = "other.toml"` is read first and overridden key by key, or
+    by `section = false` as a whole.
+
+    Paths are relative to the file that states them: of a file in another folder they come absolute.
+    """
+    path = Path(path)
+    tables = _tables(path)
+    parent = tables.pop("extends", None)
+    if parent is None:
+        return tables
+    if not isinstance(parent, str) or not parent:
+        raise InputError(
+            path, "extends", parent, "must be the path of a TOML file, relative to this one"
+        )
+    heirs = (*_heirs, path)
+    if any(_same(path.parent / parent, heir) for heir in heirs):
+        circle = " -> ".join(heir.name for heir in (*heirs, path.parent / parent))
+        raise InputError(
+            path,
+            "extends",
+            parent,
+            f"goes in a circle: {circle}" if len(heirs) > 1 else "a file may not extend itself",
+        )
+    if len(heirs) >= _LONGEST_CHAIN:
+        raise InputError(
+            path, "extends", parent, f"at most {_LONGEST_CHAIN} files may extend one another"
+        )
+    other = path.parent / parent
+    if not other.exists():
+        raise InputError(path, "extends", parent, f"no such file: {other}")
+    inherited = read_toml(other, heirs)
+    return merge(
+        inherited if _same(other.parent, path.parent) else taken_over(inherited, other), tables
+    )
+
+
+def _same(one: Path, other: Path) -> bool:
+    try:
+        return one.resolve() == other.resolve()
+    except (
+        OSError,
+        ValueError,
+        RuntimeError,
+    ):  # a name that cannot be, or links in a circle: reading it says so
+        return False
+
+
+def _tables(path: Path) -> dict:
+    """Tables of one TOML file as they stand."""
+    try:
+        text = read_bytes(path, _LONGEST_FILE).decode("utf-8-sig")
+    except Unreadable as error:
+        raise InputError(
+            path, "", None, str(error).replace("a file is needed", "a TOML file is needed")
+        ) from None
+    except UnicodeDecodeError as error:
+        raise InputError(path, "", None, f"not a text file in UTF-8 ({error.reason})") from None
+    try:
+        tables = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(path, "", None, _in_text(f"not valid TOML: {error}")) from None
+    except RecursionError:
+        raise InputError(path, "", None, "not valid TOML: nested too deeply") from None
+    except (
+        ValueError
+    ) as error:  # Python reads no number of more than 4300 digits, and no 30 February
+        long = next(
+            (
+                row
+                for row, line in enumerate(text.splitlines(), 1)
+                if re.search(r"[\d_]{4300,}", line)
+            ),
+            None,
+        )
+        said = f"line {long}: a whole number of more than 4300 digits" if long else str(error)
+        raise InputError(path, "", None, _in_text(f"not valid TOML: {said}")) from None
+    if (deep := _depth(tables)) > _DEEPEST:
+        raise InputError(path, "", None, f"tables and lists {deep} deep; at most {_DEEPEST}")
+    return tables
+
+
+def _depth(tables) -> int:
+    """Levels of tables and lists within one another."""
+    depth, level = 0, [tables]
+    while level:
+        depth += 1
+        level = [
+            item
+            for holder in level
+            for item in (holder.values() if isinstance(holder, dict) else holder)
+            if isinstance(item, (dict, list))
+        ]
+    return depth
+
+
+def stated(tables: dict) -> dict:
+    """Tables without the keys that are left open."""
+    return {
+        key: stated(value) if isinstance(value, dict) else value
+        for key, value in tables.items()
+        if value is not None
+    }
+
+
+def meant(name: str, known, prefix: str = "") -> str:
+    """The end of a message on an unknown name: "; did you mean ...?" with the nearest of the known
+    ones, "" where none is near.
+    """
+    near = difflib.get_close_matches(name, known, 1, 0.6)
+    return f"; did you mean {prefix}{near[0]}?" if near else ""
+
+
+def nested(key: str, value) -> dict:
+    """Tables in which the dotted key has this value."""
+    for part in reversed(key.split(".")):
+        value = {part: value}
+    return value
+
+
+def merge(base: dict, over: dict) -> dict:
+    """Tables of `base` overridden by those of `over`, key by key."""
+    merged = dict(base)
+    for key, value in over.items():
+        merged[key] = (
+            merge(merged[key], value)
+            if isinstance(value, dict) and isinstance(merged.get(key), dict)
+            else value
+        )
+    return merged

@@ -1,0 +1,77 @@
+"""Which code made a result: version of the package, and a digest of the sources that decide what an
+analysis gives.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+from pathlib import Path
+
+from fecolumn import __version__
+
+_PACKAGE = Path(__file__).parents[1]
+# Folders and files of which results depend; what only reads, writes, waits or tells is left out
+DECIDING = (
+    "case",
+    "contact",
+    "engines",
+    "fem",
+    "foundation/_dolfinx.py",
+    "foundation/content.py",
+    "mesh",
+    "motions",
+    "structures",
+)
+
+
+def digest_of(paths) -> str:
+    """Sixteen hexadecimal digits that name the content of files."""
+    digest = hashlib.sha256()
+    for path in paths:
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def files_of(names) -> list[Path]:
+    """Sources that `names` mean, in a lasting order: files of the package, and the .py and .toml
+    files of its folders.
+
+    Raises
+    ------
+    FileNotFoundError
+        the package has no such file or folder.
+    """
+    files = []
+    for name in names:
+        place = _PACKAGE / name
+        found = (
+            [place]
+            if place.is_file()
+            else sorted(path for path in place.rglob("*") if path.suffix in (".py", ".toml"))
+        )
+        if not found:
+            raise FileNotFoundError(f"the package has no source {name}")
+        files += found
+    return files
+
+
+@functools.cache
+def package_digest() -> str:
+    """Digest of DECIDING as it is now: results of the same case and the same digest are of the same
+    code.
+    """
+    return digest_of(files_of(DECIDING))
+
+
+def code() -> dict[str, str]:
+    """What every result says of the code that made it: version and sources."""
+    return {"version": __version__, "sources": package_digest()}
+
+
+def code_text(version, sources) -> str:
+    """Code for a reader, such as "fecolumn 0.2.0 (sources 3f0c9a1b2d4e5f60)"."""
+    return (
+        f"fecolumn {version or 'of unknown version'} "
+        f"({f'sources {sources}' if sources else 'sources not recorded'})"
+    )

@@ -1,0 +1,1 @@
+"""Figures, movies and files for ParaView."""

@@ -1,0 +1,269 @@
+"""Displacement, stress and contact pressure of all pieces of a scene, from the states that a
+reduced or rigid analysis keeps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fecolumn.contact.projection import nodes_under
+from fecolumn.engines.reduced.states import State
+from fecolumn.pictures.figures.scene import Scene
+
+
+@dataclass(frozen=True, eq=False)
+class Seat:
+    """The contact points of a joint's slave.
+
+    Attributes
+    ----------
+    nodes
+        (k,) rows among the contact nodes of all bodies.
+    areas
+        (k,) [m2].
+    plan
+        (k, 2) [m] places in the plane of the face.
+    nearest
+        (m,) place of that which each of the contact's points stands for.
+    """
+
+    nodes: np.ndarray
+    areas: np.ndarray
+    plan: np.ndarray
+    nearest: np.ndarray
+
+
+class StateFields:
+    """Expands states to fields on the points of a scene, as `post.fields.FieldWriter` takes them.
+
+    A body of finite elements deforms by its modes and by the static response to its contact forces
+    beyond what has gone into the modes already: with f the modal forces of the contact, sum phi (q
+    - F f / w^2) + K^+ B^T r. The floors of a building move by its modes and the response in these;
+    its slab, and a rigid body, only turn and shift.
+
+    Parameters
+    ----------
+    movers
+        (mover, numbers of the bodies that are its copies) of every different body.
+    models
+        of the bodies, with the modes that move.
+    seats
+        of each contact.
+    grounds
+        (SunkPlate, number of the ground) of each piece that belongs to one.
+    """
+
+    def __init__(self, scene: Scene, movers, models, seats: list[Seat], grounds=()):
+        from mpi4py import MPI
+
+        self.scene, self.comm, self.of_cells = scene, MPI.COMM_SELF, scene.of_cells
+        self.meshes, self.models = scene.meshes, list(models)
+        self._movers, self.seats, self._grounds = movers, seats, grounds
+        #: First contact node of each body, one more at the end.
+        self.first_node = np.cumsum([0] + [len(model.arms) for model in self.models])
+
+    def local(self, state: State, stress: bool = True) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Displacement (n_points, 3) [m] of all points of bodies in their frames; what of it is
+        deformation, of a building relative to its slab; and von Mises stress (n_cells,) [Pa], nan
+        of bodies that have none or where not asked for.
+
+        Without stress bodies of finite elements are left undeformed.
+        """
+        scene, loads = self.scene, state.at_nodes(self.first_node[-1])
+        moved, bent = np.zeros((2, *scene.points.shape))
+        found = np.full(scene.first_cell[-1], np.nan)
+        for mover, copies in self._movers:
+            if mover.has_stress and not stress:
+                continue
+            own = [
+                loads[self.first_node[k] : self.first_node[k + 1]] @ state.rotation[k]
+                for k in copies
+            ]
+            for k, (displacement, deformation, values) in zip(
+                copies, mover.deformed(state.modal[copies], np.array(own))
+            ):
+                moved[scene.own(k)], bent[scene.own(k)] = displacement, deformation
+                found[scene.first_cell[k] : scene.first_cell[k] + len(values)] = values
+        return moved, bent, found
+
+    def positions(self, state: State, local: np.ndarray) -> np.ndarray:
+        """Positions (n, 3) [m] of all points, those of bodies displaced by `local` (n, 3) [m] in
+        their frames.
+        """
+        placed = self.scene.points.copy()
+        for k, (piece, model) in enumerate(zip(self.scene.bodies, self.models)):
+            own = self.scene.own(k)
+            arms = piece.points - model.center + local[own]
+            placed[own] = state.center[k] + arms @ state.rotation[k].T
+        return placed
+
+    def pressures(self, state: State) -> tuple[list[np.ndarray], np.ndarray]:
+        """Pressure (k,) [Pa] at the nodes of each joint's face, and its centre (n_joints, 2) [m] in
+        the plan of the face, nan of one that is open.
+        """
+        found, centres = [], np.full((len(self.seats), 2), np.nan)
+        for number, (contact, seat) in enumerate(zip(self.scene.contacts, self.seats)):
+            own = state.interface == number
+            push = -state.force[own] @ (state.rotation[contact.piece] @ contact.axes[:, 2])
+            at_nodes = np.zeros(self.first_node[-1])
+            np.add.at(at_nodes, state.carriers[own], state.weights[own] * push[:, None])
+            force = np.maximum(at_nodes[seat.nodes], 0.0)
+            found.append(force / seat.areas)
+            if force.sum() > 0:
+                centres[number] = force @ seat.plan / force.sum()
+        return found, centres
+
+    def values(self, state: State) -> dict[str, np.ndarray]:
+        """Displacement (n_points, 3) [m], von Mises stress (n_cells,) [Pa], 0 of bodies without
+        any, and contact pressure (n_points,) [Pa] by their names in files.
+        """
+        scene = self.scene
+        local, _, stress = self.local(state)
+        displacement = self.positions(state, local) - scene.points
+        for k, (plate, ground) in enumerate(self._grounds, len(scene.bodies)):
+            on = [number for number, one in enumerate(scene.contacts) if one.stands_on(ground)]
+            own = np.isin(state.interface, on)
+            displacement[scene.own(k)], stress[scene.first_cell[k] : scene.first_cell[k + 1]] = (
+                plate.sunk(state.position[own], state.force[own])
+            )
+        pressure = np.zeros(len(scene.points))
+        for contact, seat, values in zip(scene.contacts, self.seats, self.pressures(state)[0]):
+            pressure[contact.points] = values[seat.nearest]
+        return {
+            "displacement": displacement,
+            "von_mises": np.nan_to_num(stress),
+            "pressure": pressure,
+        }
+
+
+class Rigid:
+    """A body of so many points that only turns and shifts."""
+
+    has_stress = False
+
+    def __init__(self, points: int):
+        self._points = points
+
+    def deformed(self, modal: np.ndarray, loads: np.ndarray):
+        """Of each copy: displacement (n_points, 3) [m] in its frame, what of it is deformation, and
+        stress [Pa] of its elements, none where they have none.
+
+        Parameters
+        ----------
+        modal
+            (copies, m) coordinates less their static part.
+        loads
+            (copies, n_nodes, 3) [N] on its contact nodes in its frame.
+        """
+        still = np.zeros((self._points, 3))
+        return [(still, still, np.empty(0))] * len(modal)
+
+
+class Continuum:
+    """A body of finite elements.
+
+    Parameters
+    ----------
+    body
+        `fem.body.Body`.
+    model
+        its model, with the modes that move.
+    nodes
+        (n,) of the body that are the model's rows.
+    shapes
+        (m, n_nodes, 3) of the modes all over it.
+
+    Raises
+    ------
+    RuntimeError
+        the model is of another mesh than the body.
+    """
+
+    has_stress = True
+
+    def __init__(self, body, model, nodes: np.ndarray, shapes: np.ndarray):
+        from fecolumn.fem.free_body import FreeBody
+        from fecolumn.pictures.figures.fields import StressField, vertex_nodes
+
+        self._body, self._nodes, self._shapes = body, nodes, shapes[: len(model.frequencies)]
+        self._free, self._stress, self._vertices = FreeBody(body), StressField(body), None
+        self._vertices = vertex_nodes(body)
+        if not (
+            np.allclose(body.all_X[nodes], model.reference)
+            and np.allclose(self._shapes[:, nodes].transpose(1, 2, 0), model.shapes)
+        ):
+            raise RuntimeError(
+                "a reduced model is kept with another mesh than the one made now: empty the cache "
+                "(fecolumn doctor tells where it is)"
+            )
+
+    def deformed(self, modal, loads):
+        """As of `Rigid`."""
+        spread = np.stack(
+            [self._body.spread(self._nodes, load).reshape(-1) for load in loads], axis=1
+        )
+        response = self._free.response(spread).T.reshape(len(modal), -1, 3)
+        moved = response + np.tensordot(modal[:, : len(self._shapes)], self._shapes, 1)
+        return [
+            (one[self._vertices], one[self._vertices], self._stress.values(one)) for one in moved
+        ]
+
+
+class SwayingFloors:
+    """A building: its floors shift by its modes, and turn with its slab.
+
+    Parameters
+    ----------
+    arms
+        (n_points, 3) [m] of its points from the centre of mass, those of the floors last.
+    """
+
+    has_stress = False
+
+    def __init__(self, arms: np.ndarray, model, floors: int):
+        self._model, self._points = model, arms
+        marks = [model.marks[f"floor {number}"] for number in range(1, floors + 1)]
+        self._arms, self._marks = (np.array(each) for each in zip(*marks))
+        # the slab's motion is what its contact nodes say of it
+        self._motion = np.linalg.pinv(
+            np.concatenate([np.tile(np.eye(3), (len(model.arms), 1)), _turning(model.arms)], axis=1)
+        )
+
+    def deformed(self, modal, loads):
+        """As of `Rigid`."""
+        found, model = [], self._model
+        for coordinates, load in zip(modal[:, : len(model.frequencies)], loads):
+            whole = coordinates + np.einsum("iam,ia->m", model.shapes, load) / model.frequencies**2
+            shift, turn = np.split(self._motion @ (model.shapes @ whole).ravel(), 2)
+            carried = shift + np.cross(turn, self._points)
+            drift = self._marks @ whole - (shift + np.cross(turn, self._arms))
+            deformation = np.concatenate(
+                [np.zeros((len(carried) - 8 * len(drift), 3)), np.repeat(drift, 8, axis=0)]
+            )
+            found.append((carried + deformation, deformation, np.empty(0)))
+        return found
+
+
+def _turning(arms: np.ndarray) -> np.ndarray:
+    """Displacements (3 n, 3) of points with arms (n, 3) by small turns about x, y and z."""
+    return np.stack([np.cross(axis, arms).ravel() for axis in np.eye(3)], axis=1)
+
+
+class SunkPlate:
+    """An elastic base plate (`contact.base_plate.BasePlate`)."""
+
+    def __init__(self, plate):
+        from fecolumn.pictures.figures.fields import StressField, vertex_nodes
+
+        self._plate, self._stress = plate, StressField(plate.body)
+        self._vertices = vertex_nodes(plate.body)
+
+    def sunk(self, positions: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Displacement (n_points, 3) [m] and stress (n_cells,) [Pa] under forces (k, 3) [N] on what
+        stands at (k, 3) [m].
+        """
+        nodes = nodes_under(self._plate.grid, positions, forces[:, 2] > 0)
+        displacement = self._plate.displacement(*nodes, -forces)
+        return displacement[self._vertices], self._stress.values(displacement)

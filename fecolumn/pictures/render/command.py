@@ -1,0 +1,117 @@
+"""`fecolumn render`: movie, stills and sequence figure of an analysis, and its view in ParaView."""
+
+from __future__ import annotations
+
+import sys
+
+VIEWS = ("lean", "front", "side", "iso", "foot", "plan")
+
+
+def add_arguments(parser) -> None:
+    """Arguments of `fecolumn render`."""
+    parser.add_argument(
+        "folder", metavar="DIR", help="result folder of fecolumn run; pictures go to DIR/render"
+    )
+    parser.add_argument(
+        "--only",
+        choices=("movie", "pictures"),
+        help="the movie alone, or stills and sequence figure alone",
+    )
+    parser.add_argument(
+        "--gif",
+        action="store_true",
+        help="the movie as GIF, smaller and of fewer pictures a second, not as MP4",
+    )
+    parser.add_argument(
+        "--view",
+        choices=VIEWS,
+        default="lean",
+        help="from where: lean (default) sees the largest lean at full length, front looks "
+        "along y, side along -x",
+    )
+    parser.add_argument(
+        "--body",
+        metavar="NAME",
+        default="",
+        help="of a structure: the body whose top is followed and at whose foot the view "
+        "foot looks (default: the observed one)",
+    )
+    parser.add_argument(
+        "--instants",
+        metavar="T,T,...",
+        help="times [s] of stills and sequence, one to ten (default: five, the peaks of the "
+        "top's displacement)",
+    )
+    parser.add_argument(
+        "--exaggerate",
+        metavar="N",
+        default="1",
+        help="draw elastic displacements N times as large, or auto; needs fields (default: "
+        "1, true)",
+    )
+    parser.add_argument(
+        "--color",
+        choices=("stress", "displacement"),
+        default="",
+        help="by von Mises stress (default where fields were written), or by displacement",
+    )
+    parser.add_argument(
+        "--start",
+        metavar="S",
+        type=float,
+        help="begin of the movie [s] (default: that of the analysis)",
+    )
+    parser.add_argument(
+        "--end",
+        metavar="S",
+        type=float,
+        help="end of the movie [s] (default: that of the analysis)",
+    )
+    parser.add_argument(
+        "--fps",
+        metavar="N",
+        type=float,
+        default=25.0,
+        help="pictures a second, 1 to 60 (default: 25)",
+    )
+    parser.add_argument(
+        "--speed",
+        metavar="N",
+        type=float,
+        default=1.0,
+        help="seconds of motion in a second of the movie, 0.001 to 100; 0.1 is ten times "
+        "slow (default: 1)",
+    )
+    parser.add_argument(
+        "--size",
+        metavar="WxH",
+        default="1280x720",
+        help="of the movie [pixels] (default: 1280x720)",
+    )
+    parser.add_argument(
+        "--paraview",
+        action="store_true",
+        help="write the script DIR/render/view.py for ParaView's pvpython and pvbatch, and "
+        "nothing else",
+    )
+    parser.add_argument("-q", "--quiet", action="store_true", help="no progress line")
+
+
+def main(args) -> int:
+    """Draw; 0 when all is written, 130 after Ctrl-C, which leaves what was there before.
+
+    Raises
+    ------
+    InputError
+        no finished analysis in the folder, or an option that does not fit it.
+    """
+    from fecolumn.pictures.render.draw import Wish, render
+
+    wish = Wish.of(args)
+    try:
+        files = render(args.folder, wish, quiet=args.quiet)
+    except KeyboardInterrupt:
+        print("fecolumn: stopped; nothing was written", file=sys.stderr)
+        return 130
+    print("wrote " + ", ".join(str(file) for file in files))
+    return 0

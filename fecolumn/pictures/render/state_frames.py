@@ -1,0 +1,126 @@
+"""Fields made from the states that a reduced or rigid analysis kept, frame by frame."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.engines.reduced.states import State, modes_of, read_states, signature, state_at
+from fecolumn.foundation.schema import InputError
+from fecolumn.pictures.figures.scene import Scene
+from fecolumn.pictures.figures.state_fields import StateFields
+from fecolumn.pictures.render.field_frames import FrameSeries
+from fecolumn.pictures.render.frame import Fields
+
+#: Modes of a model made anew are those of the analysis when frequencies and signatures agree to
+#: this share: states are kept in single precision
+SAME = 1e-5
+
+
+def same_modes(old: np.ndarray, new: np.ndarray) -> bool:
+    """Whether frequencies or signatures made anew are those that a file has."""
+    return old.shape == new.shape and np.allclose(
+        old, new, rtol=0, atol=SAME * max(float(np.abs(old).max(initial=0.0)), 1e-300)
+    )
+
+
+class StateFrames(FrameSeries):
+    """The states in a file of `reduced.states`; the models of the bodies, and what expands them to
+    fields, are made when the first frame is read.
+
+    Attributes
+    ----------
+    time
+        (n,) [s] of each. center: (n, nb, 3) [m] of mass; rotation: (n, nb, 3, 3).
+
+    Raises
+    ------
+    InputError
+        the file is damaged, or of other bodies than those of the scene.
+    """
+
+    def __init__(self, file: Path, scene: Scene):
+        try:
+            self._arrays = read_states(file)
+        except (OSError, KeyError) as error:
+            raise InputError(
+                file,
+                "",
+                None,
+                f"not the states of an analysis ({error}); remove it to draw what the "
+                "history alone gives",
+            ) from None
+        names = [piece.name for piece in scene.bodies]
+        # those of a single column are without its name
+        kept = self._arrays["bodies"].tolist() or names[:1]
+        if kept != names:
+            raise InputError(
+                file,
+                "",
+                None,
+                f"has the states of {', '.join(kept)}, not of {', '.join(names)}; run the case "
+                "into a new folder",
+            )
+        self._file, self._scene, self._expand = file, scene, None
+        super().__init__(self._arrays["time"])
+        count = len(self.time)
+        self.center = self._arrays["center"].reshape(count, -1, 3)
+        self.rotation = self._arrays["rotation"].reshape(count, -1, 3, 3)
+
+    def state(self, k: int) -> State:
+        """State number k."""
+        return state_at(self._arrays, k)
+
+    def read(self, k: int) -> Fields:
+        """Frame `k`.
+
+        Raises
+        ------
+        InputError
+            the modes of a body, made anew, are others than those of the analysis.
+        """
+        values, (_, centres) = self.values(k), self.drawn.pressures(self.state(k))
+        return Fields(values["displacement"], values["von_mises"], values["pressure"], centres)
+
+    def values(self, k: int) -> dict[str, np.ndarray]:
+        """Fields of frame `k` by the names of `StateFields.values`."""
+        return self.drawn.values(self.state(k))
+
+    @property
+    def drawn(self) -> StateFields:
+        """What expands states, and what `post.fields.FieldWriter` takes."""
+        if self._expand is None:
+            expand = self._scene.fields()
+            self._check(expand.models)
+            self._expand = expand
+        return self._expand
+
+    def _check(self, models) -> None:
+        for name, made in (
+            ("frequencies", [model.frequencies for model in models]),
+            ("signature", [signature(model) for model in models]),
+        ):
+            new = modes_of(made)
+            old = self._arrays[name].reshape(len(models), -1)
+            for piece, kept, one in zip(self._scene.bodies, old, new):
+                if not same_modes(kept, one):
+                    raise InputError(
+                        self._file,
+                        "",
+                        None,
+                        f'is of other modes of "{piece.name}" than those made of it now: '
+                        "deformation, stress and pressure cannot be made from it; "
+                        "--color displacement draws the history, and the case run into a new "
+                        "folder has them again",
+                    )
+
+
+def write_fields(frames: StateFrames, folder: Path, tell=lambda done: None) -> None:
+    """Write the fields of all states into a folder, as `post.fields.FieldWriter` does."""
+    from fecolumn.pictures.figures.fields import FieldWriter
+
+    writer = FieldWriter(folder, frames.drawn)
+    for k, time in enumerate(frames.time):
+        writer.add(time, frames.values(k))
+        tell(k + 1)

@@ -1,0 +1,123 @@
+"""What the history of an analysis tells of the pieces of its scene: how bodies move, and the way of
+the top that is followed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from fecolumn.foundation.schema import InputError, meant
+from fecolumn.pictures.figures.scene import Scene
+from fecolumn.pictures.render.pose import Poses
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """A scene and its history.
+
+    Attributes
+    ----------
+    poses
+        of each body at the rows of the history; None where it does not tell them.
+    way
+        displacement (n, 3) [m] of the top that is followed.
+    top
+        (3,) [m] its place at rest.
+    title
+        of its plan view.
+    body
+        number of the body to which it belongs.
+    floors
+        by body: displacement (n, 1 + k, 3) [m] of a building's slab and of its k floors beyond that
+        of its pose.
+    """
+
+    scene: Scene
+    poses: tuple[Poses, ...] | None
+    way: np.ndarray
+    top: np.ndarray
+    title: str
+    body: int
+    floors: dict[int, np.ndarray] = field(default_factory=dict)
+
+
+def told_by(case, folder, history: dict[str, np.ndarray], body: str) -> Told:
+    """What the history of an analysis tells; before version 0.7 no poses.
+
+    Raises
+    ------
+    InputError
+        its files are gone, it has no such body, or the history is of another structure.
+    """
+    from scipy.spatial.transform import Rotation
+
+    from fecolumn.pictures.figures.structure_scene import scene_of
+    from fecolumn.structures.engine import upright
+    from fecolumn.structures.structure import structure_model
+
+    file = folder / "case.json"
+    structure = upright(case, structure_model(case, file))
+    followed, observed = _place(structure, body), structure.observed
+    mark = observed[1] if followed == observed[0] else "top"
+    part = structure.parts[followed]
+    way = f"mark/{part.name}.{mark}/displacement"
+    wanted = [f"body/{one.name}/displacement" for one in structure.parts] + [way]
+    for name in wanted:
+        if name not in history:
+            raise InputError(
+                folder / "history.h5",
+                "",
+                None,
+                f'has no column "{name}": it is of another structure than that of case.json, '
+                "or of a column and a version before 0.7",
+            )
+    moves = []
+    for one in structure.parts:
+        turned = history.get(f"body/{one.name}/rotation")
+        if turned is None:
+            moves = None
+            break
+        matrices = Rotation.from_rotvec(turned).as_matrix()
+        there = one.center + history[f"body/{one.name}/displacement"]
+        moves.append(Poses(history["time"], matrices, there, one.center))
+    scene = scene_of(case, structure, file)
+    return Told(
+        scene,
+        moves and tuple(moves),
+        history[way],
+        part.center + part.model.marks[mark][0],
+        f"{mark} of {part.name}",
+        followed,
+        _floors(scene, structure, history, moves) if moves else {},
+    )
+
+
+def _place(structure, body: str) -> int:
+    if not body:
+        return structure.observed[0]
+    names = [part.name for part in structure.parts]
+    if body not in names:
+        raise InputError(
+            "fecolumn render",
+            "--body",
+            body,
+            f"no such body{meant(body, names)}; there are {', '.join(names)}",
+        )
+    return names.index(body)
+
+
+def _floors(scene: Scene, structure, history: dict, moves) -> dict[int, np.ndarray]:
+    """As of `Told`: from the marks of the floors, and the drift of the lowest from the slab."""
+    found = {}
+    for k, (piece, part, pose) in enumerate(zip(scene.bodies, structure.parts, moves)):
+        shifts = []
+        for number in range(1, piece.carried // 8 + 1):
+            at = part.center + part.model.marks[f"floor {number}"][0]
+            moved = history[f"mark/{part.name}.floor {number}/displacement"]
+            shifts.append(at + moved - pose.move(at[None], slice(None))[:, 0])
+        if shifts:
+            drift = np.pad(history[f"storey/{part.name} 1/drift"], [(0, 0), (0, 1)])
+            found[k] = np.stack([shifts[0] - drift, *shifts], axis=1)
+    return found

@@ -1,0 +1,289 @@
+"""`fecolumn fragility`: probability of overturning over one or two intensity measures, of a study
+or of a user's own runs.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_FEWEST = 5  # runs
+_BINS = 6
+
+
+def add_arguments(parser) -> None:
+    """Arguments of `fecolumn fragility`."""
+    parser.add_argument(
+        "source",
+        metavar="DIR|FILE.csv",
+        help="folder of a study, or a table with the column overturned and columns of "
+        "intensity measures, such as responses.csv of fecolumn rocking",
+    )
+    parser.add_argument(
+        "--im",
+        action="append",
+        metavar="NAME",
+        default=None,
+        help="intensity measure, given twice for two: a column of the file; of a study "
+        "pgv_m_s (default), pga_m_s2, "
+        "pgd_m, arias_m_s, ds5_75_s, ds5_95_s, cav_m_s or housner_m",
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", required=True, help="folder for table and figure"
+    )
+
+
+def main(args) -> int:
+    """Fit, print and draw; returns 0.
+
+    Raises
+    ------
+    InputError
+        the source cannot be used, or its runs bound no curve.
+    """
+    from fecolumn.foundation.folder import written
+    from fecolumn.foundation.schema import InputError
+
+    wanted = tuple(args.im or ())
+    if len(wanted) > 2 or len(set(wanted)) < len(wanted):
+        raise InputError(
+            "fecolumn fragility",
+            "--im",
+            ", ".join(wanted),
+            "must be one measure, or two different ones",
+        )
+    sets = (
+        _of_study(args.source, wanted or ("pgv_m_s",))
+        if Path(args.source).is_dir()
+        else _of_file(args.source, wanted)
+    )
+    with written(args.output, "fragility", names=("fragility.csv",)) as draft:
+        _write(sets, draft, args.source)
+    print(f"wrote {args.output}")
+    return 0
+
+
+def _of_file(source: str, wanted) -> dict:
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.statistics.intensity_table import read_intensity_table
+
+    table = read_intensity_table(source, wanted)
+    if len(table.measures) > 2:
+        raise InputError(source, "--im", None, f"choose one or two of {', '.join(table.measures)}")
+    return {"": table}
+
+
+def _of_study(folder: str, wanted) -> dict:
+    """Runs of every setting over all scales of its motions, by its name."""
+    import numpy as np
+
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.motions.intensity import intensity_measures
+    from fecolumn.statistics.intensity_table import IntensityTable
+    from fecolumn.study.report.intensity import NOT_FOUND, Intensities, across_scales
+    from fecolumn.study.report.sweep import read_sweep
+
+    sweep, motions, known = read_sweep(folder), Intensities(Path(folder)), {}
+    if not sweep.done:
+        raise InputError(folder, "", None, f"none of its {sweep.analyses} analyses is done")
+
+    def measures(run):
+        motion = motions.motion(run)
+        key = motion.dt, motion.acceleration.tobytes()
+        if key not in known:
+            known[key] = intensity_measures(motion)
+        return known[key]
+
+    sets = {}
+    for values, settings in across_scales(sweep.done):
+        runs = [run for setting in settings for run in setting.runs.values()]
+        try:
+            found = [measures(run) for run in runs]
+            records = motions.of_runs(settings).record
+        except NOT_FOUND as error:
+            raise InputError(
+                folder, "", None, f"a motion of its analyses is not to be found: {error}"
+            ) from None
+        for name in wanted:
+            if name not in found[0]:
+                raise InputError(folder, "--im", name, f"must be one of {', '.join(found[0])}")
+        fallen = np.array([bool(run["overturned"]) for run in runs])
+        sets[sweep.words(values)] = IntensityTable(
+            {name: np.array([one[name] for one in found]) for name in wanted},
+            fallen,
+            records if len(set(records)) < len(records) else None,
+        )
+    return sets
+
+
+def _write(sets: dict, folder: Path, source: str) -> None:
+    import numpy as np
+
+    from fecolumn.foundation.atomic import write_csv
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.statistics.fragility import DegenerateData, logit, lognormal
+
+    names = list(next(iter(sets.values())).measures)
+    fits, refused = {}, {}
+    for label, table in sets.items():
+        im = np.column_stack(list(table.measures.values()))
+        try:
+            fits[label] = (
+                lognormal(im[:, 0], table.overturned, table.records)
+                if len(names) == 1
+                else logit(im, table.overturned, table.records)
+            )
+        except DegenerateData as error:
+            refused[label] = str(error)
+    for label, reason in refused.items():
+        print(
+            f"{label + ': ' if label else ''}no fragility of "
+            f"{sets[label].overturned.size} runs: {reason}"
+        )
+    if not fits:
+        raise InputError(
+            source,
+            "",
+            None,
+            "its runs bound no fragility: " + "; ".join(dict.fromkeys(refused.values())),
+        )
+    rows = (_one if len(names) == 1 else _two)(names, sets, fits, folder)
+    write_csv(folder / "fragility.csv", rows)
+    for line in rows:
+        print("  ".join(f"{value:>14}" for value in line))
+
+
+def _one(names, sets, fits, folder) -> list[list]:
+    """Table and figure over one measure."""
+    import numpy as np
+
+    from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
+    from fecolumn.statistics.bands import wilson
+
+    rows = [
+        [
+            "setting",
+            "n",
+            "records",
+            "overturned",
+            f"median_{names[0]}",
+            "low",
+            "high",
+            "beta",
+            "beta_low",
+            "beta_high",
+        ]
+    ]
+    curves = []
+    for label, fit in fits.items():
+        table = sets[label]
+        im = table.measures[names[0]]
+        rows.append(
+            [
+                label or "all",
+                fit.n,
+                fit.clusters or fit.n,
+                fit.overturned,
+                *(
+                    f"{value:.5g}"
+                    for value in (
+                        fit.median,
+                        *fit.median_interval(),
+                        fit.beta,
+                        *fit.beta_interval(),
+                    )
+                ),
+            ]
+        )
+        grid = np.linspace(im.min(), im.max(), 200)
+        p = fit.probability(grid)
+        curves.append(
+            Curve(label or "lognormal, maximum likelihood", grid, p.p, (p.lower, p.upper))
+        )
+        if len(fits) == 1:
+            bins = np.array_split(
+                np.argsort(im, kind="stable"), min(_BINS, max(2, im.size // _FEWEST))
+            )
+            shares = np.array([table.overturned[place].mean() for place in bins])
+            low, high = np.transpose(
+                [np.ravel(wilson([table.overturned[place].sum()], place.size)) for place in bins]
+            )
+            curves.append(
+                Curve(
+                    "observed, groups of equal number",
+                    np.array([np.median(im[place]) for place in bins]),
+                    shares,
+                    bars=(low, high),
+                )
+            )
+    line_figure(
+        [
+            CurvePanel(
+                words(names[0]),
+                r"$P$(overturn)",
+                curves[:7],
+                {"ylim": (0, 1), "xlim": (0, None)},
+                legend="upper left",
+            )
+        ],
+        folder / "fragility",
+    )
+    return rows
+
+
+def _two(names, sets, fits, folder) -> list[list]:
+    """Table and a figure for each setting over two measures."""
+    import numpy as np
+    from scipy.stats import chi2
+
+    from fecolumn.pictures.figures.fragility_figure import contour_figure
+    from fecolumn.statistics.fragility import logit
+
+    rows = [
+        [
+            "setting",
+            "n",
+            "records",
+            "overturned",
+            "c0",
+            *(f"c_{name}" for name in names),
+            *(f"p_{name}" for name in names),
+        ]
+    ]
+    for number, (label, fit) in enumerate(fits.items(), 1):
+        table = sets[label]
+        im = np.column_stack(list(table.measures.values()))
+        # likelihood ratio of each measure beside the other, runs taken as independent
+        alone = [logit(im[:, 1 - place], table.overturned).loglik for place in (0, 1)]
+        tests = [float(chi2.sf(max(2 * (fit.loglik - one), 0.0), 1)) for one in alone]
+        rows.append(
+            [
+                label or "all",
+                fit.n,
+                fit.clusters or fit.n,
+                fit.overturned,
+                *(f"{value:.5g}" for value in (*fit.coefficients, *tests)),
+            ]
+        )
+        contour_figure(
+            [words(name) for name in names],
+            im,
+            table.overturned,
+            fit.probability,
+            folder / (f"fragility{number}" if len(fits) > 1 else "fragility"),
+        )
+    return rows
+
+
+def words(name: str) -> str:
+    """A column's name for an axis: pgv_m_s as "PGV [m/s]", others as they are."""
+    known = {
+        "pgv_m_s": "PGV [m/s]",
+        "pga_m_s2": "PGA [m/s$^2$]",
+        "pgd_m": "PGD [m]",
+        "arias_m_s": "Arias intensity [m/s]",
+        "cav_m_s": "CAV [m/s]",
+        "housner_m": "Housner intensity [m]",
+        "ds5_75_s": "$D_{5-75}$ [s]",
+        "ds5_95_s": "$D_{5-95}$ [s]",
+    }
+    return known.get(name, name.replace("_", " "))

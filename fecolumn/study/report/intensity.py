@@ -1,0 +1,130 @@
+"""Ground motions of a study's analyses and their intensities, from the cases they were run with."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.foundation.schema import InputError, build
+from fecolumn.motions.record import GroundMotion
+from fecolumn.study.report.sweep import Setting, read_tables
+
+SCALE = "motion.scale"
+# What a reader of the motions may meet where they are not to be found any more, or never were
+NOT_FOUND = (InputError, OSError, ValueError, KeyError, TypeError)
+
+
+@dataclass(frozen=True, slots=True)
+class Runs:
+    """n runs and the intensity of their motions.
+
+    Attributes
+    ----------
+    measures
+        (n, 2) PGV [m/s] and PGA [m/s2].
+    motion
+        (n,) name of the motion, whatever its scale.
+    record
+        (n,) its file, whatever its scale and direction.
+    u_max
+        (n,) [m]; of no meaning where the column was lost.
+    lost
+        (n,) bool, overturned or slid off its base.
+    overturned
+        (n,) bool.
+    """
+
+    measures: np.ndarray
+    motion: np.ndarray
+    record: np.ndarray
+    u_max: np.ndarray
+    lost: np.ndarray
+    overturned: np.ndarray
+
+
+class Intensities:
+    """Reader of motions and of their peak values, which it keeps.
+
+    Parameters
+    ----------
+    folder
+        of the study.
+    """
+
+    def __init__(self, folder: Path):
+        self._folder = folder
+        self._known: dict = {}
+
+    def motion(self, run: dict) -> GroundMotion:
+        """Ground motion of an analysis as applied, at its own step.
+
+        Raises
+        ------
+        One of NOT_FOUND: the motion is not to be found.
+        """
+        from fecolumn.motions.load import unsampled
+
+        return unsampled(*self._table(run))
+
+    def peaks(self, run: dict) -> tuple[float, float]:
+        """PGV [m/s] and PGA [m/s2] of the motion of an analysis, RotD50.
+
+        Raises
+        ------
+        One of NOT_FOUND: the motion is not to be found.
+        """
+        from fecolumn.motions.intensity import peak_values
+        from fecolumn.motions.load import unsampled
+
+        motion, folder = self._table(run)
+        scale, unscaled = (
+            abs(motion.scale),
+            dataclasses.replace(motion, scale=1.0, free_vibration_s=0.0, delay_s=0.0),
+        )
+        if unscaled not in self._known:
+            pga, pgv, _ = peak_values(unsampled(unscaled, folder))
+            self._known[unscaled] = pgv, pga
+        pgv, pga = self._known[unscaled]
+        return scale * pgv, scale * pga
+
+    def of_runs(self, settings: list[Setting]) -> Runs:
+        """All runs of settings.
+
+        Raises
+        ------
+        One of NOT_FOUND: a motion is not to be found.
+        """
+        runs = [(name, run) for setting in settings for name, run in setting.runs.items()]
+        u, lost = (
+            np.concatenate(values) for values in zip(*(setting.peaks() for setting in settings))
+        )
+        records = [
+            "|".join((table.source, table.source_y, table.source_z))
+            for table in (self._table(run)[0] for _, run in runs)
+        ]
+        return Runs(
+            np.array([self.peaks(run) for _, run in runs]),
+            np.array([name for name, _ in runs]),
+            np.array(records),
+            u,
+            lost,
+            np.concatenate([setting.column("overturned").astype(bool) for setting in settings]),
+        )
+
+    def _table(self, run: dict):
+        from fecolumn.case.sections import Motion
+
+        folder = self._folder / "analyses" / run["case_id"]
+        return build(Motion, read_tables(folder)["motion"], folder), folder
+
+
+def across_scales(settings) -> list[tuple[dict, list[Setting]]]:
+    """Settings that differ in the scale of their motions alone, with what they have in common."""
+    groups: dict[str, tuple[dict, list[Setting]]] = {}
+    for setting in settings:
+        values = {key: value for key, value in setting.values.items() if key != SCALE}
+        groups.setdefault(repr(values), (values, []))[1].append(setting)
+    return list(groups.values())

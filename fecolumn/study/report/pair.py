@@ -1,0 +1,106 @@
+"""Pairs of settings that differ in one axis alone, compared as distributions and motion by
+motion.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from typing import Any
+
+from fecolumn.statistics.compare import Comparison, compare
+from fecolumn.statistics.equivalence import distance_bound
+from fecolumn.statistics.holm import holm
+from fecolumn.study.alpha import ALPHA
+from fecolumn.study.report.sweep import DT, FINE_DT_S, Line, Sweep
+
+_MOST = 240  # beyond it only the extreme levels of each line are compared
+_LEAST_MOTIONS = 2
+FINE_STEPS, WITH_COARSE_STEP = "time steps of 1 ms and below", "with a time step above 1 ms"
+
+
+@dataclass(frozen=True, slots=True)
+class ComparedPair:
+    """Two settings that differ in one axis.
+
+    Attributes
+    ----------
+    axis, low, high
+        the axis and its two levels.
+    others
+        values of all other axes.
+    comparison
+        of the low level (a) with the high one (b), over the motions done in both.
+    distance, bound
+        largest distance of the two CDFs, and what the data exclude at 95 %.
+    family
+        the tests that are judged together.
+    comparisons
+        how many they are.
+    p_holm
+        paired p of the distance, corrected for the family.
+    p_lost
+        name of the share of columns that the distributions end short of.
+    """
+
+    axis: str
+    low: Any
+    high: Any
+    others: dict[str, Any]
+    comparison: Comparison
+    distance: float
+    bound: float
+    family: str
+    comparisons: int
+    p_holm: float
+    p_lost: str
+
+
+def read_pairs(sweep: Sweep) -> list[ComparedPair]:
+    """Every pair that differs in one axis, or where these are too many, the extreme levels of each
+    line.
+    """
+    lines = [line for axis in sweep.varied for line in sweep.lines(axis)]
+    spans = [
+        (line, low, high)
+        for line in lines
+        for low, high in itertools.combinations(range(len(line.settings)), 2)
+    ]
+    if len(spans) > _MOST:
+        spans = [(line, 0, len(line.settings) - 1) for line in lines][:_MOST]
+    found = []
+    for line, low, high in spans:
+        whole = Line(line.axis, line.others, (line.settings[low], line.settings[high]))
+        if len(whole.motions()) < _LEAST_MOTIONS:
+            continue
+        u, over = whole.peaks()
+        result = compare(u[0], over[0], u[1], over[1], paired=True, cap_m=sweep.limit_m)
+        found.append((whole, result, *distance_bound(u[0], over[0], u[1], over[1])))
+    families = [_family(line) for line, *_ in found]
+    corrected: dict[int, float] = {}
+    for family in dict.fromkeys(families):
+        members = [place for place, name in enumerate(families) if name == family]
+        corrected |= dict(zip(members, holm([found[place][1].paired_p for place in members])))
+    return [
+        ComparedPair(
+            line.axis,
+            *line.levels,
+            line.others,
+            result,
+            distance,
+            bound,
+            families[place],
+            families.count(families[place]),
+            float(corrected[place]),
+            sweep.p_lost,
+        )
+        for place, (line, result, distance, bound) in enumerate(found)
+    ]
+
+
+def _family(line: Line) -> str:
+    """Tests that answer one question: an axis, and whether a coarse time step takes part."""
+    steps = [setting.values[DT] for setting in line.settings if DT in setting.values]
+    if line.axis not in (DT, ALPHA) or not steps:
+        return line.axis
+    return f"{line.axis}, {FINE_STEPS if max(steps) <= FINE_DT_S else WITH_COARSE_STEP}"

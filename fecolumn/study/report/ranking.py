@@ -1,0 +1,89 @@
+"""Which parameter moves the distribution most."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fecolumn.statistics.sensitivity import Sensitivity, sensitivity
+from fecolumn.study.report.sweep import ENGINE, Setting, Sweep, common_motions
+
+_SAMPLED = 8  # an axis with more levels is a sampled one: its outer quarters are compared
+_LEAST_MOTIONS = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Rank:
+    """An axis, the levels compared, and its effect.
+
+    Attributes
+    ----------
+    low, high
+        extreme levels, or for an axis of many levels the ranges (least, largest) of its outer
+        quarters.
+    settings
+        settings of all other parameters over which the effect is averaged.
+    """
+
+    axis: str
+    low: Any
+    high: Any
+    settings: int
+    effect: Sensitivity
+
+
+def ranking(sweep: Sweep) -> list[Rank]:
+    """Axes by the distance of the CDF between their extreme levels, the largest first; not the
+    engines, which have none and a section of their own.
+    """
+    found = [
+        rank
+        for axis in sweep.varied
+        if axis != ENGINE
+        for rank in [
+            _sampled(sweep, axis) if len(sweep.axes[axis]) > _SAMPLED else _crossed(sweep, axis)
+        ]
+        if rank
+    ]
+    return sorted(found, key=lambda rank: -rank.effect.distance)
+
+
+def _crossed(sweep: Sweep, axis: str) -> Rank | None:
+    """Extreme levels at equal values of all others."""
+    low, high = sweep.axes[axis][0], sweep.axes[axis][-1]
+    ends = []
+    for line in sweep.lines(axis):
+        at = {repr(setting.values[axis]): setting for setting in line.settings}
+        if repr(low) in at and repr(high) in at:
+            ends.append((at[repr(low)], at[repr(high)]))
+    return _effect(axis, low, high, [a for a, _ in ends], [b for _, b in ends])
+
+
+def _sampled(sweep: Sweep, axis: str) -> Rank | None:
+    """Lower against upper quarter of the samples, whatever the others are."""
+    samples = sorted(sweep.done, key=lambda setting: sweep.axes[axis].index(setting.values[axis]))
+    quarter = len(samples) // 4
+    low, high = samples[:quarter], samples[-quarter:] if quarter else []
+    if not quarter:
+        return None
+    return _effect(
+        axis,
+        (low[0].values[axis], low[-1].values[axis]),
+        (high[0].values[axis], high[-1].values[axis]),
+        low,
+        high,
+    )
+
+
+def _effect(axis: str, low, high, at_low: list[Setting], at_high: list[Setting]) -> Rank | None:
+    motions = common_motions(at_low + at_high) if at_low else []
+    if len(motions) < _LEAST_MOTIONS:
+        return None
+    u_low, over_low, u_high, over_high = (
+        np.array([setting.peaks(motions)[kind] for setting in settings])
+        for settings in (at_low, at_high)
+        for kind in (0, 1)
+    )
+    return Rank(axis, low, high, len(at_low), sensitivity(u_low, over_low, u_high, over_high))

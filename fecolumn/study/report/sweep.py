@@ -1,0 +1,303 @@
+"""A study as its report sees it: settings (ensembles) crossed with motions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fecolumn.engines.ending import P_LOST, P_OVERTURN, cut_short
+from fecolumn.foundation.files import read_json
+from fecolumn.statistics.ecdf import largest_peak
+from fecolumn.study.alpha import ALPHA, alpha_note
+from fecolumn.study.plan import ENSEMBLE_AXES
+from fecolumn.study.report.notation import ALL, setting_text
+from fecolumn.study.report.subject import Subject, subject_of
+from fecolumn.study.store import DONE, FAILED, read_study
+
+DT, ENGINE = "integration.dt_s", "integration.engine"
+FINE_DT_S = 1e-3 * (1 + 1e-9)  # what the paper calls small enough
+PAPER_CHOICE = {DT: 1e-3, ALPHA: -0.2}
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """One combination of parameters and its runs.
+
+    Attributes
+    ----------
+    values
+        value of each axis that is not the motion, by dotted key.
+    planned, failed
+        analyses.
+    runs
+        summary of each analysis that is done, by motion.
+    """
+
+    values: dict[str, Any]
+    planned: int
+    failed: int
+    runs: dict[str, dict]
+
+    def column(self, name: str, motions=None) -> np.ndarray:
+        """A number of the summaries, one a motion (nan where it is not stated)."""
+        runs = self.runs if motions is None else {motion: self.runs[motion] for motion in motions}
+        return np.array(
+            [np.nan if run.get(name) is None else run[name] for run in runs.values()], float
+        )
+
+    def peaks(self, motions=None) -> tuple[np.ndarray, np.ndarray]:
+        """u_max [m], nan where the column overturned or slid off its base, and whether it did, one
+        a motion.
+        """
+        lost = self.column("overturned", motions).astype(bool) | (
+            self.column("slid_off", motions) == 1
+        )
+        return np.where(lost, np.nan, self.column("u_max_m", motions)), lost
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """Settings along one axis, all else equal; `settings` in rising order of the axis' levels, each
+    with runs.
+    """
+
+    axis: str
+    others: dict[str, Any]
+    settings: tuple[Setting, ...]
+
+    def motions(self) -> list[str]:
+        """Motions done in every setting."""
+        return common_motions(self.settings)
+
+    def peaks(self) -> tuple[np.ndarray, np.ndarray]:
+        """u_max [m] and overturned, (levels, n) of the common motions."""
+        pairs = [setting.peaks(self.motions()) for setting in self.settings]
+        return np.array([u for u, _ in pairs]), np.array([over for _, over in pairs])
+
+    @property
+    def levels(self) -> list:
+        """Values of the axis, one for each setting."""
+        return [setting.values[self.axis] for setting in self.settings]
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A study read for its report.
+
+    Attributes
+    ----------
+    folder
+        of the study.
+    title
+        of it.
+    axes
+        levels of each axis that is not the motion, numbers rising, others as they stand in the
+        study.
+    settings
+        in the order of the study; those without a finished run included.
+    rows
+        the ledger.
+    analyses
+        number of all analyses; of a job array at work the ledger has not all of them yet.
+    limit_m
+        displacement that every overturned column exceeded [m]: the cap of the study, or the largest
+        peak of those that stood.
+    case
+        tables of one case of the study, {} where no result folder has one.
+    """
+
+    folder: Path
+    title: str
+    axes: dict[str, list]
+    settings: tuple[Setting, ...]
+    rows: list[dict]
+    analyses: int
+    limit_m: float
+    case: dict = field(default_factory=dict)
+
+    @cached_property
+    def done(self) -> tuple[Setting, ...]:
+        """Settings with at least one run."""
+        return tuple(setting for setting in self.settings if setting.runs)
+
+    @cached_property
+    def motions(self) -> list[str]:
+        """Names of all motions, each once, in the order of the settings."""
+        return list(dict.fromkeys(motion for setting in self.settings for motion in setting.runs))
+
+    @cached_property
+    def cut(self) -> str:
+        """What is said of analyses that cut their motion short; "" where none does."""
+        return cut_short(run for setting in self.settings for run in setting.runs.values())
+
+    @cached_property
+    def slides(self) -> bool:
+        """Whether any column slid off its base: what is lost is then more than what overturned."""
+        return any(
+            run.get("slid_off") for setting in self.settings for run in setting.runs.values()
+        )
+
+    @property
+    def lost(self) -> str:
+        """What runs did that are lost."""
+        return "overturned or slid off" if self.slides else "overturned"
+
+    @cached_property
+    def subject(self) -> Subject:
+        """What overturns, in words."""
+        return subject_of(self.case)
+
+    @property
+    def alpha_note(self) -> str:
+        """What goes beside every statement on the effect of alpha, see `study.alpha`."""
+        return alpha_note(self.case, self.axes)
+
+    @property
+    def p_lost(self) -> str:
+        """Name of the share of columns that are lost, where no figure parts what overturned from
+        what slid off.
+        """
+        return P_LOST if self.slides else P_OVERTURN
+
+    @property
+    def varied(self) -> list[str]:
+        """Axes with more than one level."""
+        return [axis for axis, levels in self.axes.items() if len(levels) > 1]
+
+    @cached_property
+    def reference(self) -> Setting:
+        """The paper's choice where the study has it, else the setting with most runs, the middle
+        one of equals.
+        """
+        chosen = [
+            s
+            for s in self.done
+            if all(s.values.get(axis) == value for axis, value in PAPER_CHOICE.items())
+        ]
+        most = max(len(s.runs) for s in self.done)
+        equals = chosen or [s for s in self.done if len(s.runs) == most]
+        return equals[0] if chosen else equals[len(equals) // 2]
+
+    def at(self, values: dict) -> str:
+        """Words such as "at Δt = 0.001 s"."""
+        words = self.words(values)
+        return f"in {ALL}" if words == ALL else f"at {words}"
+
+    def words(self, values: dict) -> str:
+        """Values of the axes that vary, such as "Δt = 0.001 s, α = −0.2"; those of one value alone
+        are told once, at the top.
+        """
+        return setting_text({axis: values[axis] for axis in self.varied if axis in values})
+
+    def groups(self, axis: str) -> list[tuple[dict[str, Any], tuple[Setting, ...]]]:
+        """Values of the other axes, and the settings with runs that have them, in rising order of
+        the axis' levels.
+        """
+        groups: dict[str, list[Setting]] = {}
+        for setting in self.done:
+            others = {key: setting.values[key] for key in self.varied if key != axis}
+            groups.setdefault(repr(others), []).append(setting)
+        order = {repr(level): place for place, level in enumerate(self.axes[axis])}
+        return [
+            (
+                {key: group[0].values[key] for key in self.varied if key != axis},
+                tuple(sorted(group, key=lambda s: order[repr(s.values[axis])])),
+            )
+            for group in groups.values()
+        ]
+
+    def lines(self, axis: str) -> list[Line]:
+        """Every line along an axis with at least two levels that have runs of common motions."""
+        lines = [Line(axis, others, settings) for others, settings in self.groups(axis)]
+        return [line for line in lines if len(line.settings) > 1 and line.motions()]
+
+
+def common_motions(settings) -> list[str]:
+    """Motions done in all of the settings, in the order of the first."""
+    return [
+        motion
+        for motion in settings[0].runs
+        if all(motion in setting.runs for setting in settings[1:])
+    ]
+
+
+def read_sweep(folder) -> Sweep:
+    """The study in a folder, finished or not.
+
+    Raises
+    ------
+    InputError
+        the folder holds no study.
+    """
+    folder, study = Path(folder), read_study(folder)
+    groups: dict[str, list[dict]] = {}
+    for row in study.rows:
+        groups.setdefault(
+            repr([item for item in row["axes"].items() if item[0] not in ENSEMBLE_AXES]), []
+        ).append(row)
+    settings = tuple(_setting(rows) for rows in groups.values())
+    axes: dict[str, dict] = {}
+    for setting in settings:
+        for key, value in setting.values.items():
+            axes.setdefault(key, {})[repr(value)] = value
+    case = next(
+        filter(
+            None,
+            (_case(folder / "analyses" / row["id"]) for row in study.rows if row["state"] == DONE),
+        ),
+        {},
+    )
+    return Sweep(
+        folder,
+        study.title,
+        {key: _ordered(list(levels.values())) for key, levels in axes.items()},
+        settings,
+        study.rows,
+        study.analyses,
+        float(case.get("overturn", {}).get("displacement_m", 0.0)) or _largest_peak(settings),
+        case,
+    )
+
+
+def _largest_peak(settings) -> float:
+    found = largest_peak(*(setting.peaks() for setting in settings if setting.runs))
+    return found if found > 0 else 1.0
+
+
+def _setting(rows: list[dict]) -> Setting:
+    runs = {
+        repr([value for key, value in row["axes"].items() if key in ENSEMBLE_AXES]): row["summary"]
+        for row in rows
+        if row["state"] == DONE and row["summary"]
+    }
+    values = {key: value for key, value in rows[0]["axes"].items() if key not in ENSEMBLE_AXES}
+    return Setting(values, len(rows), sum(row["state"] == FAILED for row in rows), runs)
+
+
+def _ordered(levels: list) -> list:
+    numbers = all(
+        isinstance(level, (int, float)) and not isinstance(level, bool) for level in levels
+    )
+    return sorted(levels) if numbers else levels
+
+
+def read_tables(folder: Path) -> dict:
+    """Tables of the case an analysis was run with."""
+    return read_json(folder / "case.json")["case"]
+
+
+def _case(folder: Path) -> dict:
+    try:
+        tables = read_tables(folder)
+        float(tables.get("overturn", {}).get("displacement_m", 0.25))
+        return (
+            tables
+            if all(isinstance(table, (dict, str, type(None))) for table in tables.values())
+            else {}
+        )
+    except (ValueError, KeyError, TypeError, AttributeError):
+        return {}

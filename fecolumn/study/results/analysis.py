@@ -1,0 +1,274 @@
+"""One analysis: its history as arrays with units, its summary, its figures."""
+
+from __future__ import annotations
+
+import functools
+import html
+from pathlib import Path
+
+import numpy as np
+
+from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.engines.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS, read_history
+from fecolumn.foundation.files import is_file
+from fecolumn.foundation.schema import InputError
+from fecolumn.study.results.frames import installed
+from fecolumn.study.results.picture import Picture
+
+# what a notebook shows of a summary: key, words, factor, unit
+_SHOWN = (
+    ("outcome", "outcome", None, ""),
+    ("u_max_m", "largest displacement of the top", 1e3, "mm"),
+    ("u_critical_m", "critical displacement", 1e3, "mm"),
+    ("residual_slide_m", "slide at the end", 1e3, "mm"),
+    ("time_s", "analysed", 1.0, "s"),
+    ("steps", "steps", None, ""),
+    ("energy_closure_rel", "energy not accounted for, of what was moved", 1.0, ""),
+)
+
+
+class AnalysisResult:
+    """What is in the folder of `fecolumn.run`.
+
+    `result["u_top"]` is an array of the history, its first axis time; `result.units["u_top"]` its
+    unit. Units are SI.
+
+    Attributes
+    ----------
+    folder
+        Path.
+    """
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+
+    @functools.cached_property
+    def history(self) -> dict[str, np.ndarray]:
+        """Arrays by name: time, u_top, tilt, ..., "energy/kinetic", ...
+
+        Raises
+        ------
+        InputError
+            the analysis has written none yet.
+        """
+        file = self.folder / "history.h5"
+        try:
+            return read_history(file)
+        except OSError as error:
+            raise InputError(
+                file,
+                "",
+                None,
+                "not written yet" if not is_file(file) else f"cannot be read ({error})",
+            ) from None
+
+    @functools.cached_property
+    def summary(self) -> dict:
+        """What summary.json says; empty while the analysis has not ended."""
+        from fecolumn.foundation.files import read_json
+
+        file = self.folder / "summary.json"
+        return read_json(file) if is_file(file) else {}
+
+    @functools.cached_property
+    def case(self):
+        """The Case that was analysed."""
+        from fecolumn.simulation import read_folder_case
+
+        return read_folder_case(self.folder)[0]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        try:
+            return self.history[name]
+        except KeyError:
+            raise KeyError(
+                f"{name!r} is not in the history; it has {', '.join(self.history)}"
+            ) from None
+
+    @property
+    def time(self) -> np.ndarray:
+        """Times (n,) [s] of the samples."""
+        return self["time"]
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of each array."""
+        return {
+            name: UNITS.get(name) or UNITS_OF_PARTS.get(name.rpartition("/")[2], "J")
+            for name in self.history
+        }
+
+    @property
+    def energy(self) -> dict[str, np.ndarray]:
+        """Terms of the energy ledger (n,) [J] by name, as of `dynamics.energy.TERMS`; zero where an
+        earlier version did not write one.
+        """
+        return {
+            term: self.history.get(f"energy/{term}", np.zeros(len(self.time))) for term in TERMS
+        }
+
+    @property
+    def finished(self) -> bool:
+        """Whether the analysis has ended."""
+        return bool(self.summary)
+
+    def columns(self) -> dict[str, np.ndarray]:
+        """One array (n,) a component, named with its unit: "time [s]", "u_top_x [m]", ..."""
+        named = {}
+        for name, values in self.history.items():
+            parts = [""] if values.ndim == 1 else [f"_{axis}" for axis in "xyz"[: values.shape[1]]]
+            for part, column in zip(parts, values.reshape(len(values), -1).T):
+                named[f"{name}{part} [{self.units[name]}]"] = column
+        return named
+
+    def to_pandas(self):
+        """DataFrame of `columns`, time its index."""
+        frame = installed("pandas", "to_pandas").DataFrame(self.columns())
+        return frame.set_index("time [s]")
+
+    def to_xarray(self):
+        """Dataset with time as coordinate; unit and meaning are attributes, as xarray's plots show
+        them.
+        """
+        xarray = installed("xarray", "to_xarray")
+        arrays = {}
+        for name, values in self.history.items():
+            axes = (
+                ("time",)
+                if values.ndim == 1
+                else ("time", "axis" if values.shape[1] == 3 else "horizontal")
+            )
+            arrays[name.replace("/", "_")] = (
+                axes,
+                values,
+                {"units": self.units[name], "long_name": MEANING.get(name, name.replace("/", " "))},
+            )
+        coordinates = {"time": arrays.pop("time"), "axis": list("xyz"), "horizontal": list("xy")}
+        return xarray.Dataset(
+            arrays, coordinates, {"case": self.case.title, "case_id": self.case.id}
+        )
+
+    @property
+    def plot(self) -> AnalysisPlots:
+        """Figures: `plot.top()`, `plot.path()`, `plot.energy()`, of a structure
+        `plot.interfaces()`, `plot.storeys()` and `plot.links()`.
+        """
+        return AnalysisPlots(self.folder)
+
+    def render(self, **wishes) -> list[Path]:
+        """Movie, stills and sequence as of `fecolumn render`; the files.
+
+        Parameters
+        ----------
+        wishes
+            by the names of `render.draw.Wish`, such as view="front", only="pictures",
+            instants=(0.5, 1.0) [s].
+        """
+        from fecolumn.pictures.render.draw import Wish, render
+
+        return render(self.folder, Wish(**wishes), quiet=True)
+
+    def compare(self, other: AnalysisResult, tolerance: float = 0.05):
+        """Compare with another analysis as `fecolumn compare` does; a `results.parting.Parting`.
+
+        Parameters
+        ----------
+        other
+            the reference.
+        tolerance
+            difference over the larger peak [-] at which they have parted.
+
+        Raises
+        ------
+        InputError
+            a history is missing, or they have no time in common.
+        """
+        from fecolumn.study.results.parting import parting
+
+        return parting(self, other, tolerance)
+
+    def __repr__(self) -> str:
+        return (
+            f"AnalysisResult({str(self.folder)!r}: {self.summary.get('outcome', 'not finished')})"
+        )
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><th style='text-align:left'>{words}</th>"
+            f"<td>{_cell(self.summary[key], factor, unit)}</td></tr>"
+            for key, words, factor, unit in _SHOWN
+            if self.summary.get(key) is not None
+        )
+        title = html.escape(self.case.title or str(self.folder))
+        return (
+            f"<table><caption>{title}</caption>{rows or '<tr><td>not finished</td></tr>'}</table>"
+        )
+
+
+class AnalysisPlots:
+    """Figures of an analysis, each a Picture."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+
+    def top(self) -> Picture:
+        """Displacement of the top against time, below the ground motion."""
+        from fecolumn.pictures.figures.history_figures import HistoryCurves, read_ending
+        from fecolumn.pictures.figures.top_figure import top_figure
+
+        return Picture(
+            lambda path: top_figure(
+                HistoryCurves.read(self.folder / "history.h5"), read_ending(self.folder), path
+            )
+        )
+
+    def path(self) -> Picture:
+        """Path of the top in plan."""
+        from fecolumn.pictures.figures.history_figures import HistoryCurves, read_ending
+        from fecolumn.pictures.figures.path_figure import path_figure
+
+        return Picture(
+            lambda path: path_figure(
+                HistoryCurves.read(self.folder / "history.h5"), read_ending(self.folder), path
+            )
+        )
+
+    def interfaces(self, *names: str) -> Picture:
+        """Of a structure: tilt, uplift, slide and normal force at interfaces, of all unless
+        named.
+        """
+        from fecolumn.pictures.figures.structure_figures import interface_figure, interface_names
+
+        columns = AnalysisResult(self.folder).history
+        return Picture(
+            lambda path: interface_figure(columns, path, list(names) or interface_names(columns))
+        )
+
+    def storeys(self) -> Picture:
+        """Of a structure with storeys: their drifts and shears."""
+        from fecolumn.pictures.figures.structure_figures import storey_figure
+
+        return Picture(lambda path: storey_figure(AnalysisResult(self.folder).history, path))
+
+    def links(self, *names: str) -> Picture:
+        """Of a structure with links: their tension over time and over their elongation, of all
+        unless named; copies go by one name.
+        """
+        from fecolumn.pictures.figures.structure_figures import link_figure, link_names
+
+        columns = AnalysisResult(self.folder).history
+        return Picture(lambda path: link_figure(columns, path, list(names) or link_names(columns)))
+
+    def energy(self) -> Picture:
+        """The energy ledger against time."""
+        from fecolumn.pictures.figures.energy_figure import energy_figure
+        from fecolumn.pictures.figures.history_figures import HistoryCurves
+
+        return Picture(
+            lambda path: energy_figure(HistoryCurves.read(self.folder / "history.h5"), path)
+        )
+
+
+def _cell(value, factor, unit: str) -> str:
+    text = f"{factor * value:.4g} {unit}" if factor is not None else str(value)
+    return html.escape(text.strip())
