@@ -91,12 +91,12 @@ def _parser() -> argparse.ArgumentParser:
     """Of all commands; nothing here may load a library, so that --help is quick."""
     from fecolumn import __version__
     from fecolumn.case import completion, manual, show, templates
-    from fecolumn.case import key_tables as keys
-    from fecolumn.engines.rocking import command as rocking
-    from fecolumn.motions import command as motions
     from fecolumn.pictures.render import command as render
     from fecolumn.study import command as study
     from fecolumn.study import compare_command as compare
+    from fecolumn.study import key_tables as keys
+    from fecolumn.study import motions_command as motions
+    from fecolumn.study import rocking_command as rocking
     from fecolumn.study.report import command as report
     from fecolumn.study.report import fragility_command as fragility
     from fecolumn.verification import command as verify

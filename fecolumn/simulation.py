@@ -96,7 +96,7 @@ def run(
 def _analysis_class(case, comm, file) -> type[Analysis]:
     check_duration(case, file)
     if case.integration.engine == "full":
-        from fecolumn.structures.full_analysis import FullAnalysis
+        from fecolumn.engines.full_analysis import FullAnalysis
 
         return FullAnalysis
     if comm.size > 1:
@@ -110,7 +110,7 @@ def _analysis_class(case, comm, file) -> type[Analysis]:
         from fecolumn.engines.rocking.analysis import ModelAnalysis
 
         return ModelAnalysis
-    from fecolumn.structures.reduced_analysis import ReducedAnalysis
+    from fecolumn.engines.reduced_analysis import ReducedAnalysis
 
     return ReducedAnalysis
 

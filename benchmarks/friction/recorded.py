@@ -101,7 +101,7 @@ def column(file) -> Iterator[Problem]:
     tilt, reduced engine.
     """
     from fecolumn.case.case import read_case
-    from fecolumn.structures.engine import engine_of
+    from fecolumn.engines.reduced_engine import engine_of
     from fecolumn.structures.structure import structure_model
 
     def engine_at(case):

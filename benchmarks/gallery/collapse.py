@@ -11,8 +11,8 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.pictures.figures.style import BLACK, GREY, PAGE_WIDTH_IN, new_figure, save, styled
-from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.multi_drum import DT, drum_case, drum_pulse, drums_of_column
 

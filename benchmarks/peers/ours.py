@@ -71,7 +71,7 @@ def full(given: Release, steps: int):
 def reduced(given: Release, steps: int):
     """Rows of the track of a compiled engine."""
     from fecolumn.case.case import case_from_tables
-    from fecolumn.structures.engine import engine_of
+    from fecolumn.engines.reduced_engine import engine_of
     from fecolumn.structures.structure import structure_model
 
     case = case_from_tables(given.case.tables(), "peers")

@@ -73,10 +73,10 @@ def name_of(body) -> str:
 def respond(case: Shaken, ground: np.ndarray, dt: float) -> Response:
     """Response to accelerations (n,) [m/s2] at steps of dt [s], in chunks of a second."""
     from fecolumn.case.case import case_from_tables
+    from fecolumn.contact.overturning import steepest_to_come
     from fecolumn.engines.dynamics.cuts import StepFailed
-    from fecolumn.engines.dynamics.overturning import steepest_to_come
-    from fecolumn.structures.analysis import columns_of
-    from fecolumn.structures.engine import engine_of
+    from fecolumn.engines.reduced_engine import engine_of
+    from fecolumn.engines.structure_analysis import columns_of
     from fecolumn.structures.structure import structure_model
 
     whole = case_from_tables(tables(case.structure, dt), "benchmarks.planar")

@@ -10,9 +10,9 @@ from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
 from fecolumn.case.sections import GRAVITY
+from fecolumn.contact.overturning import Limits
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.engines.dynamics.hht import HHT
-from fecolumn.engines.dynamics.overturning import Limits
 from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.start import of_parts
 from fecolumn.engines.reduced.structure import structure_of, view_of

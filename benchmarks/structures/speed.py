@@ -13,7 +13,7 @@ from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.problem import N_ASSEMBLED, N_CONTACT, N_ITERATIONS
 from fecolumn.engines.reduced.observe import place_of
-from fecolumn.structures.engine import engine_of
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
 
 NUMBERS = (1, 2, 4, 8, 16)

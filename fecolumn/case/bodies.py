@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from fecolumn.case.sections import Cap, Flange, Motion
@@ -593,4 +594,20 @@ class LinkKeys(Section):
         unit="N",
         above=0,
         high=1e12,
+    )
+
+
+def half_sides(body) -> tuple[float, float]:
+    """Radius [m] of a round foot and 0, or half the sides of a rectangular one, as of
+    `model.Ball.edge`.
+    """
+    if isinstance(body, Block):
+        return body.length_m / 2, body.width_m / 2
+    return (body.flange.outer_diameter_m if body.flange else body.outer_diameter_m) / 2, 0.0
+
+
+def rise(body) -> float:
+    """Height [m] of the highest point of a dome over its lowest one."""
+    return body.foot_radius_m - math.sqrt(
+        max(body.foot_radius_m**2 - sum(half**2 for half in half_sides(body)), 0.0)
     )

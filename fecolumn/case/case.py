@@ -267,11 +267,9 @@ def case_from_tables(tables: dict, file) -> Case:
 
     Tables with [column] are a short form, see `fecolumn.case.short_form`.
     """
-    from fecolumn.engines.rocking.model import TABLES, model_engine_of
+    from fecolumn.case.model_names import TABLES, model_engine_of
 
     if model_engine_of(tables, file):
-        from fecolumn.engines.rocking.model_table import case_of_table
-
         return case_of_table(tables, file)
     case = structure_from_tables(
         {key: table for key, table in tables.items() if key not in TABLES}, file
@@ -282,6 +280,20 @@ def case_from_tables(tables: dict, file) -> Case:
         model_of(case, file)
         start_of(case, file)
     return case
+
+
+def case_of_table(tables: dict, file, engine: str | None = None) -> Case:
+    """Case of the rocking model of a table of its own, such as [podium]; engine: its name, unless
+    the table says it.
+
+    Raises
+    ------
+    InputError
+        unknown key, value out of range, parts that do not fit.
+    """
+    from fecolumn.case.model_table import fields_of_table
+
+    return Case(**fields_of_table(tables, file, engine))
 
 
 def read_case(path) -> Case:

@@ -14,9 +14,10 @@ from fecolumn.case.bodies import (
     Storeys,
     Stuff,
     Tube,
+    half_sides,
+    rise,
 )
 from fecolumn.case.sections import Material
-from fecolumn.structures.feet import half_sides, rise
 
 
 def material_of(body: Stuff, materials: dict[str, Material]) -> Material:

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fecolumn.engines.dynamics.cuts import SUBSTEPS
 from fecolumn.foundation.content import content
 from fecolumn.foundation.paths import OF_SECTIONS as FILES
 from fecolumn.foundation.paths import absolute
@@ -20,6 +19,9 @@ from fecolumn.foundation.schema import Section, parameter
 if TYPE_CHECKING:
     pass
 
+#: Words of integration.substeps, for what a step is made in parts: a rim that rolls fast, a point
+#: that lands, nothing at all.
+SUBSTEPS = ("rolling", "impacts", "none")
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 REST = "rest"  # word of motion.free_vibration_s
 MOST_STEPS = 1e8  # of an analysis: its history fills the memory of any machine

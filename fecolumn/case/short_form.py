@@ -430,7 +430,7 @@ def full_tables(form: ShortForm) -> dict:
     column = short["column"]
     own = bool(column.get("mesh_file"))
     from fecolumn.case.check_grounds import OF_KINDS
-    from fecolumn.case.sizes import is_solid
+    from fecolumn.mesh.outline import is_solid
 
     solid = not own and form.column.shape != "block" and is_solid(form.column)
     kind = "mesh" if own else "block" if form.column.shape == "block" else "tube"

@@ -19,6 +19,7 @@ import math
 from fecolumn.foundation.content import content
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.schema import InputError
+from fecolumn.mesh.outline import foot_of_column, foot_sides, is_solid, outline_sides, own_of
 
 # keys that each shape needs, and those that say nothing of it
 NEEDED = {
@@ -135,44 +136,16 @@ def opened(case):
     return case
 
 
-def foot_sides(case) -> tuple[float, float]:
-    """Length along x and width along y [m] of the rectangle around the foot."""
-    return _foot(case.column, case.flange)
-
-
-def _foot(column, flange) -> tuple[float, float]:
-    if flange:
-        return flange.outer_diameter_m, flange.outer_diameter_m
-    if column.mesh_file:
-        return _own(column).foot
-    return _outline(column)
-
-
-def _outline(column) -> tuple[float, float]:
-    """Length and width [m] of a built column's section."""
-    return (
-        (column.length_m, column.width_m)
-        if column.shape == "block"
-        else (column.outer_diameter_m, column.outer_diameter_m)
-    )
-
-
-def _own(column):
-    from fecolumn.mesh.imported import own_mesh
-
-    return own_mesh(column.mesh_file)
-
-
 @functools.lru_cache(maxsize=256)
 def sized(column, flange, cap, base, mesh, mesh_content):
     """Column, base and mesh sections without open sizes, those of the short form; `mesh_content`
     tells that a file is still the one read before.
     """
-    foot = _foot(column, flange)
+    foot = foot_of_column(column, flange)
     shorter, longer = min(foot), max(foot)
     filled = dict(element_order=1)
     if column.mesh_file:
-        own = _own(column)
+        own = own_of(column)
         column = _filled(column, height_m=own.height, fine_height_m=0.0)
         filled = dict(element_order=2 if own.is_tetrahedral else 1)
         side = math.sqrt(foot[0] * foot[1])
@@ -191,7 +164,7 @@ def sized(column, flange, cap, base, mesh, mesh_content):
         if flange:
             fine = min(math.pi * flange.outer_diameter_m / 40, 3 * fine)
         if column.fine_height_m is None:
-            half = min(_outline(column)) / 2
+            half = min(outline_sides(column)) / 2
             column = _filled(
                 column, fine_height_m=half if half < column.height_m else column.height_m
             )
@@ -232,11 +205,6 @@ def _fine(column) -> float:
     return math.pi * (column.outer_diameter_m - column.wall_m) / 48
 
 
-def is_solid(column) -> bool:
-    """Whether the round section of a [column] has no hole."""
-    return column.shape == "solid" or column.wall_m >= column.outer_diameter_m / 2 * (1 - 1e-6)
-
-
 def _filled(section, **values):
     """A section with values for the keys that it leaves open, rounded down to four digits."""
     found = {
@@ -255,7 +223,7 @@ def _rounded(value: float) -> float:
 def check_sizes(case, file) -> None:
     """Refuse parts that do not fit, and a mesh above `mesh.limit_dofs`."""
     column, base, mesh, cap, flange = case.column, case.base, case.mesh, case.cap, case.flange
-    outline = foot_sides(case) if column.mesh_file else _outline(column)
+    outline = foot_sides(case) if column.mesh_file else outline_sides(column)
 
     def refuse(key, value, allowed):
         raise InputError(file, key, value, allowed)
@@ -289,11 +257,11 @@ def check_sizes(case, file) -> None:
                 f"48th of the circumference, {_fine(column):.4g} m",
             )
         if column.shape == "block":
-            if mesh.coarse_size_m > min(_outline(column)) * (1 + 1e-9):
+            if mesh.coarse_size_m > min(outline_sides(column)) * (1 + 1e-9):
                 refuse(
                     "mesh.coarse_size_m",
                     mesh.coarse_size_m,
-                    f"must be at most the block's shorter side, {min(_outline(column)):g} m",
+                    f"must be at most the block's shorter side, {min(outline_sides(column)):g} m",
                 )
         else:
             around = math.pi * (

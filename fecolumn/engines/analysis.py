@@ -20,12 +20,8 @@ from fecolumn.engines.ending import (
 from fecolumn.engines.summary import NAME
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.files import is_file
-from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.sources import code, code_text
 
-# Steps in a period of the column's vertical vibration on a pad: needed, and for 3 % in frequency
-# (period error (w dt)^2 / 12)
-FEWEST_STEPS, FEW_STEPS = 4, 10
 CHECKPOINT = "checkpoint.npz"
 
 
@@ -54,8 +50,8 @@ class Analysis:
     """
 
     def __init__(self, case, folder, comm, file, quiet):
+        from fecolumn.contact.overturning import steepest_to_come
         from fecolumn.engines.dynamics.history import History
-        from fecolumn.engines.dynamics.overturning import steepest_to_come
 
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
         self.began, self.cpu_began, self.code = time.perf_counter(), time.process_time(), code()
@@ -122,7 +118,7 @@ class Analysis:
     @property
     def barrier_j(self) -> float:
         """Energy to overturn [J]."""
-        from fecolumn.engines.dynamics.overturning import barrier
+        from fecolumn.contact.overturning import barrier
 
         return float(barrier(self.stance))
 
@@ -149,45 +145,6 @@ class Analysis:
         """Steps between frames of the fields; 0 for no fields."""
         every = self.case.output.fields_every_s
         return max(1, round(every / self.case.integration.dt_s)) if every else 0
-
-    def warn_of_base(self, frequency: float, pad, file) -> None:
-        """Tell of a step that resolves the base plate's vibration, of lowest `frequency` [Hz], or
-        not that of the column on its Pad.
-
-        Raises
-        ------
-        InputError
-            a pad so stiff that its vibration is less than a few steps.
-        """
-        dt = self.case.integration.dt_s
-        if pad is not None:
-            steps, stiffness = 1 / (pad.frequency * dt), self.case.base.stiffness_n_m3
-            told = (
-                f"the column's vertical vibration on its pad, of {pad.frequency:.3g} Hz, "
-                f"takes {steps:.2g} steps"
-            )
-            if steps < FEWEST_STEPS:
-                raise InputError(
-                    file,
-                    "base.stiffness_n_m3",
-                    stiffness,
-                    f"{told}; at least {FEWEST_STEPS} are needed: integration.dt_s at most "
-                    f"{1 / (FEWEST_STEPS * pad.frequency):.2g} s, or base.kind = "
-                    "'unbounded' for a ground that stiff",
-                )
-            if steps < FEW_STEPS:
-                warnings.warn(
-                    f"{file}: {told}; with fewer than {FEW_STEPS} its frequency is off "
-                    "by more than 3 %",
-                    stacklevel=2,
-                )
-        if dt < 1 / frequency:
-            warnings.warn(
-                f"{file}: integration.dt_s = {dt:g} s resolves the base plate's own "
-                f"vibration (period {1 / frequency:.2g} s), "
-                "which is left out: the base responds statically",
-                stacklevel=2,
-            )
 
     def went_on(self, take) -> bool:
         """Whether the analysis goes on from its checkpoint; from one that cannot be used it does
@@ -309,7 +266,7 @@ class Analysis:
         """How the analysis ends, from the answer of `overturning.fallen` and the last rotation (3,
         3).
         """
-        from fecolumn.engines.dynamics.overturning import CAPPED, NO_RETURN
+        from fecolumn.contact.overturning import CAPPED, NO_RETURN
 
         last, dt = self.history.last(), self.case.integration.dt_s
         if fallen == CAPPED:
@@ -352,7 +309,7 @@ class Analysis:
         """What the point of no return was, from the last row of the history and the last rotation
         (3, 3).
         """
-        from fecolumn.engines.dynamics.overturning import critical_tilt_along
+        from fecolumn.contact.overturning import critical_tilt_along
 
         return (
             f"tilt {last['tilt']:.3g} rad, critical "
@@ -361,7 +318,7 @@ class Analysis:
 
     def limits(self) -> dict:
         """Of the summary: tilt and displacement beyond which the column falls."""
-        from fecolumn.engines.dynamics.overturning import critical_displacement
+        from fecolumn.contact.overturning import critical_displacement
 
         return dict(
             critical_tilt_rad=self.stance.critical,

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import brentq
 
-from fecolumn.case.short_form import ShortForm
-from fecolumn.case.sizes import foot_sides
 from fecolumn.mesh.bricks import BASE, BrickMesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import swept_grid
+from fecolumn.mesh.outline import foot_sides
+
+if TYPE_CHECKING:
+    from fecolumn.case.short_form import ShortForm
 
 GROWTH = 1.5  # largest ratio of neighbouring bricks
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
-from fecolumn.case.short_form import ShortForm
 from fecolumn.mesh.bricks import CAP, BrickMesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import swept_grid
+
+if TYPE_CHECKING:
+    from fecolumn.case.short_form import ShortForm
 
 
 def cap_mesh(case: ShortForm) -> BrickMesh | None:

@@ -5,14 +5,17 @@ to each other.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.case.short_form import ShortForm
-from fecolumn.case.sizes import is_solid
 from fecolumn.mesh.bricks import FLANGE, LOWER, UPPER, BrickMesh, merged_mesh
 from fecolumn.mesh.gmsh_section import extruded
+from fecolumn.mesh.outline import is_solid
 from fecolumn.mesh.section import Annulus, Disc, Rectangle
+
+if TYPE_CHECKING:
+    from fecolumn.case.short_form import ShortForm
 
 
 def column_mesh(case: ShortForm) -> BrickMesh:

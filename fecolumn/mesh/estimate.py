@@ -5,14 +5,16 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
-from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.base_plate import base_counts
 from fecolumn.mesh.bricks import BASE, CAP, FLANGE, LOWER, PART_NAMES, UPPER
 from fecolumn.mesh.column import divisions, part_layers, section
 from fecolumn.mesh.imported import own_mesh
+
+if TYPE_CHECKING:
+    from fecolumn.case.short_form import ShortForm
 
 # Rough. MUMPS' factors of the reference specimen (13,302 degrees of freedom without base) and of a
 # marble drum (5,031) have 6 and 16 n^(4/3) numbers, and the full-order engine then took 0.64 and

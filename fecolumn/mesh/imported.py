@@ -8,16 +8,19 @@ import io
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import FACES, UPPER, BrickMesh, boundary_faces, brick_mesh
 from fecolumn.mesh.jacobian import corner_jacobians
+
+if TYPE_CHECKING:
+    from fecolumn.case.short_form import ShortForm
 
 _DIMENSION_TOLERANCE = 0.01
 _BELOW_THREE_DIMENSIONS = {

@@ -8,14 +8,17 @@ import functools
 import math
 import operator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.case.short_form import ShortForm
-from fecolumn.case.sizes import is_solid
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh
 from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
+from fecolumn.mesh.outline import is_solid
 from fecolumn.mesh.specimen import SpecimenMesh
+
+if TYPE_CHECKING:
+    from fecolumn.case.short_form import ShortForm
 
 # Corner signs of the VTK hexahedron.
 _SIGNS = np.array(

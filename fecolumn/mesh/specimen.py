@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.case.short_form import ShortForm
 from fecolumn.mesh.base_plate import base_mesh
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh, boundary_faces, merged_mesh
 from fecolumn.mesh.cap_plate import cap_mesh
 from fecolumn.mesh.column import column_mesh, section
 from fecolumn.mesh.imported import imported_column
 from fecolumn.mesh.tie import Tie, adjust, tie
+
+if TYPE_CHECKING:
+    from fecolumn.case.short_form import ShortForm
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,17 +11,17 @@ import numpy as np
 from fecolumn.case.bodies import Ground, Matrices, Meshed, Plate, Storeys
 from fecolumn.case.sections import Cap, Flange, Material
 from fecolumn.case.short_form import Column, Heights
-from fecolumn.case.sizes import is_solid
+from fecolumn.engines.reduced_engine import upright
+from fecolumn.engines.scene.structure_scene import structure_scene
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
 from fecolumn.mesh.bricks import PART_NAMES, BrickMesh
 from fecolumn.mesh.export import write_meshes
 from fecolumn.mesh.jacobian import scaled_jacobian
+from fecolumn.mesh.outline import is_solid
 from fecolumn.mesh.picture import picture
 from fecolumn.mesh.quality import QualityRow, mass_properties, quality_table
 from fecolumn.mesh.specimen import SpecimenMesh
-from fecolumn.pictures.figures.structure_scene import structure_scene
 from fecolumn.structures.bodies import Drawing
-from fecolumn.structures.engine import upright
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.model import GROUND
 from fecolumn.structures.picture import structure_picture

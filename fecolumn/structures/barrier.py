@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY, Initial
-from fecolumn.engines.dynamics import overturning
-from fecolumn.engines.dynamics.overturning import Stance, stance
+from fecolumn.contact import overturning
+from fecolumn.contact.overturning import Stance, stance
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import edge_points
 from fecolumn.structures.model import GROUND, StructureModel

@@ -13,26 +13,10 @@ import math
 
 import numpy as np
 
-from fecolumn.case.bodies import Block, Tube
+from fecolumn.case.bodies import Tube, half_sides
 from fecolumn.contact.tolerances import ROUND_CORNERS
 from fecolumn.structures.faces import Face
 from fecolumn.structures.model import Ball, BodyModel
-
-
-def half_sides(body) -> tuple[float, float]:
-    """Radius [m] of a round foot and 0, or half the sides of a rectangular one, as of
-    `model.Ball.edge`.
-    """
-    if isinstance(body, Block):
-        return body.length_m / 2, body.width_m / 2
-    return (body.flange.outer_diameter_m if body.flange else body.outer_diameter_m) / 2, 0.0
-
-
-def rise(body) -> float:
-    """Height [m] of the highest point of a dome over its lowest one."""
-    return body.foot_radius_m - math.sqrt(
-        max(body.foot_radius_m**2 - sum(half**2 for half in half_sides(body)), 0.0)
-    )
 
 
 def lifted(body, points: np.ndarray) -> np.ndarray:

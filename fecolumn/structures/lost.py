@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.contact.overturning import FAR, Limits
 from fecolumn.contact.points import BASE
-from fecolumn.engines.dynamics.overturning import FAR, Limits
 from fecolumn.structures.barrier import is_level, stances
 from fecolumn.structures.model import GROUND, StructureModel
 from fecolumn.structures.place import Standing, supports_of

@@ -32,7 +32,7 @@ def body_of(shape: Shape, material: Material, comm=None):
     """The `fem.body.Body` of a mesh with its ties, of this process alone unless `comm` says more."""
     from mpi4py import MPI
 
-    from fecolumn.engines.dynamics.assembly import column_body
+    from fecolumn.fem.tied_body import column_body
     from fecolumn.mesh.specimen import SpecimenMesh
 
     return column_body(
@@ -58,7 +58,7 @@ def elastic_model(
     patches
         by the names of the surfaces.
     """
-    from fecolumn.engines.reduced.build import reduced_at
+    from fecolumn.fem.reduction import reduced_at
 
     body = body_of(shape, material)
     found = {name: body.find_nodes(patch.positions, patch.part) for name, patch in patches.items()}

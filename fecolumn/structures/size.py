@@ -7,11 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.case.bodies import Block, Matrices, Meshed, Plate, Storeys
+from fecolumn.case.bodies import Block, Matrices, Meshed, Plate, Storeys, half_sides
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.estimate import Estimate, Load, refuse_sizes
 from fecolumn.mesh.imported import own_mesh
-from fecolumn.structures.feet import half_sides
 from fecolumn.structures.ground import sized_ground
 from fecolumn.structures.shapes import counts_of, element_size
 

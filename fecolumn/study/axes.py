@@ -29,8 +29,8 @@ from pathlib import Path
 from typing import Any
 
 from fecolumn.case.case import type_of
+from fecolumn.case.model_names import TABLES as TABLES_OF_MODELS
 from fecolumn.case.short_form import ShortForm
-from fecolumn.engines.rocking.model import TABLES as TABLES_OF_MODELS
 from fecolumn.foundation.schema import InputError, build, meant
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.study.keys import LatinHypercube
@@ -266,7 +266,7 @@ def _of_model(key: str) -> Any:
     """Type of a dotted key of a rocking model's own table, such as podium.storeys, or None."""
     if key.partition(".")[0] not in TABLES_OF_MODELS:
         return None
-    from fecolumn.engines.rocking import model_table  # only now: the models need libraries
+    from fecolumn.case import model_table
 
     return model_table.model_key_type(key)
 

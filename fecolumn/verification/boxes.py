@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from fecolumn.case import sections as case
+from fecolumn.contact.overturning import Limits
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.engines.dynamics.hht import HHT
-from fecolumn.engines.dynamics.overturning import Limits
 from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.start import of_parts
 from fecolumn.engines.reduced.structure import structure_of, view_of

@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
-from fecolumn.structures.engine import engine_of
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
 
 #: Half length, half width, half height of the block above and height of the one below [m]

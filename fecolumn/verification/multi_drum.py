@@ -15,7 +15,7 @@ import numpy as np
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
-from fecolumn.structures.engine import engine_of
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.result import Row
 

@@ -6,22 +6,22 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.case.short_form import ShortForm
-from fecolumn.case.sizes import foot_sides
 from fecolumn.contact.base_plate import BasePlate
 from fecolumn.contact.footprint import Footprint, footprint
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.pad import pad_of
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base, unbounded_base
-from fecolumn.engines.dynamics.assembly import column_body, known_to_all
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.structure import kinematics_of, structure_system
 from fecolumn.engines.dynamics.system import System
 from fecolumn.fem.body import Body
 from fecolumn.fem.free_body import rigid_fields
+from fecolumn.fem.tied_body import column_body, known_to_all
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.base_plate import levels
 from fecolumn.mesh.bricks import boundary_faces, outline_edges
+from fecolumn.mesh.outline import foot_sides
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.mesh.surface import face_points, nodal_areas
 from fecolumn.structures.model import BodyModel

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.case.sections import Initial
-from fecolumn.engines.reduced.build import reduced_at
 from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.start import unstrained
 from fecolumn.engines.reduced.structure import structure_of, view_of
+from fecolumn.fem.reduction import reduced_at
 from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
 from fecolumn.structures.place import Standing, placed

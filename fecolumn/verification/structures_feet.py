@@ -29,8 +29,8 @@ from scipy.integrate import quad
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.reduced.observe import ENERGY, WIDTH
-from fecolumn.structures.analysis import columns_of
-from fecolumn.structures.engine import engine_of
+from fecolumn.engines.reduced_engine import engine_of
+from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.result import CaseRows, Row
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.engines.dynamics.assembly import column_body
 from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.effective import effective_factor
 from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.fem.tied_body import column_body
 from fecolumn.fem.total_lagrangian import TotalLagrangian
 from fecolumn.mesh.bricks import LOWER, UPPER, boundary_faces, merged_mesh
 from fecolumn.mesh.gmsh_section import swept_grid

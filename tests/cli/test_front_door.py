@@ -9,11 +9,11 @@ import typing
 import pytest
 
 from fecolumn import __version__
-from fecolumn.case import key_tables as keys
 from fecolumn.case import manual, templates
 from fecolumn.case.case import read_case
 from fecolumn.case.short_form import ShortForm
 from fecolumn.cli import main
+from fecolumn.study import key_tables as keys
 from fecolumn.study.plan import read_plan
 
 

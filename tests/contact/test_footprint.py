@@ -5,8 +5,8 @@ import pytest
 from mpi4py import MPI
 
 from fecolumn.case.short_form import short_form
-from fecolumn.engines.dynamics.assembly import column_body
 from fecolumn.engines.dynamics.gravity import standing
+from fecolumn.fem.tied_body import column_body
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.verification.one_column import build_system, footprint_of
 

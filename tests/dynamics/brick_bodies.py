@@ -7,11 +7,11 @@ import numpy as np
 from mpi4py import MPI
 
 from fecolumn.case.sections import Material
+from fecolumn.contact.overturning import Limits
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.engines.dynamics.energy import TERMS, Ledger
 from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.engines.dynamics.hht import HHT
-from fecolumn.engines.dynamics.overturning import Limits
 from fecolumn.engines.dynamics.stepper import Stepper
 from fecolumn.engines.dynamics.structure import released, structure_system
 from fecolumn.engines.reduced.engine import Engine

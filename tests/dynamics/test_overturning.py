@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from fecolumn.engines.dynamics.overturning import (
+from fecolumn.contact.overturning import (
     CAPPED,
     NO_RETURN,
     STANDS,

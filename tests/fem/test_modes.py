@@ -7,8 +7,8 @@ import pytest
 from mpi4py import MPI
 
 from fecolumn.case.case import read_case
-from fecolumn.engines.dynamics.assembly import column_body
 from fecolumn.fem.modes import free_modes
+from fecolumn.fem.tied_body import column_body
 from fecolumn.mesh.bending import free_free_bending_frequency
 from fecolumn.mesh.specimen import specimen_mesh
 

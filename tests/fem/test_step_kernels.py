@@ -39,7 +39,7 @@ def tied_body():
     from mpi4py import MPI
 
     from fecolumn.case.short_form import short_form
-    from fecolumn.engines.dynamics.assembly import column_body
+    from fecolumn.fem.tied_body import column_body
     from fecolumn.verification.one_column import share_specimen_mesh
 
     case = short_form(

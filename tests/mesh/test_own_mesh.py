@@ -65,7 +65,7 @@ def test_linear_tetrahedra_are_refused(tmp_path):
 def test_nodes_of_second_order_are_counted_before_anything_is_built(tmp_path):
     from mpi4py import MPI
 
-    from fecolumn.engines.dynamics.assembly import column_body
+    from fecolumn.fem.tied_body import column_body
     from fecolumn.verification.one_column import footprint_of
 
     for kind, made in (("tetra", tetrahedra), ("hexahedron", bricks)):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fecolumn.case.case import case_from_tables
-from fecolumn.structures.engine import engine_of
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
 
 SIDE, HEIGHT, START = 0.4, 1.2, 0.4

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from pair import reduced, system_of
 
-from fecolumn.engines.reduced.build import column_model
 from fecolumn.engines.reduced.model import scheme, structure_of
 from fecolumn.fem.free_body import FreeBody
+from fecolumn.fem.reduction import column_model
 
 
 @pytest.fixture(scope="module")

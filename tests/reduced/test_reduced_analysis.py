@@ -9,7 +9,7 @@ import h5py
 import numpy as np
 import pytest
 
-import fecolumn.structures.reduced_analysis  # noqa: F401  (compiled functions belong in the user's cache)
+import fecolumn.engines.reduced_analysis  # noqa: F401  (compiled functions belong in the user's cache)
 from fecolumn import simulation
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import read_toml

@@ -6,8 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from fecolumn.case.case import case_from_tables, read_case, structure_from_tables
-from fecolumn.engines.rocking.model_table import case_of_table
+from fecolumn.case.case import case_from_tables, case_of_table, read_case, structure_from_tables
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
 from fecolumn.foundation.schema import InputError
 from fecolumn.simulation import run

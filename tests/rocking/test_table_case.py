@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.model_names import MODELS, TABLES, model_class
 from fecolumn.cli import main
 from fecolumn.engines.rocking.case import read_model_case
-from fecolumn.engines.rocking.model import MODELS, TABLES, model_class
 from fecolumn.foundation import _compiled
 from fecolumn.foundation.schema import InputError, merge
 from fecolumn.simulation import read_folder_case, run

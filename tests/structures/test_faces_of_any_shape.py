@@ -9,7 +9,7 @@ from scipy.spatial import ConvexHull
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
-from fecolumn.structures.engine import engine_of
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.joint_bodies import lifts, met
 

@@ -13,9 +13,9 @@ from small_structures import STONE, structure
 
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.dynamics.stay import Stay
+from fecolumn.engines.elements import structure_of_elements
 from fecolumn.foundation.schema import InputError, merge
 from fecolumn.simulation import read_folder_case, run
-from fecolumn.structures.elements import structure_of_elements
 
 # As in tests/dynamics: by which the engines may part with all modes, displacement [m] and tilt
 # [rad]

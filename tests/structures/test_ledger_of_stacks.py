@@ -9,7 +9,7 @@ from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.reduced.observe import ENERGY
-from fecolumn.structures.engine import engine_of
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
 
 # of each body [m]

@@ -9,7 +9,7 @@ from test_rigid_engine import BREADTH, HEIGHT, TILT, bent
 
 from fecolumn.engines.reduced.ledger import RIGID_LOSS
 from fecolumn.engines.reduced.rigid_loss import loss_share
-from fecolumn.structures.engine import engine_of
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
 
 ALPHA = np.arctan(BLOCK["length_m"] / BLOCK["height_m"])

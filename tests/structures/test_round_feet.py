@@ -9,6 +9,7 @@ from small_structures import STONE, block, structure
 from fecolumn.case.sections import GRAVITY, Material
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.interface import interface_of
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import InputError
@@ -16,7 +17,6 @@ from fecolumn.mesh.jacobian import scaled_jacobian
 from fecolumn.mesh.quality import mass_properties
 from fecolumn.structures.barrier import stances
 from fecolumn.structures.bodies import drawing
-from fecolumn.structures.engine import engine_of
 from fecolumn.structures.feet import hertz
 from fecolumn.structures.place import loads
 from fecolumn.structures.structure import standing_of, structure_model

@@ -8,7 +8,7 @@ from small_structures import STONE, structure
 
 from fecolumn.contact.friction import solve_contact
 from fecolumn.engines.reduced import motion as motions
-from fecolumn.structures.engine import engine_of
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
 
 # A point whose slip along x presses it against the ground: without friction of more than 1 / 0.8

@@ -7,8 +7,8 @@ import pytest
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.engines.reduced.observe import PER_BODY, WIDTH
+from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.simulation import run
-from fecolumn.structures.engine import engine_of
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.joint_bodies import arms, region, rocked_block, rocks, two
 from fecolumn.verification.joints import displaced as errors_of

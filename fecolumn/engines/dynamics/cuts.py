@@ -8,9 +8,7 @@ import enum
 
 from fecolumn.engines.dynamics.hht import HHT
 
-#: Words of integration.substeps, for what a step is made in parts: a rim that rolls fast, a point
-#: that lands, nothing at all; their numbers in compiled code.
-SUBSTEPS = ("rolling", "impacts", "none")
+#: Numbers of the words of SUBSTEPS in compiled code.
 ROLLING, IMPACTS, LITERAL = range(3)
 
 

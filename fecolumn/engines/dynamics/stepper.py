@@ -6,13 +6,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.case.sections import SUBSTEPS
 from fecolumn.contact.pose import move_grounds
 from fecolumn.contact.rolling import least_rim_width, part_of_step
 from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import move_anchors
 from fecolumn.engines.dynamics.booking import StepMade, book_step
 from fecolumn.engines.dynamics.collision import collide
-from fecolumn.engines.dynamics.cuts import IMPACTS, ROLLING, SUBSTEPS, StepFailed, Stop, in_halves
+from fecolumn.engines.dynamics.cuts import IMPACTS, ROLLING, StepFailed, Stop, in_halves
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.record import Record
 from fecolumn.engines.dynamics.stage import Stage, carried, equilibrate

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.case.sections import SUBSTEPS
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.joints import left_faces
+from fecolumn.contact.overturning import STANDS, steepest_to_come
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE, frames_at, grounds_at, poses_of
 from fecolumn.contact.problem import (
@@ -22,10 +24,9 @@ from fecolumn.contact.problem import (
     ROLLS_FAST,
 )
 from fecolumn.contact.projection import grounds_for_steps
-from fecolumn.engines.dynamics.cuts import SUBSTEPS, StepFailed, Stop, in_halves
+from fecolumn.engines.dynamics.cuts import StepFailed, Stop, in_halves
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.links import span
-from fecolumn.engines.dynamics.overturning import STANDS, steepest_to_come
 from fecolumn.engines.dynamics.record import Record
 from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.equilibrium import work_of

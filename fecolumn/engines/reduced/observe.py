@@ -6,11 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.points import BASE
-from fecolumn.contact.pose import SLAVE, find_poses
-from fecolumn.contact.record import record
-from fecolumn.engines.dynamics.energy import TERMS
-from fecolumn.engines.dynamics.overturning import (
+from fecolumn.contact.overturning import (
     CAPPED,
     FELL,
     NO_RETURN,
@@ -19,6 +15,10 @@ from fecolumn.engines.dynamics.overturning import (
     fallen,
     gone,
 )
+from fecolumn.contact.points import BASE
+from fecolumn.contact.pose import SLAVE, find_poses
+from fecolumn.contact.record import record
+from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.reduced.elastic import COORDINATE
 from fecolumn.engines.reduced.ledger import N_TERMS, kinetic, strain, weight_energy
 from fecolumn.foundation._compiled import njit

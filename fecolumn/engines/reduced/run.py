@@ -10,6 +10,7 @@ import numpy as np
 
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.ball import lay_down
+from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import find_poses
 from fecolumn.contact.problem import ENDED, N_IMPACTS, N_ITERATIONS, N_PARTS, OK, ROLLS_FAST
@@ -18,7 +19,6 @@ from fecolumn.contact.tolerances import PARTS
 from fecolumn.contact.two_sided import mark_unused
 from fecolumn.engines.dynamics.cuts import IMPACTS, ROLLING
 from fecolumn.engines.dynamics.links import end_links
-from fecolumn.engines.dynamics.overturning import STANDS
 from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.balls import roll_balls
 from fecolumn.engines.reduced.elastic import COORDINATE, END, START

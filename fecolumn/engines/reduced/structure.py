@@ -8,11 +8,11 @@ import numpy as np
 
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.joints import joints_of
+from fecolumn.contact.overturning import Limits, never_alone
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.tolerances import RIGID_GIVE
 from fecolumn.engines.dynamics.links import links_of
-from fecolumn.engines.dynamics.overturning import Limits, never_alone
 from fecolumn.engines.reduced.model import Structure, modal_sum
 from fecolumn.engines.reduced.observe import MARK, View
 

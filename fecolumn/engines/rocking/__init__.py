@@ -3,6 +3,7 @@
 `model` says what a model is, and holds their names; each model is a module of its own.
 """
 
-from fecolumn.engines.rocking.model import MODELS, ModelResponse, model_class
+from fecolumn.case.model_names import MODELS, model_class
+from fecolumn.engines.rocking.model import ModelResponse
 
 __all__ = ["MODELS", "ModelResponse", "model_class"]

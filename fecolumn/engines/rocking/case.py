@@ -10,10 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case.case import case_from_tables, check_duration
+from fecolumn.case.case import case_from_tables, case_of_table, check_duration
+from fecolumn.case.model_names import model_class
+from fecolumn.case.model_table import Start
 from fecolumn.case.sections import REST, Motion, located
-from fecolumn.engines.rocking.model import Model, ModelResponse, model_class
-from fecolumn.engines.rocking.model_table import Start, case_of_table
+from fecolumn.engines.rocking.model import Model, ModelResponse
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
 from fecolumn.foundation.schema import InputError, build, merge, read_toml
 from fecolumn.motions.chosen import chosen_motions

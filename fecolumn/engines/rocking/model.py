@@ -8,33 +8,14 @@ A model is a frozen dataclass with the methods of `Model`. Its name is a word of
 
 from __future__ import annotations
 
-import importlib
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
-
-from fecolumn.foundation.schema import InputError
 
 if TYPE_CHECKING:  # the command line asks for the names alone, and must not wait for libraries
     import numpy as np
 
     from fecolumn.motions.record import GroundMotion
 
-#: Name of each model: "module:class" in this package. The modules are imported only when asked for.
-MODELS = {
-    "housner": "block:RockingBlock",
-    "rocking_frame": "frame:RockingFrame",
-    "wobbling": "wobbling:Wobbling",
-    "wobbling_frame": "wobbling_frame:WobblingFrame",
-    "podium": "podium:Podium",
-}
-#: Name of a model's own table in a case file: name of the model.
-TABLES = {
-    "block": "housner",
-    "frame": "rocking_frame",
-    "wobbling": "wobbling",
-    "wobbling_frame": "wobbling_frame",
-    "podium": "podium",
-}
 SAFE, OVERTURNED = "safe", "overturned"
 
 
@@ -150,38 +131,3 @@ class Model(Protocol):
         """Derived parameters for a table: name to (value, unit), such as {"frequency parameter p":
         (2.1, "rad/s")}.
         """
-
-
-def model_class(name: str) -> Any:
-    """Class of a model of MODELS."""
-    module, _, attribute = MODELS[name].partition(":")
-    return getattr(importlib.import_module(f"fecolumn.engines.rocking.{module}"), attribute)
-
-
-def model_engine_of(tables: dict, file) -> str | None:
-    """Name of the model that a case's tables ask for by a table of its own; None where an engine of
-    finite elements is asked for, or no model's table is there.
-
-    Raises
-    ------
-    InputError
-        integration.engine is not that of the model's table, or several tables and no engine.
-    """
-    there = {TABLES[name]: name for name in TABLES if isinstance(tables.get(name), dict)}
-    if not there or "column" in tables:
-        return None
-    plan = tables.get("integration")
-    engine = plan.get("engine") if isinstance(plan, dict) else None
-    if engine in there:
-        return engine
-    if "bodies" in tables:
-        return None
-    if engine is None and len(there) == 1:
-        return next(iter(there))
-    raise InputError(
-        file,
-        "integration.engine",
-        engine,
-        f"must be {' or '.join(there)}, as the case has "
-        f"{' and '.join(f'[{name}]' for name in there.values())}",
-    )

@@ -9,11 +9,12 @@ import numpy as np
 
 from fecolumn.case import bodies as keys
 from fecolumn.case.check_bodies import material_of
+from fecolumn.case.model_names import model_class
+from fecolumn.case.model_table import Start
 from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.frame import RockingFrame
-from fecolumn.engines.rocking.model import Model, model_class
-from fecolumn.engines.rocking.model_table import Start
+from fecolumn.engines.rocking.model import Model
 from fecolumn.engines.rocking.podium import Podium
 from fecolumn.engines.rocking.storeys import shear_building
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body

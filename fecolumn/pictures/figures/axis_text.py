@@ -7,9 +7,9 @@ import typing
 
 from fecolumn.case.bodies import KINDS
 from fecolumn.case.case import NAMED
+from fecolumn.case.model_names import TABLES, model_class
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.case.short_form import ShortForm
-from fecolumn.engines.rocking.model import TABLES, model_class
 
 _SYMBOLS = {
     "integration.dt_s": r"$\Delta t$",

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.figures.style import (
     GREY,
     LINES,
@@ -17,7 +18,6 @@ from fecolumn.pictures.figures.style import (
     save,
     styled,
 )
-from fecolumn.pictures.render.quantity import Quantity
 
 # Quantities of an interface: column of the history, words, symbol, SI unit
 _OF_INTERFACE = (

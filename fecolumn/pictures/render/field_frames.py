@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.engines.scene.scene import Scene
 from fecolumn.foundation.schema import InputError
-from fecolumn.pictures.figures.scene import Scene
 from fecolumn.pictures.render.frame import Fields
 
 

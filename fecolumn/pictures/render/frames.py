@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fecolumn.engines.scene.scene import GROUND, JointFace
 from fecolumn.foundation.schema import InputError
-from fecolumn.pictures.figures.scene import GROUND, JointFace
+from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.render.frame import Fields, Frame
 from fecolumn.pictures.render.joints import gaps, moved_from_master
 from fecolumn.pictures.render.pose import nearest_rigid
-from fecolumn.pictures.render.quantity import Quantity
 
 if TYPE_CHECKING:
     from fecolumn.pictures.render.result import Result

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.pictures.figures.scene import GROUND, JointFace
+from fecolumn.engines.scene.scene import GROUND, JointFace
 from fecolumn.pictures.render.pose import Poses
 
 

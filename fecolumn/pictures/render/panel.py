@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.figures.style import (
     BLACK,
     BLUE,
@@ -21,7 +22,6 @@ from fecolumn.pictures.figures.style import (
 from fecolumn.pictures.render.canvas import COLOUR_MAPS
 from fecolumn.pictures.render.frame import Frame, Strip
 from fecolumn.pictures.render.plans import Plans, square
-from fecolumn.pictures.render.quantity import Quantity
 from fecolumn.pictures.render.strips import strips_of
 
 if TYPE_CHECKING:

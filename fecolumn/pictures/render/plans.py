@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.figures.style import BLACK, BLUE
 from fecolumn.pictures.render.frame import Frame
-from fecolumn.pictures.render.quantity import Quantity
 
 if TYPE_CHECKING:
     from fecolumn.pictures.render.frames import Frames

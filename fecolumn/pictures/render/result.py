@@ -10,10 +10,10 @@ import numpy as np
 from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.reduced.states import NAME as STATES
+from fecolumn.engines.scene.scene import JointFace, Scene
 from fecolumn.engines.summary import NAME, read_summary
 from fecolumn.foundation.files import Unreadable, is_file, read_json
 from fecolumn.foundation.schema import InputError
-from fecolumn.pictures.figures.scene import JointFace, Scene
 from fecolumn.pictures.render.field_frames import FieldFrames, FrameSeries
 from fecolumn.pictures.render.pose import Poses, nearest_rigid
 from fecolumn.pictures.render.state_frames import StateFrames

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.engines.reduced.states import State, modes_of, read_states, signature, state_at
+from fecolumn.engines.scene.scene import Scene
+from fecolumn.engines.scene.state_fields import StateFields
 from fecolumn.foundation.schema import InputError
-from fecolumn.pictures.figures.scene import Scene
-from fecolumn.pictures.figures.state_fields import StateFields
 from fecolumn.pictures.render.field_frames import FrameSeries
 from fecolumn.pictures.render.frame import Fields
 
@@ -118,7 +118,7 @@ class StateFrames(FrameSeries):
 
 def write_fields(frames: StateFrames, folder: Path, tell=lambda done: None) -> None:
     """Write the fields of all states into a folder, as `post.fields.FieldWriter` does."""
-    from fecolumn.pictures.figures.fields import FieldWriter
+    from fecolumn.engines.scene.fields import FieldWriter
 
     writer = FieldWriter(folder, frames.drawn)
     for k, time in enumerate(frames.time):

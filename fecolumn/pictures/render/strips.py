@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.render.frame import Strip
 from fecolumn.pictures.render.joints import motion
-from fecolumn.pictures.render.quantity import Quantity
 
 if TYPE_CHECKING:
     from fecolumn.pictures.render.result import Result

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from fecolumn.engines.scene.scene import Scene
 from fecolumn.foundation.schema import InputError, meant
-from fecolumn.pictures.figures.scene import Scene
 from fecolumn.pictures.render.pose import Poses
 
 
@@ -53,8 +53,8 @@ def told_by(case, folder, history: dict[str, np.ndarray], body: str) -> Told:
     """
     from scipy.spatial.transform import Rotation
 
-    from fecolumn.pictures.figures.structure_scene import scene_of
-    from fecolumn.structures.engine import upright
+    from fecolumn.engines.reduced_engine import upright
+    from fecolumn.engines.scene.structure_scene import scene_of
     from fecolumn.structures.structure import structure_model
 
     file = folder / "case.json"

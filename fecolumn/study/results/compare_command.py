@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.pictures.render.quantity import Quantity
+from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.study.results.analysis import AnalysisResult
 from fecolumn.study.results.parting import QUANTITIES, TOLERANCE, Parting, parting, quantity_of
 

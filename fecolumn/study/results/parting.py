@@ -14,7 +14,7 @@ from fecolumn.case.case import Case
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError, stated
-from fecolumn.pictures.render.quantity import Quantity
+from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.render.strips import LIFTED
 
 if TYPE_CHECKING:

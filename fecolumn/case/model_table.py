@@ -13,9 +13,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fecolumn.case.case import Case
+from fecolumn.case.model_names import TABLES, model_class, model_engine_of
 from fecolumn.case.sections import Contact, Initial, Integration, Motion, Output, Overturn, located
-from fecolumn.engines.rocking.model import TABLES, model_class, model_engine_of
 from fecolumn.foundation.schema import InputError, Section, build, parameter
 
 #: Tables of a structure of [bodies] that a model of the same file passes over
@@ -46,8 +45,8 @@ COMMON = {
 }
 
 
-def case_of_table(tables: dict, file, engine: str | None = None) -> Case:
-    """Case from TOML tables that have a model's own; relative paths are taken from the folder of
+def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
+    """Fields of the Case of TOML tables that have a model's own; relative paths are taken from the folder of
     `file`.
 
     Parameters
@@ -105,7 +104,7 @@ def case_of_table(tables: dict, file, engine: str | None = None) -> Case:
     start = found.pop("initial")
     own = build(section, tables[table], file, f"{table}.")
     model_class(engine).of_section(own, file)
-    return Case(
+    return dict(
         **found,
         bodies={},
         materials={},

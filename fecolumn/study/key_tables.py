@@ -118,7 +118,7 @@ def tables() -> list[Table]:
 
 def _model_sections() -> dict[str, type]:
     """Sections of the rocking models by the names of their tables."""
-    from fecolumn.engines.rocking.model import MODELS, model_class
+    from fecolumn.case.model_names import MODELS, model_class
 
     return {cls.TABLE: cls.SECTION for cls in map(model_class, MODELS)}
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import sys
 
-from fecolumn.engines.rocking.model import MODELS
+from fecolumn.case.model_names import MODELS
 
 _SPECTRUM = "spectrum"
 _MEASURES = ("pga_m_s2", "pgv_m_s", "pgd_m")  # of motions.intensity.peak_values

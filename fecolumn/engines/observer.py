@@ -7,12 +7,12 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from fecolumn.contact.overturning import CAPPED, FELL, NO_RETURN, STANDS, gone, never_alone
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
-from fecolumn.engines.dynamics.overturning import CAPPED, FELL, NO_RETURN, STANDS, gone, never_alone
+from fecolumn.engines.structure_analysis import of_both_sides
 from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.structures.analysis import of_both_sides
 
 
 class Observer:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.case.bodies import Matrices, Storeys
-from fecolumn.mesh.bricks import BASE, FACES, outer_faces
-from fecolumn.mesh.quality import MassProperties
-from fecolumn.pictures.figures.scene import JointFace, Piece, Scene, cells_of, same_corners
-from fecolumn.pictures.figures.state_fields import (
+from fecolumn.case.bodies import Matrices, Storeys, rise
+from fecolumn.engines.scene.scene import JointFace, Piece, Scene, cells_of, same_corners
+from fecolumn.engines.scene.state_fields import (
     Continuum,
     Rigid,
     Seat,
@@ -16,8 +14,10 @@ from fecolumn.pictures.figures.state_fields import (
     SunkPlate,
     SwayingFloors,
 )
+from fecolumn.mesh.bricks import BASE, FACES, outer_faces
+from fecolumn.mesh.quality import MassProperties
 from fecolumn.structures.bodies import Drawing
-from fecolumn.structures.feet import ball_of, rise
+from fecolumn.structures.feet import ball_of
 from fecolumn.structures.model import StructureModel
 from fecolumn.structures.storeys import building_of
 
@@ -40,7 +40,7 @@ def scene_of(case, structure: StructureModel, file) -> Scene:
     InputError
         files that the case names are gone.
     """
-    from fecolumn.structures.engine import upright
+    from fecolumn.engines.reduced_engine import upright
     from fecolumn.structures.layout import layout_of
 
     return structure_scene(case, upright(case, structure), layout_of(case, file).drawings, file)

@@ -10,21 +10,21 @@ import numpy as np
 
 from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.gathered import base_to_resume, gather_again
+from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.problem import list_present
 from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
-from fecolumn.engines.dynamics.overturning import STANDS
 from fecolumn.engines.ending import Ending
 from fecolumn.engines.reduced.observe import place_of
 from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.engines.reduced.run import advance
 from fecolumn.engines.reduced.states import States, state_of
+from fecolumn.engines.reduced_engine import engine_of, leans, upright
+from fecolumn.engines.structure_analysis import OfStructure, columns_of
 from fecolumn.foundation._compiled import compiled, interpreted
 from fecolumn.foundation.atomic import write_bytes
 from fecolumn.foundation.progress import Progress
-from fecolumn.structures.analysis import OfStructure, columns_of
-from fecolumn.structures.engine import engine_of, leans, upright
 from fecolumn.structures.pads import warn_of_grounds
 from fecolumn.structures.structure import structure_model
 
@@ -73,7 +73,7 @@ class ReducedAnalysis(OfStructure, Analysis):
 
     def _fields(self):
         """Writer of the fields, and what expands a state to them."""
-        from fecolumn.pictures.figures.fields import FieldWriter
+        from fecolumn.engines.scene.fields import FieldWriter
 
         fields = self.scene().fields()
         return FieldWriter(self.folder / "fields", fields), fields

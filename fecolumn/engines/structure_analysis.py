@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.engines.dynamics.overturning import FELL
+from fecolumn.contact.overturning import FELL
 from fecolumn.engines.ending import SLID_OFF, Ending
 from fecolumn.engines.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
 from fecolumn.structures.barrier import least_barrier, stances
@@ -38,7 +38,7 @@ class OfStructure:
 
     def scene(self):
         """`post.scene.Scene` of the case."""
-        from fecolumn.pictures.figures.structure_scene import scene_of
+        from fecolumn.engines.scene.structure_scene import scene_of
 
         return scene_of(self.case, self.structure, self.folder / "case.json")
 

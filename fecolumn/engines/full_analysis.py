@@ -9,10 +9,10 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
+from fecolumn.engines.reduced_engine import leans, upright
+from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.fem.rotation import out_of_frames
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.analysis import OfStructure
-from fecolumn.structures.engine import leans, upright
 from fecolumn.structures.pads import warn_of_grounds
 
 
@@ -62,9 +62,9 @@ class FullAnalysis(OfStructure, Analysis):
         """The System of the case, and what observes it."""
         from fecolumn.engines.dynamics.hht import HHT
         from fecolumn.engines.dynamics.structure import kinematics_of, structure_system
-        from fecolumn.structures.elements import structure_of_elements
+        from fecolumn.engines.elements import structure_of_elements
+        from fecolumn.engines.observer import Observer
         from fecolumn.structures.lost import limits_of
-        from fecolumn.structures.observer import Observer
         from fecolumn.structures.structure import standing_of
 
         case, plan = self.case, self.case.integration
@@ -113,8 +113,8 @@ class FullAnalysis(OfStructure, Analysis):
 
     def drawn(self):
         """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
-        from fecolumn.pictures.figures.structure_scene import scene_of
-        from fecolumn.structures.fields import StructureFields
+        from fecolumn.engines.scene.full_fields import StructureFields
+        from fecolumn.engines.scene.structure_scene import scene_of
 
         scene = scene_of(self.case, self.standing, self.folder / "case.json")
         points = self.system.interface.points
@@ -173,7 +173,7 @@ class FullAnalysis(OfStructure, Analysis):
         )
 
     def _fields(self):
-        from fecolumn.pictures.figures.fields import FieldWriter
+        from fecolumn.engines.scene.fields import FieldWriter
 
         return FieldWriter(self.folder / "fields", self.drawn())
 
@@ -197,8 +197,8 @@ class FullAnalysis(OfStructure, Analysis):
 
     def run(self, stop) -> dict:
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
+        from fecolumn.contact.overturning import STANDS
         from fecolumn.engines.dynamics.cuts import StepFailed
-        from fecolumn.engines.dynamics.overturning import STANDS
         from fecolumn.foundation.progress import Progress
 
         cadence = self.case.output

@@ -10,7 +10,7 @@ import numpy as np
 
 from fecolumn.contact.projection import nodes_under
 from fecolumn.engines.reduced.states import State
-from fecolumn.pictures.figures.scene import Scene
+from fecolumn.engines.scene.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,8 +184,8 @@ class Continuum:
     has_stress = True
 
     def __init__(self, body, model, nodes: np.ndarray, shapes: np.ndarray):
+        from fecolumn.engines.scene.fields import StressField, vertex_nodes
         from fecolumn.fem.free_body import FreeBody
-        from fecolumn.pictures.figures.fields import StressField, vertex_nodes
 
         self._body, self._nodes, self._shapes = body, nodes, shapes[: len(model.frequencies)]
         self._free, self._stress, self._vertices = FreeBody(body), StressField(body), None
@@ -255,7 +255,7 @@ class SunkPlate:
     """An elastic base plate (`contact.base_plate.BasePlate`)."""
 
     def __init__(self, plate):
-        from fecolumn.pictures.figures.fields import StressField, vertex_nodes
+        from fecolumn.engines.scene.fields import StressField, vertex_nodes
 
         self._plate, self._stress = plate, StressField(plate.body)
         self._vertices = vertex_nodes(plate.body)

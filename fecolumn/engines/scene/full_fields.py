@@ -8,8 +8,8 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from fecolumn.engines.dynamics.checkpoint import gather_all
-from fecolumn.pictures.figures.fields import StressField, vertex_nodes
-from fecolumn.pictures.figures.scene import Scene
+from fecolumn.engines.scene.fields import StressField, vertex_nodes
+from fecolumn.engines.scene.scene import Scene
 
 
 class StructureFields:

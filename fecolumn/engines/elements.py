@@ -46,7 +46,7 @@ def structure_of_elements(case, comm, file) -> tuple[StructureModel, list[Meshed
     InputError
         as of `structure.structure_model`; and a body that has no elements.
     """
-    from fecolumn.engines.dynamics.assembly import known_to_all
+    from fecolumn.fem.tied_body import known_to_all
 
     layout = known_to_all(comm, lambda: _checked_layout(case, file))
     made = {name: meshed(layout.drawings[name], layout.patches[name], comm) for name in case.bodies}

@@ -1,0 +1,1 @@
+"""What is drawn of an analysis: pieces, and fields on them."""
