@@ -22,7 +22,7 @@ from pathlib import Path
 import sympy as sp
 from sympy.printing.pycode import pycode
 
-TARGET = Path(__file__).parents[1] / "fecolumn" / "rocking" / "wobbling_equations.py"
+TARGET = Path(__file__).parents[1] / "fecolumn" / "engines" / "rocking" / "wobbling_equations.py"
 
 tilt, azimuth, tilt_rate, azimuth_rate, spin = sp.symbols(
     "tilt azimuth tilt_rate azimuth_rate spin"

@@ -17,9 +17,14 @@ def module_file(name: str) -> Path | None:
     )
 
 
+def _for_types_alone(node: ast.stmt) -> bool:
+    return isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
+
+
 def imports(file: Path, functions: bool = True) -> Iterable[Path]:
     """Sources of the package's modules that a file imports."""
     tree = ast.parse(file.read_text())
+    tree.body = [node for node in tree.body if not _for_types_alone(node)]
     for node in ast.walk(tree) if functions else tree.body:
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]

@@ -16,23 +16,19 @@ from fecolumn.simulation import run
 # compile and tell
 _DECIDE_NOTHING = {
     "__init__.py",
-    "_borrowed.py",
-    "_compiled.py",
-    "_form_compiler.py",
-    "_kernel.py",
-    "atomic.py",
-    "files.py",
-    "lock.py",
-    "model_keys.py",
-    "paths.py",
-    "post/fields.py",
-    "progress.py",
-    "result_folder.py",
-    "schema.py",
-    "sealed.py",
+    "foundation/_borrowed.py",
+    "foundation/_compiled.py",
+    "foundation/_form_compiler.py",
+    "foundation/_kernel.py",
+    "foundation/atomic.py",
+    "foundation/files.py",
+    "foundation/lock.py",
+    "foundation/paths.py",
+    "foundation/progress.py",
+    "foundation/schema.py",
+    "foundation/sealed.py",
+    "foundation/sources.py",
     "simulation.py",
-    "sources.py",
-    "summary.py",
 }
 _BLOCK = dict(
     column=dict(shape="block", length_m=0.4, width_m=0.4, height_m=1.2),
@@ -60,7 +56,7 @@ def test_digest_changes_with_a_source_and_not_with_the_manual(tmp_path, monkeypa
         return sources.package_digest.__wrapped__()
 
     assert digest() == sources.package_digest()
-    (tmp_path / "fecolumn" / "manual" / "theory.md").write_text("")
+    (tmp_path / "fecolumn" / "case" / "manual" / "theory.md").write_text("")
     assert digest() == sources.package_digest()
     with open(tmp_path / "fecolumn" / "contact" / "friction.py", "a") as file:
         file.write("\n")
@@ -69,7 +65,7 @@ def test_digest_changes_with_a_source_and_not_with_the_manual(tmp_path, monkeypa
 
 def test_source_that_is_no_longer_there_is_an_error():
     with pytest.raises(FileNotFoundError, match="fem/gone.py"):
-        sources.files_of(["case.py", "fem/gone.py"])
+        sources.files_of(["simulation.py", "fem/gone.py"])
 
 
 def test_summary_states_version_and_sources(block, tmp_path):

@@ -4,7 +4,7 @@ the nodes that may touch.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,7 +22,7 @@ class Reduction(NamedTuple):
     flexibility: (n, n, 3, 3) [m/N] of the nodes, by inertia relief.
     """
 
-    body: object
+    body: Any
     inertia: np.ndarray
     frequencies: np.ndarray
     fields: np.ndarray

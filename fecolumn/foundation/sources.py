@@ -13,7 +13,17 @@ from fecolumn import __version__
 _PACKAGE = Path(__file__).parents[1]
 # Folders and files of which results depend; what only reads, writes, waits or tells is left out
 DECIDING = (
-    "case",
+    "case/bodies.py",
+    "case/case.py",
+    "case/check_bodies.py",
+    "case/check_full.py",
+    "case/check_grounds.py",
+    "case/model_keys.py",
+    "case/model_names.py",
+    "case/model_table.py",
+    "case/sections.py",
+    "case/short_form.py",
+    "case/sizes.py",
     "contact",
     "engines",
     "fem",

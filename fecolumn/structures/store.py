@@ -40,7 +40,6 @@ SOURCES = (
     "contact/tolerances.py",
     "contact/unbounded_base.py",
     "foundation/_dolfinx.py",
-    "engines/reduced/build.py",
 )
 #: Modes that a body keeps at least, so that analyses with fewer share it.
 KEPT_MODES = 30

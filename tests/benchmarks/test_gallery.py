@@ -8,7 +8,7 @@ import pytest
 from benchmarks.gallery.__main__ import main
 from benchmarks.gallery.figures import FIGURES, ROOT, Work, make
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "fecolumn" / "manual").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "fecolumn" / "case" / "manual").glob("*.md"))]
 PLACES = {place for place, _ in FIGURES.values()}
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[2]
 PAGES = {
     path.stem: path
-    for path in [ROOT / "README.md", *sorted((ROOT / "fecolumn" / "manual").glob("*.md"))]
+    for path in [ROOT / "README.md", *sorted((ROOT / "fecolumn" / "case" / "manual").glob("*.md"))]
 }
 _FENCE = re.compile(
     r"^(?:<!-- (?P<mark>\w+) -->\n)?```(?P<language>\w+)\n(?P<text>.*?)^```$",

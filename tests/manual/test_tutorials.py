@@ -9,7 +9,7 @@ import pytest
 from cells import code_cells
 from documents import ROOT
 
-TUTORIALS = sorted((ROOT / "fecolumn" / "manual" / "tutorials").glob("*.py"))
+TUTORIALS = sorted((ROOT / "fecolumn" / "case" / "manual" / "tutorials").glob("*.py"))
 
 
 @pytest.mark.parametrize("tutorial", TUTORIALS, ids=lambda path: path.stem)

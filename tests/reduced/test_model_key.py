@@ -35,7 +35,7 @@ def key(tmp_path, monkeypatch):
         "mesh/column.py",
         "fem/free_body.py",
         "material/elasticity.py",
-        "reduced/build.py",
+        "fem/reduction.py",
         "contact/layer.py",
         "structures/shapes.py",
     ],
@@ -63,14 +63,13 @@ def test_other_dolfinx_makes_models_anew(key, monkeypatch):
 
 
 def test_source_of_models_that_is_gone_is_an_error_and_no_silent_old_model(key, tmp_path):
-    (tmp_path / "fecolumn" / "reduced" / "build.py").unlink()
-    with pytest.raises(FileNotFoundError, match="reduced/build.py"):
+    (tmp_path / "fecolumn" / "contact" / "layer.py").unlink()
+    with pytest.raises(FileNotFoundError, match="contact/layer.py"):
         key()
 
 
 def test_sources_cover_what_reduction_imports():
     """What is imported from elsewhere has no operators."""
-    found = closure("reduced/build.py", "contact/known_base.py", "contact/base_plate.py")
+    found = closure("fem/reduction.py", "contact/known_base.py", "contact/base_plate.py")
     covered = {str(path.relative_to(ROOT)) for path in sources.files_of(store.SOURCES)}
-    beside = {one for one in found - covered if "/" in one}
-    assert beside <= {"contact/points.py", "contact/record.py"}, beside
+    assert found - covered == {"foundation/_form_compiler.py", "foundation/lock.py"}

@@ -236,7 +236,7 @@ def other_code(tmp_path_factory):
     folder = tmp_path_factory.mktemp("other")
     os.makedirs(folder / "old")
     shutil.copytree(HERE.parents[1] / "fecolumn", folder / "old" / "fecolumn")
-    with open(folder / "old" / "fecolumn" / "case.py", "a") as file:
+    with open(folder / "old" / "fecolumn" / "case" / "sections.py", "a") as file:
         file.write("# another\n")
     (folder / "none" / "fecolumn").mkdir(parents=True)
     (folder / "none" / "fecolumn" / "__init__.py").write_text(
