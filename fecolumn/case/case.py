@@ -175,7 +175,7 @@ class Case:
         raise KeyError(name)
 
     def replace(self, changes: dict | None = None, **sections) -> Case:
-        """This case with other values, checked as a file's would be; sizes that followed a column
+        """The case with other values, checked as a file's would be; sizes that followed a column
         follow the new one.
 
         Parameters

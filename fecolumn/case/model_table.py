@@ -46,8 +46,8 @@ COMMON = {
 
 
 def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
-    """Fields of the Case of TOML tables that have a model's own; relative paths are taken from the folder of
-    `file`.
+    """Fields of the Case of TOML tables that have a model's own; relative paths are taken from
+    the folder of `file`.
 
     Parameters
     ----------

@@ -5,9 +5,11 @@ thousands of bricks alike:
 
     tube            48 fine bricks around its middle surface, 16 coarse ones
     solid cylinder  32 fine bricks around, 16 coarse ones
-    block           12 fine bricks along the geometric mean of its sides, 6 coarse ones; at least 4 and 2 along the shorter side
+    block           12 fine bricks along the geometric mean of its sides, 6 coarse ones; at least
+                    4 and 2 along the shorter side
     flange          40 fine bricks around, unless the tube's own are still three times smaller
-    own mesh        the base below has bricks as large as the foot's faces, but 8 to 24 along the foot
+    own mesh        the base below has bricks as large as the foot's faces, but 8 to 24 along
+                    the foot
 """
 
 from __future__ import annotations

@@ -1,0 +1,1 @@
+"""Contact of bodies: compiled laws of gap, friction, impact and rolling."""

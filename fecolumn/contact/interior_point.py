@@ -193,7 +193,7 @@ def _unscaled(R, friction):
 
 @njit
 def _product(R, dR, U, dU, t):
-    """(R + t dR) . (U + t dU)"""
+    """Sum of (R + t dR) (U + t dU)."""
     total = 0.0
     for i in range(len(R)):
         for a in range(3):

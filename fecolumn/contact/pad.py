@@ -25,7 +25,9 @@ class Pad:
     dt, so that spring and column exchange energy without loss and the dashpots take c (u1 - u0)^2 /
     dt:
 
-        u1 = give r + kept u0,     give = 1 / (k / 2 + c / dt),     kept = (c / dt - k / 2) / (c / dt + k / 2).
+        u1 = give r + kept u0
+        give = 1 / (k / 2 + c / dt)
+        kept = (c / dt - k / 2) / (c / dt + k / 2)
 
     The pad has no mass. Where nothing presses it recovers by its dashpots, at once where c / dt < k
     / 2. It takes the place of impacts, and of the rim's rolling: a node of the rim that comes down

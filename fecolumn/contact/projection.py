@@ -179,7 +179,7 @@ def project_on_body(bodies, interface, point, x, y):
     )
     # of room of their own, made at each call, they would take longer than to find
     shares, nearest, least, side = point.shares, 0, np.inf, 0
-    for step in range(count):
+    for _ in range(count):
         across = _shares_of(bodies.facets[first + facet], x, y, margin, shares)
         if across < 0:
             _take(bodies.facets[first + facet], facet, point)

@@ -34,8 +34,8 @@ def part_of_step(x, y, u, v, dt, done):
 
     The way down, seen along the foot, hardly changes its rate (u, v) within a step: a straight way
     on which the rim's lowest point runs at the rate
-    |(x, y) x (u, v)| / (x^2 + y^2), fastest where the foot is flattest. Where that is below FLAT, or faster than the smallest part tells, the lowest point leaps:
-    planar rocking over, an impact.
+    |(x, y) x (u, v)| / (x^2 + y^2), fastest where the foot is flattest. Where that is below FLAT,
+    or faster than the smallest part tells, the lowest point leaps: planar rocking over, an impact.
 
     Parameters
     ----------

@@ -5,7 +5,7 @@ Lengths are over the width of the foot, so that a larger structure gives the sam
 """
 
 # --- Contact problem of a step
-# -------------------------------------------------------------------------------------------------------------
+# --------------------------------------------------------------------------------------------------
 #: Height over the base below which a point takes part in the contact problem. All that a point
 #: costs grows with it; one that is missed shows below the base and is taken in by the next
 #: iteration.
@@ -87,7 +87,7 @@ YIELDED_GIVES = 1e4
 STICK_STAYS = 0.2
 
 # --- Bodies that do not deform
-# ------------------------------------------------------------------------------------------------------------------
+# --------------------------------------------------------------------------------------------------
 #: Compliance of their contact points over the mobility of the body's points within a step, so that
 #: many points share forces in one way only. In the step of a landing it stores a quarter of this
 #: share of the kinetic energy that goes, whatever the step; below a body that weighs more it is
@@ -95,7 +95,7 @@ STICK_STAYS = 0.2
 RIGID_GIVE = 1e-3
 
 # --- Impact and end of slip
-# -----------------------------------------------------------------------------------------------------------------
+# --------------------------------------------------------------------------------------------------
 #: Height at the start of a step above which a point that touches at its end has landed: far above
 #: PENETRATION, far below any flight.
 OPEN = 1e-8
@@ -125,7 +125,7 @@ IMPACT_GIVES, IMPACT_LEFT = (1e-4, 1e-4, 1e-5, 1e-5, 1e-5), 1e-4
 APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS = 0.1, 4.0, 1e-5
 
 # --- Rolling rim
-# ------------------------------------------------------------------------------------------------------------------------------
+# --------------------------------------------------------------------------------------------------
 #: Tilt [rad] below which the points stay where they are on the rim: circle and polygon are then
 #: less than a nanometre apart.
 FLAT = 1e-5
@@ -150,7 +150,7 @@ CREATED = 1e-6
 ROUND_NODES, ROUND = 12, 1e-6
 
 # --- Start from rest
-# --------------------------------------------------------------------------------------------------------------------------
+# --------------------------------------------------------------------------------------------------
 #: Inertia of the iteration to equilibrium over the rate of falling, squared: it only holds what
 #: contact and friction leave free. The contact's compliance leaves out that a tilt moves the
 #: weight; the iteration that mends this contracts by the inverse.
@@ -177,7 +177,7 @@ REST_ITERATIONS, REST_PROGRESS = 50, 0.5
 SLIDES_KEPT = 20
 
 # --- Bodies that stand on moving ones
-# -----------------------------------------------------------------------------------------------------------
+# --------------------------------------------------------------------------------------------------
 #: Way beyond the outline of a surface, over the width of the foot on it, within which a point still
 #: stands on it: feet as wide as what they stand on would else lose their outline to the first slip.
 #: On a base plate over the width of its last brick.
@@ -197,7 +197,7 @@ OUTLINE_BAND = 1e-4
 SAME_CORNER, SAME_POINT = 0.05, 1e-3
 
 # --- Geometry and overturning
-# -----------------------------------------------------------------------------------------------------------------
+# --------------------------------------------------------------------------------------------------
 #: Nodes are at the same place up to this share of the foot's width or the body's size: rounding of
 #: a mesh file.
 SAME_PLACE = 1e-9

@@ -82,6 +82,7 @@ class MovingTop(BaseTop):
         return super().around(positions - moved, rows)
 
     def at_edge(self, positions: np.ndarray, margin: float) -> bool:
+        """False: it has no edge."""
         return False
 
 

@@ -174,6 +174,7 @@ class ReducedAnalysis(OfStructure, Analysis):
         return sum(different.values()) + sum(base.dofs for base in self.bases)
 
     def rigid_loss_share(self) -> float | None:
+        """Energy that impacts took over what rigid-body theory says."""
         return loss_share(self.engine.ledger, self.engine.structure.interfaces)
 
     def _advance(self, count: int) -> bool:

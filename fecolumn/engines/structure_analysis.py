@@ -55,6 +55,7 @@ class OfStructure:
         return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
 
     def ground(self, step: int) -> np.ndarray:
+        """Acceleration (3,) of the first ground [m/s2] at a step."""
         return self.grounds(step)[:3]
 
     def grounds(self, step: int) -> np.ndarray:
@@ -99,6 +100,7 @@ class OfStructure:
         return dict(critical_tilt_rad=min(tilts, default=None), u_critical_m=None)
 
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
+        """Which body has passed its point of no return, in words."""
         parts = self.structure.parts
         tilts = np.array([float(last[f"body/{part.name}/tilt"]) for part in parts])
         limits = limits_of(self.structure, standing_of(self.case, self.structure))
@@ -108,6 +110,7 @@ class OfStructure:
         return f'"{parts[b].name}" has tilted by {tilts[b]:.3g} rad, {told} rad'
 
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
+        """How the analysis ends, from the answer of `reduced.observe.lost`."""
         if fallen != FELL:
             return super().ending(fallen, rotation)
         return Ending(

@@ -75,7 +75,9 @@ def read_system(key: str, body: Matrices, file) -> System:
     found = {}
     for name in ("mass", "stiffness"):
         matrix = _matrix(
-            getattr(body, f"{name}_file"), name, lambda allowed: refuse(f"{name}_file", allowed)
+            getattr(body, f"{name}_file"),
+            name,
+            lambda allowed, own=name: refuse(f"{own}_file", allowed),
         )
         if (
             matrix.shape[0] != matrix.shape[1]

@@ -124,7 +124,7 @@ def keep_models(case, layout: Layout, file, say) -> dict:
         keys[name] = key_of([_made_of(case, name), said])
         count = max(case.modes_of(name), KEPT_MODES)
 
-        def make():
+        def make(name=name, one=one, patches=patches, count=count):
             say(f'making the reduced model of "{name}" (once)')
             return one.model(patches, count)
 

@@ -44,6 +44,7 @@ class Table:
 
     @property
     def heading(self) -> str:
+        """Its line above the keys."""
         return f"[{self.name}]" if self.name else f"top of a {self.of} file"
 
 

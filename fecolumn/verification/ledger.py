@@ -5,7 +5,7 @@ in, what is stored and what is lost add up; contact creates no energy; each loss
 
 Derivation. The ledger books the work of each force over each step from forces and displacements
 alone, and compares with the state's kinetic, strain and gravity energy (see
-`fecolumn.engines.dynamics.stepper.Stepper` for the identity of HHT's velocity and displacement updates).
+`engines.dynamics.stepper.Stepper` for the identity of HHT's velocity and displacement updates).
 With exact solves the sum closes to rounding; a residual force eps f_ref left in a step of length dx
 is a closure error of eps f_ref dx, so that a path of length s closes to eps f_ref s.
 

@@ -1,0 +1,1 @@
+"""The full-order engine: finite elements of all bodies in time."""

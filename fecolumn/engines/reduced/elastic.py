@@ -38,6 +38,7 @@ START, END = range(2)
 
 
 def no_elastic(nodes: int, points: int) -> Elastic:
+    """Room for so many nodes and points, of which nothing is known."""
     return Elastic(
         np.zeros((2, nodes, 3)),
         np.zeros((2, nodes), np.int64),

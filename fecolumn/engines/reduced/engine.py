@@ -37,7 +37,7 @@ from fecolumn.engines.reduced.run import LENGTHS, Chunk, Course, advance
 from fecolumn.foundation._compiled import compile_for, interpreted
 
 # of the halves of a step, whose end alone counts: nothing is past returning, nothing at rest
-_NO_END, _NO_REST = np.array([np.inf]), (0.0, -np.inf)
+_NO_END, _NO_REST, _NO_STEPS = np.array([np.inf]), (0.0, -np.inf), np.empty(0)
 _STOPS = {
     CONTACT_FAILED: Stop.CONTACT,
     IMPACT_FAILED: Stop.CONTACT,
@@ -166,7 +166,7 @@ class Engine:
         motion,
         spare,
         grounds=None,
-        steepest=np.empty(0),
+        steepest=_NO_STEPS,
         rest=_NO_REST,
         rows=None,
     ) -> tuple:

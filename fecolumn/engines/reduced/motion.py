@@ -50,7 +50,7 @@ class Motion(NamedTuple):
 
     @property
     def time(self) -> float:
-        """[s]"""
+        """Time [s]."""
         return float(self.whole["time"][0])
 
     @property
@@ -103,6 +103,7 @@ class Action(NamedTuple):
 
 
 def no_action(modes: int, bodies: int = 1, interfaces: int = 1, links: int = 0) -> Action:
+    """Room for what acts on so many bodies, of which nothing acts."""
     return Action(
         *(np.zeros((bodies, 3)) for _ in range(3)),
         np.zeros((bodies, modes)),

@@ -69,7 +69,8 @@ MARK = record(("body", "i8"), ("arm", "f8", 3))
 #: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its
 #: centre of mass [m], tilt [rad] and rotation vector [rad]; of each interface tilt of the slave
 #: from the master [rad], rise of the middle of its foot and its slide along two tangents [m],
-#: normal force [N]; of each mark its displacement [m]; of each link tension [N], elongation from its
+#: normal force [N]; of each mark its displacement [m]; of each link tension [N], elongation from
+#: its
 #: unstressed length and the part of it that has yielded [m], energy that it has taken [J], whether
 #: it is broken.
 OF_BODY, OF_INTERFACE, OF_MARK = (

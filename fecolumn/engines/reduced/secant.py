@@ -29,6 +29,7 @@ class Secant(NamedTuple):
 
 
 def no_secant(points: int) -> Secant:
+    """Room for so many points, of which nothing is learnt."""
     return Secant(np.zeros((points, 3)), np.zeros((points, 3)), np.zeros(1), np.zeros(1, bool))
 
 
