@@ -116,7 +116,9 @@ def _analysis_class(case, comm, file) -> type[Analysis]:
 
 
 def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:
-    """The summary of a run that has ended, or None and what is wrong with the file that is there."""
+    """The summary of a run that has ended, or None and what is wrong with the file that is
+    there.
+    """
     if not is_file(folder / NAME):
         return None, ""
     try:

@@ -36,7 +36,9 @@ MODEL_ENGINES = (
 
 @dataclass(frozen=True, slots=True)
 class Flange(Section):
-    """Round foot plate below the column, of the column's material; the column stands on it, tied."""
+    """Round foot plate below the column, of the column's material; the column stands on it,
+    tied.
+    """
 
     outer_diameter_m: float = parameter(doc="outer diameter", unit="m", above=0, high=100)
     thickness_m: float = parameter(doc="thickness along z", unit="m", above=0, high=100)

@@ -1,4 +1,6 @@
-"""Static displacement of contact points by the forces on them: what bodies and base give at once."""
+"""Static displacement of contact points by the forces on them: what bodies and base give at
+once.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +38,9 @@ def static_displacement(bodies, base, points, poses, contact, listed, target):
 
 @njit
 def _displace_few(bodies, base, points, turned, contact, listed, target):
-    """`static_displacement` without `uneven`, of few points: by the compliance of each two of them."""
+    """`static_displacement` without `uneven`, of few points: by the compliance of each two of
+    them.
+    """
     force, way = np.empty(3), np.empty(3)
     for i in listed:
         for side in range(2):
@@ -97,7 +101,9 @@ def _displace_few(bodies, base, points, turned, contact, listed, target):
 
 @njit
 def _displace_many(bodies, base, points, turned, contact, listed, target):
-    """`static_displacement` without `uneven`, of many points: by forces on nodes, which they share."""
+    """`static_displacement` without `uneven`, of many points: by forces on nodes, which they
+    share.
+    """
     gather(base, points, listed)
     # nodes of all bodies, then those gathered of the base; those of each that are pushed are listed
     # from its first one on
@@ -215,7 +221,9 @@ def _move(compliance, row, pushes, target):
 
 @njit
 def _move_by_few(compliance, row, first, pushed, pushes, target):
-    """As `_move`, by the pushes (N, 3) on the nodes `pushed` (k,); first: node of the first column."""
+    """As `_move`, by the pushes (N, 3) on the nodes `pushed` (k,); first: node of the first
+    column.
+    """
     for a in range(3):
         line, total = compliance[row + a], 0.0
         for j in pushed:

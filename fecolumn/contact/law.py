@@ -1,4 +1,6 @@
-"""Contact formulations: augmented Lagrangian (rigid interface) and penalty (compliant interface)."""
+"""Contact formulations: augmented Lagrangian (rigid interface) and penalty (compliant
+interface).
+"""
 
 from __future__ import annotations
 

@@ -152,7 +152,9 @@ def _most_corners(own: int, other: int, convex: bool) -> int:
 
 
 def _more(points: np.ndarray, count: int) -> np.ndarray:
-    """So many points (count,) of POINT like the first of `points`, idle, with the mean contact law."""
+    """So many points (count,) of POINT like the first of `points`, idle, with the mean contact
+    law.
+    """
     more = np.repeat(points[:1], count) if len(points) else np.zeros(count, POINT)
     more["idle"] = True
     if len(points):

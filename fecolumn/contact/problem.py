@@ -105,7 +105,9 @@ def room(points: np.ndarray) -> Problem:
 
 @njit
 def begin_problem(problem, holds_still, worth):
-    """A new step: whether the stick operator holds where the foot is, and whether finding one pays."""
+    """A new step: whether the stick operator holds where the foot is, and whether finding one
+    pays.
+    """
     for i in range(len(problem.active)):
         problem.active[i] = problem.evened[i] = False
     problem.flags[ASSEMBLED], problem.flags[STICKS_STILL], problem.flags[WORTH_STICK] = (
@@ -302,7 +304,9 @@ def _active(problem):
 
 @njit
 def _displace_all(stick, listed, after, target):
-    """Target (n, 3): static displacement of the points of the stick operator, the listed ones (k,)."""
+    """Target (n, 3): static displacement of the points of the stick operator, the listed ones
+    (k,).
+    """
     k = len(listed)
     forces, moved = np.empty(3 * k), np.empty(3 * k)
     for j in range(k):

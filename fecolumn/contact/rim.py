@@ -47,7 +47,9 @@ class Rim:
 
 @njit
 def lowest(rotation):
-    """Angle [rad] of the circle's lowest point and tilt [rad] of its plane in the rotation (3, 3)."""
+    """Angle [rad] of the circle's lowest point and tilt [rad] of its plane in the rotation (3,
+    3).
+    """
     return np.arctan2(-rotation[2, 1], -rotation[2, 0]), np.hypot(rotation[2, 0], rotation[2, 1])
 
 

@@ -321,7 +321,9 @@ def _place_before(slot, interfaces, k, r, contact, slope, shift):
 
 @njit
 def _nearest(places, taken, x, y, within):
-    """Number of the nearest of places (n, 2) that is not taken, at most `within` [m] away, or -1."""
+    """Number of the nearest of places (n, 2) that is not taken, at most `within` [m] away, or
+    -1.
+    """
     found, least = -1, within
     for v in range(len(places)):
         away = np.hypot(places[v, 0] - x, places[v, 1] - y)

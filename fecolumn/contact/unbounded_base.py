@@ -1,4 +1,6 @@
-"""A base without edges: a layer of the base plate's thickness and material that goes on for ever."""
+"""A base without edges: a layer of the base plate's thickness and material that goes on for
+ever.
+"""
 
 from __future__ import annotations
 

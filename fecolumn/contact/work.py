@@ -1,4 +1,6 @@
-"""What contact does in a step: where its points stick from then on, and the energy that it takes."""
+"""What contact does in a step: where its points stick from then on, and the energy that it
+takes.
+"""
 
 from __future__ import annotations
 

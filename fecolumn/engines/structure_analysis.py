@@ -190,7 +190,9 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
 
 
 def of_both_sides(columns: dict, structure: StructureModel) -> dict:
-    """Columns by name with one interface for each joint with two sides: its force is that of both."""
+    """Columns by name with one interface for each joint with two sides: its force is that of
+    both.
+    """
     for joint in structure.joints:
         if joint.pair >= 0:
             force = f"interface/{structure.joints[joint.pair].name}/force"

@@ -147,7 +147,9 @@ def _joined(spans, fine: float) -> list[tuple[float, float]]:
 
 
 def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
-    """The plate as `reduced.cache.KnownBase` keeps it, its compliance found if it is not on disk."""
+    """The plate as `reduced.cache.KnownBase` keeps it, its compliance found if it is not on
+    disk.
+    """
     from fecolumn.contact.known_base import LEAST_REACH, KnownBase, keep_base, under
 
     count = 3 * len(sized.x) * len(sized.y) * len(sized.z)

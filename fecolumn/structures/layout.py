@@ -1,4 +1,6 @@
-"""How the bodies of a case meet: their meshes, the faces that touch, the contact points on these."""
+"""How the bodies of a case meet: their meshes, the faces that touch, the contact points on
+these.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,6 @@
-"""Bodies from another program: mass and stiffness matrices, and the nodes at which they may touch."""
+"""Bodies from another program: mass and stiffness matrices, and the nodes at which they may
+touch.
+"""
 
 from __future__ import annotations
 
@@ -265,7 +267,9 @@ def matrices_model(
 
 
 def _modes(mass, stiffness, response, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Squares (m,) [1/s2] of the lowest elastic frequencies and shapes (N, m) of unit modal mass."""
+    """Squares (m,) [1/s2] of the lowest elastic frequencies and shapes (N, m) of unit modal
+    mass.
+    """
     size = mass.shape[0]
     if count <= 0:
         return np.zeros(0), np.zeros((size, 0))

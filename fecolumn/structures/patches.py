@@ -150,7 +150,9 @@ def whole_face(face: Face, order: int) -> Patch:
 
 
 def _unique(points, axes, size) -> tuple[np.ndarray, np.ndarray]:
-    """Different points by rising place along the tangents, and which of them each point (n, 3) is."""
+    """Different points by rising place along the tangents, and which of them each point (n, 3)
+    is.
+    """
     rounded = np.round(points @ axes / (_SAME_NODE * size))
     first, index = np.unique(rounded, axis=0, return_index=True, return_inverse=True)[1:]
     index = index.ravel()

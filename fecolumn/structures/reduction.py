@@ -29,7 +29,9 @@ class _Column(NamedTuple):
 
 
 def body_of(shape: Shape, material: Material, comm=None):
-    """The `fem.body.Body` of a mesh with its ties, of this process alone unless `comm` says more."""
+    """The `fem.body.Body` of a mesh with its ties, of this process alone unless `comm` says
+    more.
+    """
     from mpi4py import MPI
 
     from fecolumn.fem.tied_body import column_body

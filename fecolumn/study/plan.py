@@ -3,7 +3,7 @@ runs.
 
     title = "Time step and numerical damping"
     case = "../meshes/specimen.toml"     # or a table [case] with `extends` and keys of its own
-    [axes]                               # and [[zip]] and [latin_hypercube], see fecolumn.study.axes
+    [axes]                               # and [[zip]], [latin_hypercube]: see study.axes
     "integration.dt_s" = [0.02, 1e-3]
 
 Paths are relative to the file that states them. What neither case nor axes state is as in `fecolumn

@@ -1,4 +1,6 @@
-"""A body on one flat foot as a structure of one part, from finite elements that no case describes."""
+"""A body on one flat foot as a structure of one part, from finite elements that no case
+describes.
+"""
 
 from __future__ import annotations
 

@@ -325,7 +325,9 @@ class Engine:
         self.motion.grounds["acceleration"] = accelerations.reshape(-1, 3)
 
     def _left(self, answer) -> str:
-        """Which interface a body has left and what helps, after a step that failed with OFF_PATCH."""
+        """Which interface a body has left and what helps, after a step that failed with
+        OFF_PATCH.
+        """
         if answer != OFF_PATCH:
             return ""
         return f": {left_faces([joint.name for joint in self.model.joints], self.work.points)}"
@@ -345,7 +347,9 @@ class Engine:
         self.surface = grounds_for_steps(self.bases)
 
     def know_base(self, nodes: np.ndarray) -> None:
-        """Make the grounds' compliance known at top nodes (k,) of all of them, one after another."""
+        """Make the grounds' compliance known at top nodes (k,) of all of them, one after
+        another.
+        """
         first = 0
         for base in self.bases:
             last = first + len(base.grid.points)

@@ -133,7 +133,9 @@ class View(NamedTuple):
 
 @njit
 def _displace(b, arm, shape, center, motion, axes, row, place):
-    """Put the displacement along the first `axes` of a point of body b from `place` on in the row."""
+    """Put the displacement along the first `axes` of a point of body b from `place` on in the
+    row.
+    """
     for axis in range(axes):
         row[place + axis] = motion.frames[b].center[axis] - center[b, axis] - arm[axis]
     for a in range(3):

@@ -98,7 +98,9 @@ def find_together(structure, work, end):
 
 @njit
 def _place_of(point, motion, place):
-    """Place (3,): where a point of POINT is in the table frame [m], of bodies that do not deform."""
+    """Place (3,): where a point of POINT is in the table frame [m], of bodies that do not
+    deform.
+    """
     R = motion.rotation[point.slave]
     for a in range(3):
         place[a] = (

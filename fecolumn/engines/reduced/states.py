@@ -152,7 +152,9 @@ class States:
         self._bytes = 0
 
     def add(self, engine, last: bool = False) -> None:
-        """Keep the state of the engine now; last: of the analysis, which is kept whatever its step."""
+        """Keep the state of the engine now; last: of the analysis, which is kept whatever its
+        step.
+        """
         state = state_of(engine)
         if self._states and state.time <= self._states[-1].time:
             return
@@ -164,7 +166,9 @@ class States:
             self._bytes = sum(map(_size, self._states))
 
     def arrays(self) -> dict[str, np.ndarray]:
-        """One array a quantity: of n states, or of the points of all of them one after the other."""
+        """One array a quantity: of n states, or of the points of all of them one after the
+        other.
+        """
         states, bodies = self._states, (len(self.names),) if self.names else ()
         arrays = {
             name: np.array([getattr(state, name) for state in states], kind).reshape(
