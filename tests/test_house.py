@@ -12,9 +12,9 @@ ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "fecolumn"
 
 #: What is left to mend. These numbers may only shrink.
-FOLDERS, MODULES = 18, 33
-LONG_CALLS = 6
-NAMES_TWICE = 25
+FOLDERS, MODULES = 12, 4
+LONG_CALLS = 1
+NAMES_TWICE = 20
 #: Arguments of a function, self and cls left out
 ARGUMENTS = 8
 # Each command has these two functions, each verification case the third
