@@ -5,8 +5,9 @@ Python.
 
 Writes fecolumn/engines/rocking/wobbling_equations.py. A rigid column of round foot rolls on its
 rim, which does not slip, and does not turn about its axis: turned by the tilt theta about the
-tangent at the rim's point phi, which stays where it stood. So the path of contact on the ground
-is the circle that the foot stood on, as long as the rim rolled. The derivation asks of positions and rotations alone:
+tangent at the rim's point phi, which stays where it stood. So the path of contact on the ground is
+the circle that the foot stood on, as long as the rim rolled. The derivation asks of positions and
+rotations alone:
 
 - the rim's point on the ground and, in a frame, that below the slab move with ground and slab
     (nothing slips);
