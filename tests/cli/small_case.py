@@ -37,8 +37,9 @@ def write_case(folder, duration=0.2, extra=""):
     """Path of a case file in `folder` with its motion beside it."""
     write_motion(folder / "motion.csv", min(duration, 0.5))
     path = folder / "case.toml"
+    engine = "" if "engine" in extra else 'engine = "full"\n'
     path.write_text(
         f'extends = "{SPECIMEN}"\n{MESH}\n[motion]\nsource = "motion.csv"\n'
-        f"[integration]\nduration_s = {duration}\ndt_s = 2e-3\nalpha_hht = -0.05\n{extra}"
+        f"[integration]\nduration_s = {duration}\ndt_s = 2e-3\nalpha_hht = -0.05\n{engine}{extra}"
     )
     return path
