@@ -72,7 +72,7 @@ STATED = {
 # Keys of bodies and interfaces that follow from others where they are left out
 FOLLOW = {
     "bodies": ("modes", "element_size_m", "coarse_size_m", "element_order"),
-    "interfaces": ("allowance_m",),
+    "joints": ("allowance_m",),
 }
 
 
