@@ -73,8 +73,9 @@ def roll_on(rim_state, number, way, contact, points, before):
     """Bring what the points of an interface carry to their places of this step, which lie `way`
     (3,) [m] from those of the last one.
 
-    What stuck sticks on; the gap stays as it is while the foot carries, what that takes being held
-    as a height. Where nothing carries the height is given back.
+    A point that sticks goes on sticking. While the foot carries, its gaps stay as they are: the
+    height by which they would change is kept in `raised`. Once nothing carries, `raised` is given
+    back to the gaps.
 
     Parameters
     ----------

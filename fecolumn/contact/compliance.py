@@ -216,11 +216,11 @@ def _add_interpolated(compliance, first, number, rows, nodes, shares, count, fac
 
 @njit
 def even_out(bodies, base, points, i, poses):
-    """Find `uneven` of point i: the compliance by which forces at a point between nodes of slave
-    and base meet less than at a node.
+    """Find `uneven` of point i: compliance (3, 3) [m/N] that makes up for its place between nodes.
 
-    Given back so that the indentation of a rolling rim is even: it would otherwise store and return
-    energy at each node. Zero at a node.
+    A force between nodes of slave and base is shared by several nodes and meets less compliance
+    than a force at a node. `uneven` is the difference, zero at a node. Without it a rolling rim
+    would store energy at each node and give it back after it.
     """
     target, b = points[i].uneven, points[i].slave
     for a in range(3):

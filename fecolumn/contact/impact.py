@@ -150,14 +150,15 @@ def find_impact(
     contact_work,
     counts,
 ):
-    """Impulses (n, 3) [N s] that come in place of those of the step: a way to end, whether there
+    """Find the impulses (n, 3) [N s] that replace those of the step: a way to end, whether there
     are any, the impulses.
 
-    The points that held the foot before carry it until the moment of impact, all together from then
-    on: two projections, without which the weight's impulse of the whole step would act at the new
-    contact. Where a long step would gain energy by them, because its positions know the new contact
-    only, a single projection is made; where that gains, too, they change by the share that gains
-    nothing. Where the end of slip would gain, none.
+    Until the moment of impact only the points that carried before take impulses, from then on all
+    points do. These are two projections. A single one would let the weight's impulse of the whole
+    step act at the new contact. In a long step two projections may gain energy, because its
+    positions know the new contact only. Then a single projection is made. If that gains energy too,
+    only the share of the impulses is taken that gains none. An end of slip that would gain energy
+    changes nothing.
 
     Parameters
     ----------

@@ -139,10 +139,11 @@ def leave_out(i, points, before):
 
 @njit
 def bring(i, gone, interfaces, frames, poses, contact, points, before, size, lay):
-    """Bring to point i, which is where it is to be, what it carried in the step before, or what
-    point `gone` did, which was in its place in the interface with the roles exchanged. One that
-    carried nothing there begins afresh, for the edges may cross elsewhere now, where the gap is
-    another. lay: the points are laid for the first time.
+    """Bring to point i, which is in its place, what it carried in the step before.
+
+    If it took no part then, it takes over from point `gone`, which was in this place in the
+    interface with the roles exchanged. If that carried nothing, the point begins afresh: the edges
+    may cross elsewhere now, where the gap is another. lay: the points are laid for the first time.
     """
     point, now, jump = points[i], before[i], 0.0
     turned = poses[point.interface].turned[0]

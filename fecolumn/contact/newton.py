@@ -84,7 +84,7 @@ def newton_step(W, blocks, q, forces, relative, friction, rho, give):
         basis[count, 0], basis[count, 1], basis[count, 2] = mu * x, mu * y, 1.0
         test[count, 2] = 1.0
         basis[count + 1, 0], basis[count + 1, 1] = -y, x
-        # of the size of the others' equations
+        # scaled to the size of the other equations
         test[count + 1, 0], test[count + 1, 1] = -share * y, share * x
         stiffening[count + 1] = (1 - share) / rho[i]
         count += 2

@@ -25,8 +25,8 @@ def was_beyond(contact, rim_before, rim):
 
 @njit
 def mark_sunk(bodies, base, points, interfaces, poses, before, listed, loaded, heights, displaced):
-    """Mark as SUNK those of listed[loaded:] that stay below the surface whatever the loaded ones,
-    listed[:loaded], have pressed there.
+    """Mark as SUNK the points listed[loaded:] that stay below the surface although the loaded
+    points, listed[:loaded], press it down.
 
     Parameters
     ----------

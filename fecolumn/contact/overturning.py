@@ -137,8 +137,8 @@ def stance(
 
 
 def never_alone(inertia: np.ndarray, weight: float, cap: float) -> Stance:
-    """Stance of a body that its cap alone tells from one that stands: one of many; further
-    arguments as of Stance, cap 0 for none.
+    """Stance of one of many bodies: it is lost by its cap alone; further arguments as of Stance,
+    cap 0 for none.
     """
     return Stance(
         np.zeros((1, 2)),

@@ -179,12 +179,13 @@ def find_residual(
     after,
     counts,
 ):
-    """Relative positions in `after`, and how well its forces obey the laws: a way to end, largest
-    violation over what is allowed, solved where it is 1 at most.
+    """Find relative positions in `after`, and how well its forces obey the laws.
 
-    Allowed is a length that is short for the foot, and what a small share of the strongest force
-    indents: a stiff contact would meet the length under forces that are no answer. A point above
-    the base that carries anything is not solved at all.
+    Returns a way to end, and the largest violation over the allowed one: the problem is solved
+    where that is 1 at most. Two lengths bound the violation. One is short for the width of the
+    foot. The other is the indentation by a small share of the strongest force: a stiff contact
+    meets the first length under wrong forces, too. A point that carries although it is above the
+    base is never solved.
 
     Parameters
     ----------

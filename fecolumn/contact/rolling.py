@@ -204,7 +204,8 @@ def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
     n, index = len(rim), roll.index[NEW]
     passed = roll.passed % n
     place_points(roll, NEW, rim, arms, points)
-    # what the rule leaves of the third order stays in the lift while the rim carries
+    # The heights are those of steady rolling up to an error of third order in the step. While the
+    # rim carries, this error is kept in the lift; else the gap would jump.
     held = 0.0
     if roll.strongest >= 0:
         taken = roll.strongest if roll.leaps else _around(index - passed, n)
@@ -242,8 +243,8 @@ def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
         k = _around(index + off, n)
         i, number = rim[k], _around(k - passed, n)
         like = _height(roll, LIKE, roll.index[LIKE] + off, rim, points, places)
-        # at the step's end the height of the points before the lowest one will be what that of the
-        # points behind it is now
+        # steady rolling: at the end of the step a point ahead of the lowest one is as high as the
+        # point equally far behind it is now
         points[i].lift = rim_state.lift[REACH + off] = (
             like - _height(roll, NEW, index - off, rim, points, places) + held
         )

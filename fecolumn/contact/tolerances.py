@@ -117,11 +117,11 @@ IMPACT_SOLVED, IMPACT_LEAST = 1e-8, 1e-3
 #: one leaves as little of that. It ends where a solution changes velocities by less than this share
 #: of the largest. Of 105 recorded impacts none then closes by more than 6e-4 of its approach.
 IMPACT_GIVES, IMPACT_LEFT = (1e-4, 1e-4, 1e-5, 1e-5, 1e-5), 1e-4
-#: Of the share of the rigid loss that impacts take: approach, over the largest before an impact, at
-#: which nothing approaches any more; how long an impact lasts, over the time until then, elastic
-#: faces giving back for longer than they store; and rigid loss of one that counts, over the least
-#: weight of a body and width of a foot: that of a column which rocks at a thousandth of its
-#: critical tilt.
+#: For the energy that impacts take over that of rigid bodies (`reduced.rigid_loss`). Approach, over
+#: the largest before the impact, below which points no longer approach. Duration of an impact over
+#: the time until then: elastic faces give back for longer than they store. Least rigid loss that
+#: counts, over the least weight of a body and width of a foot: that of a column which rocks at a
+#: thousandth of its critical tilt.
 APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS = 0.1, 4.0, 1e-5
 
 # --- Rolling rim

@@ -13,13 +13,13 @@ from fecolumn.foundation._compiled import njit
 
 @njit
 def book_impulses(gained, own, contact, other):
-    """The terms of a step [J] after its impulses were replaced by others that gain `gained` [J] of
-    kinetic energy: own, contact, other.
+    """Terms of the ledger [J] after the impulses of a step were replaced: own, contact, other.
 
-    own: of what happened, impact or friction; contact, other: what contact and the other of the two
-    did before. What the impulses give back was taken by those in whose place they are, first by
-    their own term, then by contact, then by the other one: neither impact nor friction ever shows
-    as a gain. So what contact had made is the first that they take.
+    gained: kinetic energy [J] that the new impulses add. own: term of what happened, impact or
+    friction; contact, other: terms that contact and the other of the two had before. Energy that
+    the new impulses take comes first from what contact had made, then goes to their own term.
+    Energy that they give back was taken by the impulses they replace. It is set against the own
+    term first, then contact, then the other term. So neither impact nor friction ever shows a gain.
     """
     made = min(max(contact, 0.0), max(-gained, 0.0))
     own, contact = own + gained + made, contact - made

@@ -45,7 +45,8 @@ def run(case, folder, *, comm, file, quiet):
 def rock(case, draw) -> dict:
     """Summary of the block of the column's height and width under one sine pulse."""
     start = time.perf_counter()
-    b, h, g = case.short.column.outer_diameter_m / 2, case.column.height_m / 2, 9.80665
+    column, g = case.short.column, 9.80665
+    b, h = column.outer_diameter_m / 2, column.height_m / 2
     slenderness, p2, restitution = (
         math.atan2(b, h),
         0.75 * g / math.hypot(b, h),

@@ -50,8 +50,8 @@ def collide(system, made: StepMade, contact_work: float, booked: dict, ledger, r
     )
     if not mark_turning(interface.points, listed, before, after.contact, turning) and not lands:
         return
-    # each in the frame of its own time: turned by another one a rotation looks like a strain,
-    # which the foot's filter takes away
+    # velocities at either end are found with the rotation of that end: with another one, a
+    # rotation would look like a strain and be removed by the filter of the foot
     poses = interface.poses(after.x, R)
     early, late = (
         interface.velocities(

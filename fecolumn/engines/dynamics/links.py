@@ -279,7 +279,7 @@ def end_links(links, grounds, frames, rotation, before, after, dt):
         held = link.stiffness * (stretch - flow) ** 2 / 2
         lost = viscous * (length - tie.length) + _flow_work(link, flow)
         new.flowed += flow
-        # of one that yields the elongation at which it would have the breaking force, had it not
+        # a link that yields breaks where it would carry the breaking force if it did not yield
         if stretch != 0.0 and abs(stretch + tie.flowed) > link.breaks:
             new.broken = True
             lost += held

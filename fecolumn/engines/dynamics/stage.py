@@ -90,13 +90,13 @@ class Stage:
         forces: np.ndarray,
         push: np.ndarray,
     ):
-        """Accelerations (n_owned, 3) in a step to positions x, or at rest there, that mend moments
-        of second order in the strain; 0 where nothing turns.
+        """Two corrections (n_owned, 3) of accelerations in a step to positions x, or at rest there.
 
-        The first ones take away that of the internal forces: K d at displacements d have the moment
-        sum d x K d, and would turn a body that nothing touches. The others give contact forces (P,
-        3) the moment that they have about the points' places: `push`, their nodal forces (n_owned,
-        3), act on nodes that the filter has chosen, and these have moved otherwise.
+        They balance moments that are right to first order in the strain only; 0 where nothing
+        turns. The first correction cancels the moment of the internal forces: K d at displacements
+        d has the moment sum d x K d, which would turn a body that nothing touches. The second gives
+        contact forces (P, 3) their moment about the places of the points. Their nodal forces `push`
+        (n_owned, 3) act on nodes chosen by the filter, which have moved otherwise than the points.
         """
         if not self.turns:
             return 0.0, 0.0
@@ -166,11 +166,11 @@ def arms_of(bodies, x: np.ndarray) -> np.ndarray:
 
 
 def turn_of(product: np.ndarray, moment: np.ndarray) -> np.ndarray:
-    """Nu (3,) [1/s2] with which forces M (nu x X), X the reference arms of a body, have a moment
-    (3,) [N m] at its arms p; product: sum of (M X) p^T.
+    """Find nu (3,) [1/s2] such that the forces M (nu x X) on a body have the moment (3,) [N m].
 
-    No displacement of the body has work against these forces, by `corotated.mean_rotation`: they
-    act on its rigid motion alone.
+    X are the reference arms of the body, p its present arms about which the moment is taken, and
+    product the sum of (M X) p^T. The forces act on the rigid motion alone: by the definition of the
+    mean rotation (`corotated.mean_rotation`) they do no work on a deformation.
     """
     return np.linalg.solve(np.trace(product) * np.eye(3) - product, moment)
 

@@ -101,8 +101,10 @@ class Stepper:
         return state
 
     def _to_make_at_once(self, state, done) -> int:
-        """As `rolling.part_of_step`, of rims that are followed; else what ends where larger parts
-        do.
+        """How much of the step to make next, in dt / PARTS.
+
+        A rim that is followed limits it, see `rolling.part_of_step`. Without one it is the largest
+        part that may begin after `done` parts.
         """
         interface, kinematics, dt = (
             self.system.interface,
@@ -249,8 +251,8 @@ class Stepper:
         after.v = start.v + dt * ((1 - ga) * first + ga * last + w)
         ends, drags = [start.internal, after.internal], []
         if damping:
-            # of the velocity without what of the contact's impulse has not moved the column yet;
-            # the same at alpha = 0
+            # a part of the contact's impulse, 0 at alpha = 0, has not moved the column yet: the
+            # damping acts on the velocity without it
             drags = [damped, damping.force(after.v - dt * al**2 / (4 * be) * w, after.rotation)]
         inner, drag = (self._halfway(forces, start, after, R) for forces in (ends, drags))
         made = StepMade(

@@ -36,7 +36,7 @@ from fecolumn.engines.reduced.observe import ENERGY, lost
 from fecolumn.engines.reduced.run import LENGTHS, Chunk, Course, advance
 from fecolumn.foundation._compiled import compile_for, interpreted
 
-# of the halves of a step, whose end alone counts: nothing is past returning, nothing at rest
+# for the halves of a failed step: the point of no return and rest are looked for at its end only
 _NO_END, _NO_REST, _NO_STEPS = np.array([np.inf]), (0.0, -np.inf), np.empty(0)
 _STOPS = {
     CONTACT_FAILED: Stop.CONTACT,

@@ -13,10 +13,10 @@ from fecolumn.foundation._compiled import njit
 # [J]
 START, BASE, FRICTION, HIT, CONTACT_WORK, ALGORITHMIC, DAMPING, ROLLING, LINKS = range(9)
 N_TERMS = LINKS + 1
-# then, of `reduced.rigid_loss`: what impacts that are over have taken from the rigid motion, and
-# what rigid bodies would have lost [J]; of the one that goes on its rigid loss, 0 of none, the
-# energy of the rigid motion before it [J], when it began and ends [s], and the fastest approach
-# [m/s], 0 once nothing approaches
+# then the places of `reduced.rigid_loss`. Of all impacts that are over: energy that they have taken
+# from the rigid motion, and energy that rigid bodies would have lost [J]. Of the impact that goes
+# on: its rigid loss, 0 if there is none; energy of the rigid motion before it [J]; its beginning
+# and end [s]; fastest approach [m/s], 0 once nothing approaches
 TAKEN, RIGID_LOSS, IMPACT_LOSS, LEFT, BEGAN, ENDS, SPEED = range(N_TERMS, N_TERMS + 7)
 N_PLACES = SPEED + 1
 

@@ -1,9 +1,10 @@
-"""What the stick operator of feet that stand leaves undone, learnt from the step before.
+"""The error of the stick operator's first forces, predicted from the step before.
 
-The operator is that of a place up to STICK_TURN away, so that its first forces in a step leave
-slips and gaps of 1e-4 of those at the beginning. From one step to the next these are much the same
-share of each other: added to the first ones, they let the first forces meet the laws (a secant of
-rank one, Broyden 1965). Whether they do is seen as ever.
+The operator of standing feet serves until they have turned by STICK_TURN. Its first forces in a
+step therefore leave slips and gaps of 1e-4 of those at the beginning of the step. The ratio of the
+two hardly changes from step to step. So the slips and gaps that are expected to be left are added
+to those at the beginning, and the first forces meet the laws (a secant method of rank one, Broyden
+1965). Whether they do is checked as always.
 """
 
 from __future__ import annotations
@@ -35,8 +36,8 @@ def no_secant(points: int) -> Secant:
 
 @njit
 def foresee(secant, listed, slack):
-    """Add to slips and gaps (P, 3) of the listed points (k,) at the beginning of a step, before its
-    first forces are found, what these would leave.
+    """Add to the slips and gaps (P, 3) of the listed points (k,) at the beginning of a step those
+    that its first forces are expected to leave.
     """
     share = square = 0.0
     for i in listed:

@@ -79,8 +79,8 @@ class State(NamedTuple):
 def state_of(engine) -> State:
     """The state of an engine's bodies now.
 
-    What contact forces f do at once has gone into the modes, too: with phi filtered to the step, f
-    as modal forces, that part is F f / w^2.
+    Modal coordinates are kept without their static part F f / w^2: f are the modal forces of the
+    contact, F is the filter of the step. That part follows the contact forces at once.
     """
     motion, structure = engine.motion, engine.structure
     center, rotation, coordinates = (
