@@ -49,7 +49,7 @@ def convex_outline(face: Face) -> np.ndarray | None:
 
 
 def inwards(points: np.ndarray, sides: np.ndarray) -> np.ndarray:
-    """How far (n,) [m] points (n, 2) are within the outline of sides (m, 2, 2), below 0 beyond it."""
+    """How far (n,) [m] points (n, 2) are within an outline of sides (m, 2, 2), below 0 beyond."""
     start, end, points = sides[:, 0], sides[:, 1], points[:, None]
     crosses = (start[:, 1] > points[..., 1]) != (end[:, 1] > points[..., 1])
     rise = np.where(end[:, 1] == start[:, 1], 1.0, end[:, 1] - start[:, 1])
