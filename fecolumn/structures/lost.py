@@ -19,8 +19,8 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
     beyond it comes back only where its edge is pushed under it, by friction at most, and on the
     ground by no more than the ground still moves. So it is for one body on the ground, for each of
     a stack, and for equal columns below a slab, which lean as one of them would alone. What links
-    or bodies beside it hold is lost at 45 degrees or, wider than high, where it leans by its
-    critical tilt and the angle of friction.
+    or bodies beside it hold, or what rolls on a dome, is lost at 45 degrees or, wider than high,
+    where it leans by its critical tilt and the angle of friction.
     """
     joints = list(structure.joints)
     found, supports = stances(structure, standing), supports_of(standing, joints)
@@ -28,6 +28,8 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
     for joint in joints:
         if not is_level(standing, joint):
             held |= {joint.slave, joint.master}
+        if joint.ball and joint.ball.is_dome:
+            held.add(joint.slave)
     tilts, rows, _ = Limits.of_tilt(len(standing))
     corners = [np.zeros((0, 2))]
     for place, stance in found.items():

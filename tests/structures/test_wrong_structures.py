@@ -150,7 +150,11 @@ WRONG = [
         "[-10000, 10000]",
     ),
     (stack(column=dict(height_m=1.0)), "column", "says nothing of a structure"),
-    (stack(integration=dict(engine="housner")), "integration.engine", "full, reduced or rigid"),
+    (
+        stack(integration=dict(engine="housner")),
+        "integration.engine",
+        "is of one body on the ground",
+    ),
     (
         stack(
             bodies=dict(upper=STOREYS | dict(floor_masses_kg=[9.0], at_m=[0, 0, 0.8])),
