@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.peers.theory import Housner, housner
-from fecolumn.case.sections import GRAVITY, read_toml
+from fecolumn.case.sections import GRAVITY
 from fecolumn.case.short_form import ShortForm, short_form
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.schema import merge, read_toml
 from fecolumn.mesh.quality import MassProperties, mass_properties
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 

@@ -200,7 +200,7 @@ def engine_of(body: BodyModel, stone: Stone, dt: float, alpha: float = -0.05) ->
     )
     return Engine(
         lambda step: structure_of(model, step, gravity),
-        base,
+        (base,),
         eye,
         hht,
         lambda made: of_parts(made, model.parts, True),

@@ -261,7 +261,7 @@ def test_package_is_given_the_same_structure(name):
     case = ensembles.shaken()[name]
     made = case_from_tables(package.tables(case.structure, 1e-3), "benchmarks.planar")
     assert len(made.bodies) == sum(not body.fixed for body in case.structure.bodies) and len(
-        made.interfaces
+        made.joints
     ) == len(case.structure.joints)
     assert made.integration.engine == "rigid"
     assert np.abs(ensembles.motion(case, 1, 1e-3)).max() == pytest.approx(case.factor * case.uplift)

@@ -54,16 +54,16 @@ def test_replaced_case_is_the_one_a_file_would_give(drum):
         == wanted
     )
     assert (
-        drum.replace(column={"outer_diameter_m": 0.4}, contact={"friction_coefficient": 0.5}).mesh
-        == wanted.mesh
-        != drum.mesh
+        drum.replace(column={"outer_diameter_m": 0.4}, contact={"friction_coefficient": 0.5}).bodies
+        == wanted.bodies
+        != drum.bodies
     )
     assert drum.replace() == drum
 
 
 def test_size_that_a_case_states_stays_in_another_column(drum):
     own = fecolumn.case_from_tables({**DRUM, "mesh": {"fine_size_m": 0.06}}, "drum")
-    assert own.replace({"column.outer_diameter_m": 0.4}).mesh.fine_size_m == 0.06
+    assert own.replace({"column.outer_diameter_m": 0.4}).short.mesh.fine_size_m == 0.06
 
 
 @pytest.mark.parametrize(

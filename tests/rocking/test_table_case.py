@@ -69,7 +69,7 @@ def test_a_podium_runs_as_any_case_and_gives_what_the_rocking_command_gives(fold
             main(command) == 2 and "is a rocking model of rigid bodies" in capsys.readouterr().err
         )
     again, _ = read_folder_case(folder / "run")
-    assert again.id == summary["case_id"] and again.podium.storeys == 3
+    assert again.id == summary["case_id"] and again.own["podium"].storeys == 3
 
 
 def test_case_id_knows_the_building_and_neither_title_nor_output(folder):
@@ -91,7 +91,7 @@ def test_studies_vary_the_keys_of_a_models_table(folder):
     assert {one.case.integration.engine for one in plan.analyses} == {"podium"} and len(
         plan.analyses
     ) == 8
-    assert [one.case.podium.impact for one in plan.analyses] == 4 * ["CRV"] + 4 * ["CAV"]
+    assert [one.case.own["podium"].impact for one in plan.analyses] == 4 * ["CRV"] + 4 * ["CAV"]
 
 
 @pytest.mark.parametrize(

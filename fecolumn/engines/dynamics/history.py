@@ -22,6 +22,7 @@ UNITS = {
     "iterations": "-",
     "theta_x": "rad",
     "theta_y": "rad",
+    "rotation": "rad",
 }
 #: Of columns of a structure's bodies, interfaces, marks, storeys and links, by the last word of
 #: their names.

@@ -13,7 +13,7 @@ import numpy as np
 from fecolumn.case.case import Case
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.foundation.content import content
-from fecolumn.foundation.schema import InputError, stated
+from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.render.strips import LIFTED
 
@@ -190,7 +190,8 @@ def _uplift(case, history) -> tuple[np.ndarray, bool]:
 
 def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:
     """Keys of two cases that differ, and their values; files of the same content are the same."""
-    tables = [_flat(stated(dataclasses.asdict(case))) for case in (a, b)]
+    alike = a.short and b.short
+    tables = [_flat(case.as_stated() if alike else case.tables()) for case in (a, b)]
     found = []
     for key in dict.fromkeys([*tables[0], *tables[1]]):
         values = [table.get(key) for table in tables]
