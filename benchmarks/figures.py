@@ -22,11 +22,10 @@ from mpi4py import MPI
 from benchmarks.checks import print_checks
 from benchmarks.profile import shares
 from fecolumn.case.case import case_from_tables
-from fecolumn.case.sections import read_toml
 from fecolumn.fem.modes import free_modes
 from fecolumn.fem.tied_body import column_body
 from fecolumn.foundation._mpi import launch_environment
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.schema import merge, read_toml
 from fecolumn.mesh.bending import free_free_bending_frequency
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.motions.load import load_motion

@@ -53,8 +53,8 @@ def test_ids_of_the_specimens_stay():
     default.
     """
     assert [read_case(SPECIMEN.with_name(name)).id for name in ("specimen.toml", "stout.toml")] == [
-        "0080cf70bfb8",
-        "a650cddc94a1",
+        "25ab2f2f1c54",
+        "0e77740b1867",
     ]
 
 
@@ -72,6 +72,19 @@ def test_the_full_form_is_the_same_case(tmp_path, capsys, name):
         assert full == case and full.id == case.id and full.short is None
     change = {"contact.friction_coefficient": 0.41}
     assert full.replace(change) == case.replace(change)
+
+
+def test_joints_of_earlier_versions_are_read_by_their_name_then():
+    tables = read_case(SPECIMEN.with_name("two_blocks.toml")).tables()
+    older = {("interfaces" if name == "joints" else name): one for name, one in tables.items()}
+    case = case_from_tables(older, "case.toml")
+    assert case == case_from_tables(tables, "case.toml")
+    name = next(iter(case.joints))
+    changed = case.replace({f"interfaces.{name}.friction_coefficient": 0.4})
+    assert changed.joints[name].friction_coefficient == 0.4
+    older["interfaces"] = {name: {"between": ["absent", "ground"]}}
+    with pytest.raises(InputError, match=f"interfaces.{name}.*no such body"):
+        case_from_tables(older, "case.toml")
 
 
 def test_a_case_of_the_short_form_takes_keys_of_both():

@@ -13,11 +13,10 @@ import pytest
 
 from fecolumn import simulation
 from fecolumn.case.case import case_from_tables, read_case
-from fecolumn.case.sections import read_toml
 from fecolumn.cli import main
 from fecolumn.engines.analysis import energy_closure
 from fecolumn.engines.ending import ending_text
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError, merge, read_toml
 
 DRUM = {
     "column": {"outer_diameter_m": 0.5, "height_m": 1.6, "wall_m": 0.25, "fine_height_m": 0.1},

@@ -191,7 +191,9 @@ class Case:
         InputError
             unknown key, value out of range, parts that do not fit.
         """
-        changes = {**(changes or {}), **sections}
+        changes = {
+            _of_this_version(key): one for key, one in {**(changes or {}), **sections}.items()
+        }
         full = self.short is None or any(_is_full(key, value) for key, value in changes.items())
         tables = self.tables() if full else self.short.tables(opened=True)
         for key, value in changes.items():
@@ -250,6 +252,12 @@ def _stated(section, defaults: bool) -> dict:
     return found
 
 
+def _of_this_version(key: str) -> str:
+    """A dotted key of earlier versions by its name in this one."""
+    first, dot, rest = key.partition(".")
+    return f"joints{dot}{rest}" if first == "interfaces" else key
+
+
 def _is_full(key: str, value) -> bool:
     """Whether a dotted key, or a table of this name, is of the full form alone."""
     first, _, rest = key.partition(".")
@@ -259,7 +267,7 @@ def _is_full(key: str, value) -> bool:
             or isinstance(value, dict)
             and any(isinstance(v, dict) for v in value.values())
         )
-    return first in NAMED or first in ("interfaces", "observed")
+    return first in NAMED or first == "observed"
 
 
 def case_from_tables(tables: dict, file) -> Case:
@@ -661,7 +669,7 @@ def type_of(key: str):
     """Type of a dotted key of a structure's case, whatever its bodies are called, or None:
     "bodies.slab.length_m" is a float.
     """
-    head, _, last = key.rpartition(".")
+    head, _, last = _of_this_version(key).rpartition(".")
     name = head.partition(".")[0]
     classes = set(KINDS.values()) if name == "bodies" else {NAMED[name]} if name in NAMED else set()
     hints = {

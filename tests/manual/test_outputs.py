@@ -102,9 +102,7 @@ def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_pat
     tie = dict(kind="spring", body="lower", to_point_m=[1, 0, 0], stiffness_n_m=1e3)
     case = structure(
         bodies=dict(lower=block, upper=building),
-        interfaces=dict(
-            foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")
-        ),
+        joints=dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")),
         links=dict(tie=tie),
         integration=dict(duration_s=0.01),
     )

@@ -12,9 +12,8 @@ import pytest
 import fecolumn.engines.reduced_analysis  # noqa: F401  (compiled functions belong in the user's cache)
 from fecolumn import simulation
 from fecolumn.case.case import case_from_tables
-from fecolumn.case.sections import read_toml
 from fecolumn.contact.known_base import KnownBase
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError, merge, read_toml
 from fecolumn.structures.bodies import Drawing
 
 SPECIMEN = "meshes/stout.toml"

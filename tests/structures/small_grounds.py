@@ -33,7 +33,7 @@ def on_pad(folder, soil=None, **tables):
     """The same of a block on soil springs."""
     stands = dict(
         bodies=dict(block=BLOCK),
-        interfaces=dict(foot=dict(between=["block", "soil"])),
+        joints=dict(foot=dict(between=["block", "soil"])),
         grounds=dict(soil=dict(kind="pad", stiffness_n_m3=SUBGRADE) | (soil or {})),
     )
     return analysed(folder, **merge(stands, tables))

@@ -17,9 +17,9 @@ def structure(**tables):
     )
 
 
-def block(interfaces=None, **keys):
+def block(joints=None, **keys):
     """Tables of a marble block on the ground, other keys of the body in their place."""
-    return dict(bodies=dict(block=BLOCK | keys), interfaces=dict(foot=FOOT) | (interfaces or {}))
+    return dict(bodies=dict(block=BLOCK | keys), joints=dict(foot=FOOT) | (joints or {}))
 
 
 def frame(column=None, slab=None, **tables):
@@ -42,7 +42,7 @@ def frame(column=None, slab=None, **tables):
                 | RIGID
                 | (slab or {}),
             ),
-            interfaces=dict(
+            joints=dict(
                 feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")
             ),
         ),
@@ -60,7 +60,7 @@ def stack(**tables):
                 | STONE
                 | RIGID,
             ),
-            interfaces=dict(
+            joints=dict(
                 foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")
             ),
         ),

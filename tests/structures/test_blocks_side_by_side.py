@@ -11,7 +11,7 @@ from fecolumn.simulation import run
 BLOCK = dict(kind="block", length_m=0.4, width_m=0.3, height_m=0.8, element_size_m=0.15) | STONE
 
 
-def shaken(folder, places, interfaces, direction, engine="reduced"):
+def shaken(folder, places, joints, direction, engine="reduced"):
     """Summary of two blocks at 0.1 g for 20 steps: they stand, slip by micrometres and press on one
     another.
     """
@@ -25,7 +25,7 @@ def shaken(folder, places, interfaces, direction, engine="reduced"):
     )
     case = structure(
         bodies=dict(left=BLOCK | dict(at_m=places[0]), right=BLOCK | dict(at_m=places[1])),
-        interfaces=interfaces,
+        joints=joints,
         contact=dict(friction_coefficient=0.7, interior_points=0),
         motion=dict(source=str(folder / "pulse.csv"), units="m/s2", free_vibration_s=0),
         integration=dict(dt_s=1e-3, duration_s=0.02, engine=engine),

@@ -70,9 +70,7 @@ def engines(folder, low, up, **keys):
                 up=body(folder, "up", up, 2 * HALF, 100.0) | keys,
             ),
             contact=dict(friction_coefficient=0.8, interior_points=0),
-            interfaces=dict(
-                feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])
-            ),
+            joints=dict(feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])),
             integration=dict(engine="rigid", dt_s=5e-4, duration_s=5.0),
         ),
         "a test",
@@ -153,9 +151,7 @@ def test_a_drum_over_the_corner_of_a_block_lifts_about_its_edges(angle):
                 | stone,
             ),
             contact=dict(friction_coefficient=0.8, interior_points=0),
-            interfaces=dict(
-                feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])
-            ),
+            joints=dict(feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])),
             integration=dict(engine="rigid", dt_s=5e-4, duration_s=5.0),
         ),
         "a test",

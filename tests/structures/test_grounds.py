@@ -23,7 +23,7 @@ def on_elastic(places, ground):
     names = [f"block{k}" for k in range(len(places))]
     return dict(
         bodies={name: BLOCK | dict(at_m=[x, 0, 0]) for name, x in zip(names, places)},
-        interfaces={f"foot{k}": dict(between=[name, "soil"]) for k, name in enumerate(names)},
+        joints={f"foot{k}": dict(between=[name, "soil"]) for k, name in enumerate(names)},
         grounds=dict(soil=ground),
         integration=dict(duration_s=1e-3, dt_s=1e-3),
     )
@@ -75,7 +75,7 @@ def test_two_blocks_on_one_pad_settle_each_by_its_own_weight(tmp_path):
     _, rows = analysed(
         tmp_path / "run",
         bodies=dict(high=BLOCK, low=low),
-        interfaces={name: dict(between=[name, "soil"]) for name in ("high", "low")},
+        joints={name: dict(between=[name, "soil"]) for name in ("high", "low")},
         grounds=dict(soil=dict(kind="pad", stiffness_n_m3=SUBGRADE)),
         integration=dict(duration_s=1e-3),
     )
@@ -88,7 +88,7 @@ def test_a_block_that_slides_over_the_edge_of_its_plate_is_told_by_name(tmp_path
     summary, _ = analysed(
         tmp_path / "run",
         bodies=dict(block=BLOCK),
-        interfaces=dict(foot=dict(between=["block", "slab"])),
+        joints=dict(foot=dict(between=["block", "slab"])),
         grounds=dict(slab=SOFT | dict(kind="plate", length_m=1.0, width_m=1.0)),
         initial=dict(block=dict(velocity_m_s=[1.0, 0, 0])),
         contact=dict(friction_coefficient=0.05),
@@ -124,9 +124,7 @@ def test_a_bridge_on_unlike_supports_is_stretched_by_their_relative_displacement
     summary, rows = analysed(
         tmp_path / "run",
         bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[4.0, 0, 0.5])),
-        interfaces=dict(
-            left=dict(between=["left", "valley"]), right=dict(between=["right", "hill"])
-        ),
+        joints=dict(left=dict(between=["left", "valley"]), right=dict(between=["right", "hill"])),
         grounds=dict(valley={}, hill=dict(level_m=0.5, motion=motion | dict(scale=-0.5))),
         links=dict(
             deck=dict(
@@ -172,16 +170,14 @@ def test_a_block_slides_on_a_ground_that_moves_by_itself_as_by_the_motion_of_all
     _, alone = analysed(
         tmp_path / "alone",
         bodies=dict(block=BLOCK),
-        interfaces=dict(foot=dict(between=["block", "ground"])),
+        joints=dict(foot=dict(between=["block", "ground"])),
         motion=motion,
         **sliding,
     )
     summary, rows = analysed(
         tmp_path / "two",
         bodies=dict(still=BLOCK | dict(at_m=[3.0, 0, 0]), block=BLOCK | dict(at_m=[0, 0, 0.5])),
-        interfaces=dict(
-            rest=dict(between=["still", "rock"]), foot=dict(between=["block", "table"])
-        ),
+        joints=dict(rest=dict(between=["still", "rock"]), foot=dict(between=["block", "table"])),
         grounds=dict(rock={}, table=dict(level_m=0.5, motion=motion)),
         motion=motion | dict(scale=0.0),
         **sliding,
@@ -202,7 +198,7 @@ def test_an_analysis_on_two_grounds_that_was_stopped_goes_on_to_the_last_digit(
     motion = dict(source=str(shaken[0]), units="m/s2", free_vibration_s=0.1, scale=10.0)
     case = structure(
         bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[3.0, 0, 0.5])),
-        interfaces=dict(
+        joints=dict(
             left=dict(between=["left", "soil"]),
             right=dict(between=["right", "slab"], restitution=0.3),
         ),
@@ -245,7 +241,7 @@ def test_grounds_that_drift_apart_after_their_motions_are_told(tmp_path):
         analysed(
             tmp_path / "run",
             bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[3.0, 0, 0])),
-            interfaces=dict(
+            joints=dict(
                 left=dict(between=["left", "valley"]), right=dict(between=["right", "hill"])
             ),
             grounds=dict(valley={}, hill=dict(motion=motion)),

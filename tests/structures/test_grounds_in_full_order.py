@@ -23,7 +23,7 @@ def analysed(folder, **tables):
 def on_pad(folder, soil=None, **tables):
     stands = dict(
         bodies=dict(block=BLOCK),
-        interfaces=dict(foot=dict(between=["block", "soil"])),
+        joints=dict(foot=dict(between=["block", "soil"])),
         grounds=dict(soil=dict(kind="pad", stiffness_n_m3=SUBGRADE) | (soil or {})),
     )
     return analysed(folder, **merge(stands, tables))
@@ -68,7 +68,7 @@ def test_a_pad_lies_between_two_bodies_as_well(tmp_path):
     _, rows = analysed(
         tmp_path / "run",
         bodies=dict(low=BLOCK, up=BLOCK | dict(at_m=[0, 0, HEIGHT])),
-        interfaces=dict(
+        joints=dict(
             foot=dict(between=["low", "ground"]),
             joint=dict(between=["up", "low"], stiffness_n_m3=SUBGRADE),
         ),
@@ -95,7 +95,7 @@ def test_two_blocks_settle_on_elastic_ground_as_rigid_ones(tmp_path, kind):
                 one: block | dict(at_m=[x, 0, 0], element_size_m=0.3)
                 for one, x in zip(names, (-0.5, 0.5))
             },
-            interfaces={one: dict(between=[one, "soil"]) for one in names},
+            joints={one: dict(between=[one, "soil"]) for one in names},
             grounds=dict(soil=ground),
             integration=dict(duration_s=1e-3, dt_s=1e-3, engine=engine),
         )
@@ -109,7 +109,7 @@ def test_a_block_that_slides_over_the_edge_of_its_plate_is_told_by_name(tmp_path
     summary, _ = analysed(
         tmp_path / "run",
         bodies=dict(block=BLOCK),
-        interfaces=dict(foot=dict(between=["block", "slab"])),
+        joints=dict(foot=dict(between=["block", "slab"])),
         grounds=dict(slab=SOFT | dict(kind="plate", length_m=0.8, width_m=1.0)),
         initial=dict(block=dict(velocity_m_s=[1.0, 0, 0])),
         contact=dict(friction_coefficient=0.05),
@@ -139,9 +139,7 @@ def test_a_bridge_on_unlike_supports_is_stretched_by_their_relative_displacement
     summary, rows = analysed(
         tmp_path / "run",
         bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[4.0, 0, 0.5])),
-        interfaces=dict(
-            left=dict(between=["left", "valley"]), right=dict(between=["right", "hill"])
-        ),
+        joints=dict(left=dict(between=["left", "valley"]), right=dict(between=["right", "hill"])),
         grounds=dict(valley={}, hill=dict(level_m=0.5, motion=motion | dict(scale=-0.5))),
         links=dict(
             deck=dict(
@@ -185,16 +183,14 @@ def test_a_block_slides_on_a_ground_that_moves_by_itself_as_by_the_motion_of_all
     _, alone = analysed(
         tmp_path / "alone",
         bodies=dict(block=BLOCK),
-        interfaces=dict(foot=dict(between=["block", "ground"])),
+        joints=dict(foot=dict(between=["block", "ground"])),
         motion=motion,
         **sliding,
     )
     summary, rows = analysed(
         tmp_path / "two",
         bodies=dict(still=BLOCK | dict(at_m=[3.0, 0, 0]), block=BLOCK | dict(at_m=[0, 0, 0.5])),
-        interfaces=dict(
-            rest=dict(between=["still", "rock"]), foot=dict(between=["block", "table"])
-        ),
+        joints=dict(rest=dict(between=["still", "rock"]), foot=dict(between=["block", "table"])),
         grounds=dict(rock={}, table=dict(level_m=0.5, motion=motion)),
         motion=motion | dict(scale=0.0),
         **sliding,
@@ -224,7 +220,7 @@ def test_a_drum_loses_the_resistance_times_its_weight_per_length_rolled(tmp_path
     summary, rows = analysed(
         tmp_path / "run",
         bodies=drums,
-        interfaces=joints,
+        joints=joints,
         initial=dict(up=dict(tilt_rad=tilt, spin_rad_s=[20 * tilt, 0.0, 0.0])),
         contact=dict(friction_coefficient=0.8, interior_points=0),
         integration=dict(duration_s=0.3, dt_s=1e-3),

@@ -38,7 +38,7 @@ def _case(motion, engine, duration_s, **sections):
                         upper=block | dict(rigid=False),
                         third=block | dict(height_m=0.5, at_m=[0, 0, 1.4]),
                     ),
-                    interfaces=dict(
+                    joints=dict(
                         foot=dict(friction_coefficient=0.9), third=dict(slave="third", on="upper")
                     ),
                     contact=dict(friction_coefficient=0.4, interior_points=4),

@@ -142,9 +142,7 @@ def test_two_blocks_that_land_in_one_step_each_have_their_own_restitution(tmp_pa
     _, rows = analysed(
         tmp_path / "run",
         bodies=dict(one=BLOCK, two=BLOCK | dict(at_m=[2.0, 0, 0])),
-        interfaces={
-            name: dict(between=[name, "ground"], restitution=e) for name, e in given.items()
-        },
+        joints={name: dict(between=[name, "ground"], restitution=e) for name, e in given.items()},
         initial={name: dict(velocity_m_s=[0, 0, speed]) for name in given},
         integration=dict(duration_s=lands + 0.01, dt_s=1e-4),
     )
@@ -160,7 +158,7 @@ def test_a_pad_lies_between_two_bodies_as_well(tmp_path):
     _, rows = analysed(
         tmp_path / "run",
         bodies=dict(low=BLOCK, up=BLOCK | dict(at_m=[0, 0, HEIGHT])),
-        interfaces=dict(
+        joints=dict(
             foot=dict(between=["low", "ground"]),
             joint=dict(between=["up", "low"], stiffness_n_m3=SUBGRADE),
         ),
@@ -188,7 +186,7 @@ def test_a_drum_loses_the_resistance_times_its_weight_per_length_rolled(tmp_path
     summary, rows = analysed(
         tmp_path / "run",
         bodies=drums,
-        interfaces=joints,
+        joints=joints,
         initial=dict(up=dict(tilt_rad=tilt, spin_rad_s=[spin * tilt * 10, 0.0, 0.0])),
         contact=dict(friction_coefficient=0.8, interior_points=0),
         integration=dict(duration_s=0.6, dt_s=1e-3),
@@ -207,10 +205,10 @@ def test_a_drum_loses_the_resistance_times_its_weight_per_length_rolled(tmp_path
 def test_laws_that_exclude_one_another_are_refused_by_name():
     tables = dict(
         bodies=dict(block=BLOCK),
-        interfaces=dict(foot=dict(between=["block", "soil"], restitution=0.5)),
+        joints=dict(foot=dict(between=["block", "soil"], restitution=0.5)),
         grounds=dict(soil=dict(kind="pad", stiffness_n_m3=SUBGRADE)),
     )
-    with pytest.raises(InputError, match=r"interfaces.foot.restitution = 0.5.*must be 0 on a pad"):
+    with pytest.raises(InputError, match=r"joints.foot.restitution = 0.5.*must be 0 on a pad"):
         structure(**tables)
     with pytest.raises(InputError, match=r"grounds.soil.stiffness_n_m3.*greater than 0 N/m3"):
         structure(**tables | dict(grounds=dict(soil=dict(kind="pad"))))

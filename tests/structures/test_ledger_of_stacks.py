@@ -36,7 +36,7 @@ def stack(kind: str, engine: str):
     case = case_from_tables(
         dict(
             bodies=bodies,
-            interfaces=joints,
+            joints=joints,
             contact=dict(friction_coefficient=0.7, interior_points=0),
             integration=dict(engine=engine, dt_s=DT, duration_s=20.0, n_modes=4),
         ),

@@ -142,7 +142,7 @@ def test_faces_meet_whose_nodes_all_lie_on_edges_of_the_others_elements():
             )
             | stone,
         ),
-        interfaces=dict(feet=dict(slave="pier", on="ground"), heads=dict(slave="pier", on="deck")),
+        joints=dict(feet=dict(slave="pier", on="ground"), heads=dict(slave="pier", on="deck")),
     )
     assert len(layout_of(case, "case").contacts) == 4
 
@@ -165,7 +165,7 @@ def test_a_face_is_known_to_contact_where_points_of_a_slave_may_come():
                 drum=drum | dict(youngs_modulus_pa=50e9, poissons_ratio=0.2, density_kg_m3=2700.0)
             ),
             contact=dict(interior_points=points),
-            interfaces=dict(
+            joints=dict(
                 foot=dict(slave="drum", on="ground"),
                 joint=dict(slave="drum", on="drum", allowance_m=0.05),
             ),

@@ -100,7 +100,7 @@ def test_a_block_thrown_beside_the_other_falls_past_the_ground_and_ends_the_anal
             bodies=dict(lower=wide, upper=dict(rigid=engine == "rigid") | COARSE),
             initial=dict(upper=dict(velocity_m_s=[8.0, 0.0, 0.0])),
             contact=dict(friction_coefficient=0.1, interior_points=0),
-            interfaces=dict(joint=dict(allowance_m=0.6)),
+            joints=dict(joint=dict(allowance_m=0.6)),
             integration=dict(
                 engine=engine, dt_s=1e-3 if engine == "rigid" else 4e-3, duration_s=3.0
             ),
@@ -135,7 +135,7 @@ def temple(slave="column", on="architrave"):
             )
             | STONE,
         ),
-        interfaces=dict(feet=dict(slave="column", on="ground"), heads=dict(slave=slave, on=on)),
+        joints=dict(feet=dict(slave="column", on="ground"), heads=dict(slave=slave, on=on)),
         contact=dict(interior_points=0),
         observed="architrave",
         integration=dict(engine="rigid", duration_s=0.01),
@@ -178,7 +178,7 @@ def test_the_least_energy_of_a_stack_is_that_of_the_part_that_falls_first():
             pedestal=slender,
             block=slender | dict(length_m=0.9, width_m=0.9, height_m=0.3, at_m=[0, 0, 1.2]),
         ),
-        interfaces=dict(
+        joints=dict(
             foot=dict(slave="pedestal", on="ground"), joint=dict(slave="pedestal", on="block")
         ),
     )
@@ -216,9 +216,7 @@ def test_the_weakest_edge_of_a_triangular_support_decides():
             )
             | STONE,
         ),
-        interfaces=dict(
-            feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")
-        ),
+        joints=dict(feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")),
     )
     model = structure_model(case)
     slab = stances(model, standing_of(case, model))[3]

@@ -66,7 +66,7 @@ def histories(folder, kind, mesh, modes):
         common
         | dict(
             bodies=dict(column=dict(kind="mesh", mesh_file=mesh, element_order=1) | STONE),
-            interfaces=dict(foot=dict(between=["column", "ground"])),
+            joints=dict(foot=dict(between=["column", "ground"])),
             grounds=dict(ground=keys | sizes | dict(kind=kind)),
             # without modes a column's rigid engine keeps the static give of its elements
             integration=plan | dict(engine="reduced"),

@@ -19,7 +19,7 @@ def _masses(**body):
     """Mass [kg], centre and inertia of a body, reduced rigidly: its mesh alone."""
     case = structure(
         bodies=dict(body=body | STONE | dict(rigid=True)),
-        interfaces=dict(foot=dict(slave="body", on="ground")),
+        joints=dict(foot=dict(slave="body", on="ground")),
     )
     model = structure_model(case).parts[0].model
     return model.mass, model.center, model.inertia, model
@@ -62,7 +62,7 @@ def test_body_of_a_stated_mass_has_it_flange_included():
         bodies=dict(
             body=dict(kind="cylinder", outer_diameter_m=0.2, height_m=1.0, mass_kg=77.0, rigid=True)
         ),
-        interfaces=dict(foot=dict(slave="body", on="ground")),
+        joints=dict(foot=dict(slave="body", on="ground")),
     )
     assert structure_model(case).parts[0].model.mass == pytest.approx(77.0, rel=1e-12)
 
@@ -113,7 +113,7 @@ def test_block_has_its_mass_inertia_and_bending_frequency(pillar):
 def test_bodies_bend_as_beams_do_at_the_sizes_they_are_given(body, exact):
     case = structure(
         bodies=dict(body=body | STONE | dict(poissons_ratio=0.2)),
-        interfaces=dict(foot=dict(slave="body", on="ground")),
+        joints=dict(foot=dict(slave="body", on="ground")),
     )
     one = drawing(case, "body", "small.toml")
     assert elastic_modes(body_of(one.shape, one.material), 1)[0][0] / 2 / np.pi == pytest.approx(

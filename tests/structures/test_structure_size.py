@@ -57,7 +57,7 @@ def test_estimate_counts_what_is_built(body):
         bodies=dict(
             body=body | {key: value for key, value in STONE.items() if key != "poissons_ratio"}
         ),
-        interfaces=dict(foot=dict(slave="body", on="ground")),
+        joints=dict(foot=dict(slave="body", on="ground")),
     )
     shape = shape_of("bodies.body", case.bodies["body"], "small.toml")
     found = size_of(case, "small.toml")
@@ -105,7 +105,7 @@ def test_elements_that_would_not_fit_are_refused_at_once_with_a_size_that_fits(k
                 | keys
                 | (dict(coarse_size_m=value) if kind == "plate" else {})
             ),
-            interfaces=dict(foot=dict(slave="piece", on="ground")),
+            joints=dict(foot=dict(slave="piece", on="ground")),
         )
 
     began = time.perf_counter()
@@ -143,9 +143,7 @@ def test_coarse_size_alone_is_named_where_it_is_the_cause():
     plate = dict(kind="plate", length_m=3.0, width_m=2.0, thickness_m=0.3, coarse_size_m=0.002)
     with pytest.raises(InputError, match="m would fit") as caught:
         structure_model(
-            structure(
-                bodies=dict(plate=plate), interfaces=dict(foot=dict(slave="plate", on="ground"))
-            ),
+            structure(bodies=dict(plate=plate), joints=dict(foot=dict(slave="plate", on="ground"))),
             "small.toml",
         )
     assert caught.value.key == "bodies.plate.coarse_size_m"
@@ -160,7 +158,7 @@ def test_limit_is_a_key_that_makes_no_other_case(tmp_path):
     assert structure(**stack(), mesh=dict(limit_dofs=10**6)).id == structure(**stack()).id
     (tmp_path / "case.toml").write_text(
         '[bodies.block]\nkind = "block"\nlength_m = 0.4\nwidth_m = 0.4\nheight_m = '
-        '1.0\n[interfaces.foot]\nslave = "block"\non = "ground"\n'
+        '1.0\n[joints.foot]\nslave = "block"\non = "ground"\n'
         "[mesh]\nfine_size_m = 0.1\n"
     )
     with pytest.raises(

@@ -8,7 +8,7 @@ from fecolumn.study.plan import read_plan
 STUDY = """
 [case]
 bodies.block = {kind = "block", length_m = 0.4, width_m = 0.2, height_m = 1.2, rigid = true}
-interfaces.foot = {slave = "block", on = "ground"}
+joints.foot = {slave = "block", on = "ground"}
 integration.duration_s = 0.1
 [axes]
 %s
@@ -23,7 +23,7 @@ def _plan(tmp_path, axes):
 def test_keys_of_bodies_interfaces_and_starts_are_axes(tmp_path):
     plan = _plan(
         tmp_path,
-        '"bodies.block.height_m" = [1.2, 1.6]\n"interfaces.foot.friction_coefficient" '
+        '"bodies.block.height_m" = [1.2, 1.6]\n"joints.foot.friction_coefficient" '
         '= [0.3, 0.5]\n"initial.block.tilt_rad" = [0.0, 0.1]\n',
     )
     assert len({analysis.id for analysis in plan.analyses}) == 8

@@ -76,9 +76,7 @@ def test_two_free_equal_blocks_move_as_an_independent_planar_program_says(displa
         dict(
             bodies=dict(low=block, up=block | dict(at_m=[displaced, 0.0, 0.8])),
             contact=dict(friction_coefficient=0.7, interior_points=0),
-            interfaces=dict(
-                feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])
-            ),
+            joints=dict(feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])),
             initial=dict(up=dict(tilt_rad=0.05)),
             integration=dict(engine="rigid", dt_s=5e-4, duration_s=1.0),
         ),
@@ -96,7 +94,7 @@ def test_who_is_named_first_decides_nothing():
         two(
             "rigid",
             dict(at_m=[0.03, 0.01, 0.1]),
-            interfaces=dict(feet=dict(between=["low", "ground"]), joint=dict(between=order)),
+            joints=dict(feet=dict(between=["low", "ground"]), joint=dict(between=order)),
             initial=dict(up=dict(tilt_rad=0.05, direction_deg=20.0)),
         ).advance(np.zeros((400, 3)))[0]
         for order in (["low", "up"], ["up", "low"])
@@ -155,7 +153,7 @@ def test_the_full_order_pivots_where_the_region_ends(tmp_path, displaced):
             up=block | dict(height_m=0.8, density_kg_m3=100.0, at_m=[displaced, 0.0, 0.1]),
         ),
         contact=dict(friction_coefficient=0.8, interior_points=0),
-        interfaces=dict(feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])),
+        joints=dict(feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])),
         initial=dict(up=dict(tilt_rad=0.05)),
         integration=dict(engine="full", dt_s=1e-3, duration_s=0.1),
     )

@@ -27,14 +27,14 @@ STOREYS = dict(
     period_s=1.0,
 )
 WRONG = [
-    (stack(bodies=dict(upper=dict(at_m=[0, 0, 0.803]))), "interfaces.joint", "gap of 0.003 m"),
-    (stack(bodies=dict(upper=dict(at_m=[0, 0, 0.797]))), "interfaces.joint", "overlap by 0.003 m"),
-    (stack(bodies=dict(upper=dict(at_m=[0, 0, 1.5]))), "interfaces.joint", "does not touch"),
-    (stack(bodies=dict(upper=dict(at_m=[0.6, 0, 0.8]))), "interfaces.joint", "does not touch"),
-    (stack(bodies=dict(upper=dict(at_m=[0.35, 0, 0.8]))), "interfaces", '"upper" cannot rest'),
+    (stack(bodies=dict(upper=dict(at_m=[0, 0, 0.803]))), "joints.joint", "gap of 0.003 m"),
+    (stack(bodies=dict(upper=dict(at_m=[0, 0, 0.797]))), "joints.joint", "overlap by 0.003 m"),
+    (stack(bodies=dict(upper=dict(at_m=[0, 0, 1.5]))), "joints.joint", "does not touch"),
+    (stack(bodies=dict(upper=dict(at_m=[0.6, 0, 0.8]))), "joints.joint", "does not touch"),
+    (stack(bodies=dict(upper=dict(at_m=[0.35, 0, 0.8]))), "joints", '"upper" cannot rest'),
     (
         frame(bodies=dict(column=dict(copies_m=[[1, 0.8, 0], [1, -0.8, 0]]))),
-        "interfaces",
+        "joints",
         '"slab" cannot rest',
     ),
     (
@@ -43,10 +43,10 @@ WRONG = [
                 column=dict(copies_m=[[1, 0.8, 0], [-1, 0.8, 0], [-1, -0.8, 0], [1, -0.8, -0.002]])
             )
         ),
-        "interfaces.feet",
+        "joints.feet",
         "overlap by 0.002 m",
     ),
-    (frame(interfaces=dict(feet=False)), "interfaces", "no contact path to the ground"),
+    (frame(joints=dict(feet=False)), "joints", "no contact path to the ground"),
     (
         stack(
             bodies=dict(
@@ -60,7 +60,7 @@ WRONG = [
                 )
             )
         ),
-        "interfaces",
+        "joints",
         'no contact path to the ground from "side"',
     ),
     (
@@ -75,7 +75,7 @@ WRONG = [
                     rigid=True,
                 )
             ),
-            interfaces=dict(other=dict(slave="side", on="ground")),
+            joints=dict(other=dict(slave="side", on="ground")),
         ),
         "bodies.side",
         '"side" and "lower" overlap',
@@ -97,14 +97,14 @@ WRONG = [
                 | RIGID,
                 lower=dict(element_size_m=0.6, coarse_size_m=0.8),
             ),
-            interfaces=dict(other=dict(slave="side", on="ground")),
+            joints=dict(other=dict(slave="side", on="ground")),
         ),
         "bodies.side",
         '"side" and "lower" overlap',
     ),
     (
         stack(bodies=dict(lower=dict(at_m=[0, 0, -0.1]), upper=dict(at_m=[0, 0, 0.7]))),
-        "interfaces.foot",
+        "joints.foot",
         "does not touch",
     ),
     (
@@ -128,7 +128,7 @@ WRONG = [
         "links.tie.damping_n_s_m",
         "greater than 0",
     ),
-    (stack(interfaces=dict(joint=dict(on="lwoer"))), "interfaces.joint", "did you mean lower"),
+    (stack(joints=dict(joint=dict(on="lwoer"))), "joints.joint", "did you mean lower"),
     (stack(initial=dict(middle=dict(tilt_rad=0.1))), "initial.middle", "no such body"),
     (stack(bodies=dict(upper=dict(kind="ball"))), "bodies.upper.kind", "must be one of tube"),
     (
@@ -149,7 +149,7 @@ WRONG = [
         "bodies.upper.copies_m",
         "[-10000, 10000]",
     ),
-    (stack(column=dict(height_m=1.0)), "column", "says nothing of a structure"),
+    (stack(column=dict(height_m=1.0)), "bodies", "unknown key"),
     (
         stack(integration=dict(engine="housner")),
         "integration.engine",
@@ -175,30 +175,30 @@ WRONG = [
     ),
     (stack(observed="lower.floor 1"), "observed", "no such mark"),
     (
-        stack(interfaces=dict(joint=False, foot=dict(slave="lower", on="upper"))),
-        "interfaces",
+        stack(joints=dict(joint=False, foot=dict(slave="lower", on="upper"))),
+        "joints",
         "no contact path",
     ),
     # one joint stated twice: in each direction, by another name, and of one copy beside all of them
     (
-        stack(interfaces=dict(again=dict(slave="lower", on="upper"))),
-        "interfaces.again",
-        'the joint of interfaces.joint again: the same faces of "upper" and "lower"',
+        stack(joints=dict(again=dict(slave="lower", on="upper"))),
+        "joints.again",
+        'the joint of joints.joint again: the same faces of "upper" and "lower"',
     ),
     (
-        stack(interfaces=dict(again=dict(slave="upper", on="lower", friction_coefficient=0.1))),
-        "interfaces.again",
-        'the joint of interfaces.joint again: the same faces of "upper" and "lower"',
+        stack(joints=dict(again=dict(slave="upper", on="lower", friction_coefficient=0.1))),
+        "joints.again",
+        'the joint of joints.joint again: the same faces of "upper" and "lower"',
     ),
     (
-        stack(interfaces=dict(again=dict(slave="lower", on="ground"))),
-        "interfaces.again",
-        'the joint of interfaces.foot again: the same faces of "lower" and the ground',
+        stack(joints=dict(again=dict(slave="lower", on="ground"))),
+        "joints.again",
+        'the joint of joints.foot again: the same faces of "lower" and the ground',
     ),
     (
-        frame(interfaces=dict(again=dict(slave="column 2", on="slab"))),
-        "interfaces.again",
-        'the joint of interfaces.heads again: the same faces of "column 2" and "slab"',
+        frame(joints=dict(again=dict(slave="column 2", on="slab"))),
+        "joints.again",
+        'the joint of joints.heads again: the same faces of "column 2" and "slab"',
     ),
     (
         stack(links=dict(tie=LINK | dict(to="upper"))),
@@ -296,7 +296,7 @@ def test_case_is_named_by_content_and_survives_its_own_tables():
         and longer.replace({"bodies.slab.length_m": 3.0}).id == case.id
     )
     assert case.replace({"output.history_every_s": 0.1}).id == case.id
-    assert case.replace({"interfaces.feet.friction_coefficient": 0.5}).id != case.id
+    assert case.replace({"joints.feet.friction_coefficient": 0.5}).id != case.id
     with pytest.raises(InputError, match="must be greater than 0"):
         case.replace({"bodies.slab.length_m": 0.0})
 
@@ -311,7 +311,7 @@ def test_mesh_file_of_a_body_counts_by_content_and_from_the_cases_folder(tmp_pat
     meshio.Mesh(points, [("hexahedron", [list(range(8))])]).write(tmp_path / "cube.vtk")
     (tmp_path / "case.toml").write_text(
         '[bodies.cube]\nkind = "mesh"\nmesh_file = "cube.vtk"\nrigid = '
-        'true\n[interfaces.foot]\nslave = "cube"\non = "ground"\n'
+        'true\n[joints.foot]\nslave = "cube"\non = "ground"\n'
     )
     case = read_case(tmp_path / "case.toml")
     assert structure_model(case).parts[0].model.mass == pytest.approx(7850 * 0.027)
@@ -327,7 +327,7 @@ def test_coarse_plate_on_columns_stands_on_their_heads_whichever_is_named_first(
     case = structure(
         **merge(
             frame(slab=dict(element_size_m=0.6)),
-            dict(interfaces=dict(heads=dict(slave="slab", on="column"))),
+            dict(joints=dict(heads=dict(slave="slab", on="column"))),
         )
     )
     made = structure_model(case)
@@ -342,12 +342,12 @@ def test_coarse_plate_on_columns_stands_on_their_heads_whichever_is_named_first(
         (dict(between=["ground", "ground"]), "joint.between.*must name a body"),
         (dict(between=["upper", "lower"], on="lower"), "joint.on.*must be left out beside between"),
         (dict(on="lower"), "joint.slave.*missing; or give"),
-        (dict(between=["upper", "nobody"]), "interfaces.joint.*no such body"),
+        (dict(between=["upper", "nobody"]), "joints.joint.*no such body"),
     ],
 )
 def test_wrong_bodies_of_a_joint_are_refused(joint, message):
     tables = stack()
-    tables["interfaces"]["joint"] = joint
+    tables["joints"]["joint"] = joint
     with pytest.raises(InputError, match=message):
         structure(**tables)
 
