@@ -68,8 +68,7 @@ def histories(folder, kind, mesh, modes):
             bodies=dict(column=dict(kind="mesh", mesh_file=mesh, element_order=1) | STONE),
             joints=dict(foot=dict(between=["column", "ground"])),
             grounds=dict(ground=keys | sizes | dict(kind=kind)),
-            # without modes a column's rigid engine keeps the static give of its elements
-            integration=plan | dict(engine="reduced"),
+            integration=plan,
             initial=dict(column=start),
         ),
         "structure.toml",

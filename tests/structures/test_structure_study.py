@@ -30,7 +30,7 @@ def test_keys_of_bodies_interfaces_and_starts_are_axes(tmp_path):
     last = plan.analyses[-1].case
     assert (
         last.bodies["block"].height_m,
-        last.interfaces["foot"].friction_coefficient,
+        last.joints["foot"].friction_coefficient,
         last.initial["block"].tilt_rad,
     ) == (1.6, 0.5, 0.1)
     assert last.integration.engine == "reduced" and plan.analyses[-1].id == last.id

@@ -22,7 +22,6 @@ UNITS = {
     "iterations": "-",
     "theta_x": "rad",
     "theta_y": "rad",
-    "rotation": "rad",
 }
 #: Of columns of a structure's bodies, interfaces, marks, storeys and links, by the last word of
 #: their names.
@@ -38,6 +37,7 @@ UNITS_OF_PARTS = {
     "elongation": "m",
     "yielded": "m",
     "work": "J",
+    "rotation": "rad",
     "broken": "-",
 }
 MEANING = {

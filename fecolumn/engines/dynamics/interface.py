@@ -210,6 +210,12 @@ class Interface(Places):
             # the operator is that of other points
             self.stay.stick.key[1] = 0.0
 
+    def return_points(self) -> None:
+        """Have the points where the bodies are drawn: one that steps carried along a rim, too."""
+        self.points[:] = self.joints.points
+        self.list_present()
+        self.stay.stick.key[1] = 0.0
+
     def list_present(self) -> None:
         """List the points that take part, after these have changed."""
         interpreted(list_present)(self._problem, self.points)

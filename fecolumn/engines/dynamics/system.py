@@ -178,6 +178,7 @@ class System:
         nothing touches yet.
         """
         interface, grounds = self.interface, grounds_at(self.levels)
+        interface.return_points()
         interface.take_grounds(grounds, grounds)
         rotation, internal, strain = self.kinematics.internal(x)
         contact = np.zeros(interface.size, CONTACT)
