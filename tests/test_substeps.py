@@ -159,7 +159,7 @@ def test_an_interrupted_analysis_goes_on_with_its_parts_to_the_last_digit(tmp_pa
             ["integration.substeps = 'none'", "has no effect", "'housner'"],
         ),
         (
-            '[integration]\nsubsteps = "impacts"\n[contact]\nimpact = "none"',
+            '[integration]\nengine = "full"\nsubsteps = "impacts"\n[contact]\nimpact = "none"',
             ["integration.substeps = 'impacts'", "contact.impact = 'none'"],
         ),
         (

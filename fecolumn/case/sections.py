@@ -305,7 +305,7 @@ class Initial(Section):
 @dataclass(frozen=True, slots=True)
 class Overturn(Section):
     """When the analysis stops because the column falls: at its point of no return
-    (`dynamics.overturning`), or earlier at a cap.
+    (`contact.overturning`), or earlier at a cap.
     """
 
     displacement_m: float = parameter(

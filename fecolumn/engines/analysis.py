@@ -45,7 +45,7 @@ class Analysis:
         version and sources that the result is of; of an analysis that went on from other code's
         checkpoint, both sources.
     stance, top_arm
-        of `dynamics.overturning`; standing_j: mechanical energy in gravity equilibrium, where
+        of `contact.overturning`; standing_j: mechanical energy in gravity equilibrium, where
         nothing moves [J]; the engine sets these three.
     """
 
@@ -111,7 +111,7 @@ class Analysis:
 
     def steepest(self, step: int) -> float:
         """Tangent of the steepest inclination of apparent gravity from a step on; see
-        `dynamics.overturning`.
+        `contact.overturning`.
         """
         return float(self._steepest[step]) if step < len(self._steepest) else 0.0
 
