@@ -81,7 +81,7 @@ def test_column_released_beyond_its_critical_tilt_overturns(tmp_path):
         summary["overturned"] and summary["outcome"] == "overturned" and summary["u_max_censored"]
     )
     assert (
-        summary["ended_by"].startswith("point of no return: tilt 0.32")
+        summary["ended_by"].startswith('point of no return: "column" has tilted by 0.32')
         and "critical 0.303 rad" in summary["ended_by"]
     )
     assert summary["critical_tilt_rad"] == pytest.approx(math.atan2(0.25, 0.8), abs=1e-3)

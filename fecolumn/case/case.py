@@ -344,6 +344,14 @@ def structure_from_tables(tables: dict, file) -> Case:
         every unknown or missing key, wrong type and value out of range, told at once; or parts that
         do not fit.
     """
+    if "column" in tables and "bodies" in tables:
+        raise InputError(
+            file,
+            "bodies",
+            None,
+            "stands beside [column], the short form of a case of one body; describe the column in "
+            "[bodies], too: fecolumn show writes it so",
+        )
     if "column" in tables:
         return _of_short_form(tables, file)
     if "interfaces" in tables:

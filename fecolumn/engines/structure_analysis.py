@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.contact.overturning import FELL
+from fecolumn.contact.overturning import FELL, critical_displacement
 from fecolumn.engines.ending import SLID_OFF, Ending
 from fecolumn.engines.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
 from fecolumn.structures.barrier import least_barrier, stances
@@ -91,13 +91,20 @@ class OfStructure:
 
     def limits(self) -> dict:
         """Of the summary: the least tilt of a body at which it would overturn by itself, None where
-        none stands so; of a structure no displacement is known beyond which it falls.
+        none stands so, and of one body alone the displacement of its top there [m]; of many no
+        displacement is known beyond which they fall.
         """
-        tilts = [
-            foot.critical
-            for foot in stances(self.structure, standing_of(self.case, self.structure)).values()
-        ]
-        return dict(critical_tilt_rad=min(tilts, default=None), u_critical_m=None)
+        structure = self.structure
+        found = stances(structure, standing_of(self.case, structure))
+        displacement = None
+        if len(structure.parts) == 1 and found:
+            place, mark = structure.observed
+            arm, _ = structure.parts[place].model.marks[mark]
+            displacement = critical_displacement(found[place], arm)
+        return dict(
+            critical_tilt_rad=min((foot.critical for foot in found.values()), default=None),
+            u_critical_m=displacement,
+        )
 
     def no_return(self, last: dict, rotation: np.ndarray) -> str:
         """Which body has passed its point of no return, in words."""

@@ -43,9 +43,7 @@ def block_tables(
         dict(
             bodies=dict(low=stone | heavy | (below or {}), up=stone | light | above),
             contact=dict(friction_coefficient=0.8, interior_points=0),
-            joints=dict(
-                feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])
-            ),
+            joints=dict(feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])),
             integration=dict(engine=engine, dt_s=dt, duration_s=5.0)
             | (dict(n_modes=10) if engine == "reduced" else {}),
         )

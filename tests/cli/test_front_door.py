@@ -70,7 +70,7 @@ def test_manual_has_the_table_of_keys_as_it_is_now():
             "integration.engine",
             [
                 "one of full, reduced, rigid, housner, wobbling, rocking_frame, "
-                "wobbling_frame, podium; default full (in a study reduced)"
+                "wobbling_frame, podium; default reduced"
             ],
         ),
         ("study", ["samples: whole number, in [1, 1000000]; default required", "[[zip]]"]),

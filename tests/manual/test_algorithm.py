@@ -36,7 +36,13 @@ def test_every_tolerance_has_a_scale_a_meaning_and_an_origin():
 
 @pytest.mark.parametrize(
     "place",
-    sorted(set(re.findall(r"`((?:contact|fem|engines\.(?:dynamics|reduced))\.[a-z_]+(?:\.\w+)*)`", TEXT))),
+    sorted(
+        set(
+            re.findall(
+                r"`((?:contact|fem|engines\.(?:dynamics|reduced))\.[a-z_]+(?:\.\w+)*)`", TEXT
+            )
+        )
+    ),
 )
 def test_every_function_it_names_exists(place):
     folder, module, *names = place.removeprefix("engines.").split(".")

@@ -34,7 +34,7 @@ def key(tmp_path, monkeypatch):
     [
         "mesh/column.py",
         "fem/free_body.py",
-        "material/elasticity.py",
+        "fem/material/elasticity.py",
         "fem/reduction.py",
         "contact/layer.py",
         "structures/shapes.py",

@@ -45,6 +45,7 @@ def test_a_slab_rests_on_more_columns_than_it_needs(columns):
     assert not over and np.abs(rows[:, 1:4] - rows[0, 1:4]).max() < 1e-11
     assert rows[-1, 10] == pytest.approx(weight, rel=1e-9)
 
+
 # place of the tilt among the columns of a body, and how many these are
 TILT, OF_ONE = 3, sum(count for _, count in OF_BODY)
 

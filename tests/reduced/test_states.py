@@ -32,9 +32,11 @@ def rocking(tmp_path_factory):
 
 def test_states_are_kept_at_their_interval_and_at_the_end(rocking):
     kept = _kept(rocking)
-    assert kept["time"] == pytest.approx([*np.arange(0, 0.25, 0.02), 0.25]) and kept[
-        "modal"
-    ].shape[0] == 14 and kept["modal"].shape[-1] == kept["frequencies"].shape[-1]
+    assert (
+        kept["time"] == pytest.approx([*np.arange(0, 0.25, 0.02), 0.25])
+        and kept["modal"].shape[0] == 14
+        and kept["modal"].shape[-1] == kept["frequencies"].shape[-1]
+    )
     assert kept["points"].sum() == len(kept["force"]) and (kept["force"][:, 2] > 0).all()
 
 

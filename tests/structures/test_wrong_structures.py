@@ -149,7 +149,7 @@ WRONG = [
         "bodies.upper.copies_m",
         "[-10000, 10000]",
     ),
-    (stack(column=dict(height_m=1.0)), "bodies", "unknown key"),
+    (stack(column=dict(height_m=1.0)), "bodies", "beside [column]"),
     (
         stack(integration=dict(engine="housner")),
         "integration.engine",
