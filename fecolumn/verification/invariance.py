@@ -211,7 +211,11 @@ def _case_file(folder: Path, engine: str, motion, more=None) -> Path:
         merge(COARSE, more or {}),
         {
             "integration": {
-                "kinematics" if engine in FULL else "engine": engine,
+                **(
+                    {"engine": "full", "kinematics": engine}
+                    if engine in FULL
+                    else {"engine": engine}
+                ),
                 "dt_s": DT,
                 "duration_s": times[-1],
             },

@@ -211,9 +211,9 @@ def block_on_block(engine: str, foot, base, distortion: float = 0.0):
         filtered=not distortion,
     )
     if distortion:
-        column = system.body
-        column.unit_loads = np.zeros_like(column.unit_loads)
-        column.unit_loads[2, :, 2] = column.total_mass / SIDE**2 * end_areas(column, mesh, HEIGHT)
+        column, loads = system.body, np.zeros_like(system.bodies.unit_loads)
+        loads[2, :, 2] = column.total_mass / SIDE**2 * end_areas(column, mesh, HEIGHT)
+        system.bodies.unit_loads = loads
     return system
 
 

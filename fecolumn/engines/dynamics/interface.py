@@ -212,7 +212,8 @@ class Interface(Places):
 
     def return_points(self) -> None:
         """Have the points where the bodies are drawn: one that steps carried along a rim, too."""
-        self.points[:] = self.joints.points
+        for name in ("node", "count", "carriers", "weights", "arm", "lift", "rolls"):
+            self.points[name] = self.joints.points[name]
         self.list_present()
         self.stay.stick.key[1] = 0.0
 
