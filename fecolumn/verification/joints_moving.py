@@ -92,7 +92,7 @@ def _structures(engine: str) -> dict[str, dict]:
         ),
         "a slab on four columns": plan
         | dict(
-            interfaces=frame,
+            joints=frame,
             initial=dict(column=dict(tilt_rad=0.05, direction_deg=20.0)),
             bodies=dict(
                 column=pillar
@@ -106,7 +106,7 @@ def _structures(engine: str) -> dict[str, dict]:
         # as in meshes/trilith.toml
         "trilith": plan
         | dict(
-            interfaces=frame,
+            joints=frame,
             initial=dict(column=dict(tilt_rad=0.1)),
             bodies=dict(
                 column=pillar | dict(width_m=0.65, copies_m=[[-0.4, 0.0, 0.0], [0.4, 0.0, 0.0]]),
@@ -129,9 +129,9 @@ def _exchanged(engine: str):
     """
     for name, one in _structures(engine).items():
         turned = one | dict(
-            interfaces={
+            joints={
                 key: dict(between=joint["between"][::-1])
-                for key, joint in one["interfaces"].items()
+                for key, joint in one["joints"].items()
             }
         )
         histories, last = [], np.inf
@@ -163,7 +163,7 @@ def _slides(engine: str):
             engine,
             dict(length_m=2 * half, at_m=[B - over, 0.0, BELOW]),
             contact=dict(friction_coefficient=friction, interior_points=0),
-            interfaces=dict(
+            joints=dict(
                 feet=dict(between=["low", "ground"]),
                 joint=dict(between=["low", "up"], allowance_m=0.3),
             ),
