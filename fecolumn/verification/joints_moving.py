@@ -130,8 +130,7 @@ def _exchanged(engine: str):
     for name, one in _structures(engine).items():
         turned = one | dict(
             joints={
-                key: dict(between=joint["between"][::-1])
-                for key, joint in one["joints"].items()
+                key: dict(between=joint["between"][::-1]) for key, joint in one["joints"].items()
             }
         )
         histories, last = [], np.inf

@@ -7,7 +7,7 @@ import sys
 FIRST_USE = """
 import warnings
 from mpi4py import MPI
-from fecolumn import _dolfinx
+from fecolumn.foundation import _dolfinx
 import numpy as np
 import ufl
 points = np.array([[x, y, z] for z in (0, 1) for x, y in ((0, 0), (1, 0), (1, 1), (0, 1))], float)

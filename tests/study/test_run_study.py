@@ -26,7 +26,7 @@ from fecolumn.study.table import table_text, write_tables
 HERE = Path(__file__).parent
 DRIVER = """
 import argparse, sys
-from fecolumn import _compiled
+from fecolumn.foundation import _compiled
 from fecolumn.foundation.schema import InputError
 from fecolumn.study.command import add_arguments, main
 if __name__ == "__main__":
