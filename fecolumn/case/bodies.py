@@ -115,6 +115,20 @@ class Solid(Stuff):
         "contact_stiffness_n_m3; in the rigid engine every body is rigid and gives "
         "nowhere unless that is stated",
     )
+    fixed: bool = parameter(
+        False,
+        doc="a rigid body that a ground holds: an abutment, a springer, a wall; bodies meet it by "
+        "joints, as any other body",
+        since="0.9",
+    )
+    moves_with: str = parameter(
+        "", doc="ground with which a fixed body moves; left out: the first", since="0.9"
+    )
+
+    @property
+    def deforms(self) -> bool:
+        """Whether its finite elements deform."""
+        return not (self.rigid or self.fixed)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -452,8 +466,8 @@ class Ground(Section):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Interface(Section):
-    """A joint: faces of two bodies, or of a body and a ground, that coincide at the start; copies
-    each with each. Which body comes first decides nothing.
+    """A joint: faces of two bodies, or of a body and a ground, that touch at the start, or look at
+    one another across a gap; copies each with each. Which body comes first decides nothing.
     """
 
     between: tuple[str, ...] = parameter(
@@ -527,10 +541,16 @@ class Interface(Section):
         low=0,
         high=10**6,
     )
+    open: bool | None = parameter(
+        None,
+        doc="whether faces that look at one another across a gap belong to it, too, and may meet; "
+        "left out: where no faces of the two touch at the start",
+        since="0.9",
+    )
     allowance_m: float | None = parameter(
         None,
         doc="how far the slave may slide on a body before its compliance ends; left out: a "
-        "quarter of the slave's smaller side",
+        "quarter of the slave's smaller side, its larger one across a gap",
         unit="m",
         low=0,
         high=1000,

@@ -174,6 +174,10 @@ class Case:
             return body, (int(number) - 1,)
         raise KeyError(name)
 
+    def is_held(self, name: str) -> bool:
+        """Whether `name` is a ground, or a body that a ground holds."""
+        return name in self.grounds or getattr(self.bodies[self.meant_by(name)[0]], "fixed", False)
+
     def replace(self, changes: dict | None = None, **sections) -> Case:
         """The case with other values, checked as a file's would be; sizes that followed a column
         follow the new one.
@@ -557,6 +561,12 @@ def check(case: Case, file) -> None:
         refuse("bodies", None, "missing; a structure needs a table [bodies.NAME] at least")
     for name, body in case.bodies.items():
         check_body(f"bodies.{name}", body, case.materials, refuse)
+        ground = getattr(body, "moves_with", "")
+        if ground and ground not in case.grounds:
+            known = ", ".join(case.grounds)
+            refuse(f"bodies.{name}.moves_with", ground, f"no such ground; known: {known}")
+    if case.bodies and all(getattr(body, "fixed", False) for body in case.bodies.values()):
+        refuse(f"bodies.{name}.fixed", True, "must be false of one body at least: nothing moves")
     if not case.joints:
         refuse(
             "joints",
@@ -567,10 +577,16 @@ def check(case: Case, file) -> None:
     for name, interface in case.joints.items():
         _check_name(case, f"joints.{name}", interface.slave, refuse, ground=False)
         _check_name(case, f"joints.{name}", interface.on, refuse)
+        if all(case.is_held(one) for one in (interface.slave, interface.on)):
+            told = f'"{interface.slave}" and "{interface.on}" are both fixed'
+            refuse(f"joints.{name}", None, f"must name a body that moves: {told}")
     for name, link in case.links.items():
         _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
         _check_name(case, f"links.{name}.to", link.to, refuse)
         check_link(f"links.{name}", link, refuse)
+        if case.is_held(link.body) and case.is_held(link.to):
+            told = f'"{link.body}" and "{link.to}" are both fixed'
+            refuse(f"links.{name}", None, f"must hold a body that moves: {told}")
         if link.to not in case.grounds and len(case.meant_by(link.to)[1]) > 1:
             refuse(
                 f"links.{name}.to",
@@ -590,12 +606,16 @@ def check(case: Case, file) -> None:
             )
     for name, start in case.initial.items():
         _check_name(case, f"initial.{name}", name, refuse, ground=False)
+        if getattr(case.bodies[case.meant_by(name)[0]], "fixed", False):
+            refuse(f"initial.{name}", None, f'must be left out: "{name}" is fixed')
         for key in ("velocity_m_s", "spin_rad_s"):
             if len(value := getattr(start, key)) != 3:
                 refuse(f"initial.{name}.{key}", list(value), "must be three numbers: x, y, z")
     if case.observed:
         body = case.observed.partition(".")[0]
         _check_name(case, "observed", body, refuse, ground=False)
+        if getattr(case.bodies[case.meant_by(body)[0]], "fixed", False):
+            refuse("observed", case.observed, "must be a body that moves: this one is fixed")
         if len(case.meant_by(body)[1]) > 1:
             refuse(
                 "observed",

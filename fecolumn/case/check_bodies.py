@@ -79,11 +79,13 @@ def check_body(key: str, body, materials: dict, refuse) -> None:
 
 
 def _check_solid(key: str, body: Solid, refuse) -> None:
-    if body.contact_stiffness_n_m3 is not None and not body.rigid:
+    if body.moves_with and not body.fixed:
+        refuse(f"{key}.moves_with", body.moves_with, f"is of a body with {key}.fixed = true")
+    if body.contact_stiffness_n_m3 is not None and body.deforms:
         refuse(
             f"{key}.contact_stiffness_n_m3",
             body.contact_stiffness_n_m3,
-            "is of a body with rigid = true; this one deforms",
+            "is of a body with rigid = true or fixed = true; this one deforms",
         )
     if isinstance(body, Meshed):
         if body.coarse_size_m is not None:

@@ -24,6 +24,7 @@ def check_grounds(case, refuse) -> None:
     for name, ground in case.grounds.items():
         _check_keys(case, f"grounds.{name}", ground, refuse)
         used = [one.on for one in case.joints.values()] + [one.to for one in case.links.values()]
+        used += [getattr(body, "moves_with", "") for body in case.bodies.values()]
         if name not in used and ground != Ground():
             refuse(f"grounds.{name}", None, "nothing stands on it, and no link is held by it")
     for name, interface in case.joints.items():

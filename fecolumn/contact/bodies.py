@@ -12,7 +12,9 @@ from fecolumn.contact.record import record
 
 #: A body: mass [kg], inertia about its centre of mass [kg m2] and their inverses, which are zero
 #: where the mobility of rigid motion is part of the nodal one; first, count: its rows among the
-#: surface nodes of all bodies.
+#: surface nodes of all bodies. held: number of the ground that a fixed body moves with, which has
+#: neither mass nor mobility, -1 of a body that is free; airborne: whether nothing carries it at the
+#: start, so that it is left out of the search for rest.
 BODY = record(
     ("mass", "f8"),
     ("inverse_mass", "f8"),
@@ -20,6 +22,8 @@ BODY = record(
     ("inverse_inertia", "f8", (3, 3)),
     ("first", "i8"),
     ("count", "i8"),
+    ("held", "i8"),
+    ("airborne", "?"),
 )
 
 
@@ -50,7 +54,7 @@ class Bodies(NamedTuple):
 def one_body(arms, static, mobility, mass: float = np.inf, inertia=None) -> Bodies:
     """A single body; without mass and inertia (3, 3) its mobility holds its rigid motion."""
     body = np.zeros(1, BODY)
-    body["mass"], body["count"] = mass, len(arms)
+    body["mass"], body["count"], body["held"] = mass, len(arms), -1
     if inertia is not None:
         body["inverse_mass"], body["inertia"], body["inverse_inertia"] = (
             1 / mass,

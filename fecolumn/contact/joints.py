@@ -108,6 +108,7 @@ def joints_of(parts, joints) -> Joints:
             points[joint.pair], points[k] = overlaps.add(
                 _side_of(parts, joints, joint.pair, joint.outlines[1], interfaces, points),
                 _side_of(parts, joints, k, joint.outlines[0], interfaces, points),
+                [np.linalg.norm(ends, axis=2).max() for ends in joint.outlines[::-1]],
             )
     firsts = np.cumsum([0] + [len(own) for own in points])
     rim = np.concatenate([own + start for own, start in zip(rims, firsts)])

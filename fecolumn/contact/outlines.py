@@ -20,7 +20,9 @@ class OverlapBuilder:
     def __init__(self):
         self.joints, self.sides, self.nodes, self.slots = [], [], [], []
 
-    def add(self, forward: tuple, reverse: tuple) -> tuple[np.ndarray, np.ndarray]:
+    def add(
+        self, forward: tuple, reverse: tuple, arms: list[float]
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Add a joint; the points (k,) of POINT of its two interfaces, with those that nodes do not
         carry.
 
@@ -30,6 +32,8 @@ class OverlapBuilder:
             number of the interface, points (n,) of POINT, places (n, 2) [m] of the slave's nodes on
             their face, ends (m, 2, 2) [m] of the sides of its outline counter-clockwise, circle:
             centre (2,) and radius or None.
+        arms
+            of the farthest corner of each face from the centre of mass of its body [m].
         """
         (k, own, places, ends, circle), (r, other, other_places, other_ends, other_circle) = (
             forward,
@@ -37,7 +41,7 @@ class OverlapBuilder:
         )
         joint = np.zeros(1, OVERLAP)
         joint["forward"], joint["reverse"], joint["size"] = k, r, np.ptp(ends, axis=(0, 1)).max()
-        sides = []
+        joint["arm"], sides = arms, []
         for which, (points, at, outline, of) in enumerate(
             ((own, places, ends, circle), (other, other_places, other_ends, other_circle))
         ):

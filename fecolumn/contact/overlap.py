@@ -43,9 +43,10 @@ SIDE_NODE = record(("node", "i8"), ("at", "f8"))
 #: A joint of two sides. forward: interface whose slave has the face OWN; reverse: the interface
 #: with the roles exchanged. first, count: (2,) sides of OWN and OTHER, none of a circle; center:
 #: (2, 2), radius: (2,) [m] of the circles, 0 of a polygon. convex: (2,) 1 of a convex outline.
-#: slot, slots: first of its slots and their number. size: larger side of OWN [m]. within: whether
-#: the outline of OWN lies within that of OTHER at the start of the step; plain: whether the points
-#: are laid as for such a one.
+#: slot, slots: first of its slots and their number. size: larger side of OWN [m]. arm: (2,)
+#: of the farthest corner of each face from the centre of mass of its body [m]. within: whether the
+#: outline of OWN lies within that of OTHER at the start of the step; plain: whether the points are
+#: laid as for such a one.
 OVERLAP = record(
     ("forward", "i8"),
     ("reverse", "i8"),
@@ -57,6 +58,7 @@ OVERLAP = record(
     ("slot", "i8"),
     ("slots", "i8"),
     ("size", "f8"),
+    ("arm", "f8", 2),
     ("within", "?"),
     ("plain", "?"),
 )
@@ -157,6 +159,20 @@ def _beyond_any(sides, first, inner, x, y):
         if (y0 > y) != (y1 > y) and x < x0 + (y - y0) / (y1 - y0) * (x1 - x0):
             inside = not inside
     return -least if inside else farther, first + nearest
+
+
+@njit
+def height_over(overlap, sides, slope, shift):
+    """Least height [m] of the face OWN over the plane of OTHER; slope, shift: of `map_between`."""
+    if overlap.radius[OWN] > 0.0:
+        x, y = overlap.center[OWN, 0], overlap.center[OWN, 1]
+        down = overlap.radius[OWN] * np.hypot(slope[2, 0], slope[2, 1])
+        return slope[2, 0] * x + slope[2, 1] * y + shift[2] - down
+    least = np.inf
+    for q in range(overlap.first[OWN], overlap.first[OWN] + overlap.count[OWN]):
+        x, y = sides[q].start[0], sides[q].start[1]
+        least = min(least, slope[2, 0] * x + slope[2, 1] * y + shift[2])
+    return least
 
 
 @njit

@@ -102,8 +102,12 @@ def is_worth(interface, pose, turn, way):
     """
     if interface.on_pad:
         return turn < STICK_STAYS * PAD_TURN
-    turned = pose.turned
-    flat = np.hypot(turned[SLAVE, 2, 0], turned[SLAVE, 2, 1]) < STICK_TURN
+    # of the angle between the master's normal as the slave has it now, and as it had it
+    turned, axes, sine = pose.turned, interface.axes, 0.0
+    for a in range(3):
+        c, d = (a + 1) % 3, (a + 2) % 3
+        sine = np.hypot(sine, turned[SLAVE, 2, c] * axes[d, 2] - turned[SLAVE, 2, d] * axes[c, 2])
+    flat = sine < STICK_TURN
     return (
         flat and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY * interface.width
     )

@@ -29,6 +29,10 @@ SHARP = 0.1
 USABLE = 1e-9
 #: Depth to which points outside the contact problem may sink below the base: a tenth of USABLE.
 PENETRATION = 1e-10
+#: Height of a face over another, over its larger side, from which on a joint of two sides has no
+#: points, beside twice the way that its bodies make in the step: ten times what a body of any shape
+#: falls in a step of 1e-3 s over its size, were it 5 mm small.
+APART = 1e-2
 #: Points up to which compliance is taken node by node; of more, whole lines of the gathered
 #: compliance are beside each other in memory.
 FEW_SIDES = 8

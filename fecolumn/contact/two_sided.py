@@ -22,8 +22,23 @@ from fecolumn.contact.moved_points import (
     move_inwards,
     on_face,
 )
-from fecolumn.contact.overlap import OTHER, OWN, beyond, find_corners, lies_within, map_between
-from fecolumn.contact.tolerances import FLAT, OUTLINE_BAND, SAME_CORNER, SAME_OUTLINE, SAME_POINT
+from fecolumn.contact.overlap import (
+    OTHER,
+    OWN,
+    beyond,
+    find_corners,
+    height_over,
+    lies_within,
+    map_between,
+)
+from fecolumn.contact.tolerances import (
+    APART,
+    FLAT,
+    OUTLINE_BAND,
+    SAME_CORNER,
+    SAME_OUTLINE,
+    SAME_POINT,
+)
 from fecolumn.foundation._compiled import njit
 
 # What a slot was in the step before
@@ -54,9 +69,11 @@ def mark_unused(overlaps, interfaces, frames, poses, rims):
 
 
 @njit
-def place_overlaps(overlaps, interfaces, rim, arms, frames, poses, contact, rims, points, before):
-    """Lay the points of all joints with two sides; whether other points take part than in the step
-    before.
+def place_overlaps(
+    overlaps, interfaces, rim, arms, ways, frames, poses, contact, rims, points, before
+):
+    """Lay the points of all joints with two sides, none where the faces are apart; whether other
+    points take part than in the step before.
 
     Parameters
     ----------
@@ -64,6 +81,8 @@ def place_overlaps(overlaps, interfaces, rim, arms, frames, poses, contact, rims
         points on the circles of all interfaces.
     arms
         (N, 3) of the nodes [m].
+    ways
+        (nb, 2) way of the centre of mass [m] and turn [rad] of each body in a step.
     frames
         (nb,) with the centres of mass, poses: (ni,) of POSE and contact: (P,) of CONTACT at the
         start of the step.
@@ -78,10 +97,41 @@ def place_overlaps(overlaps, interfaces, rim, arms, frames, poses, contact, rims
         joint = overlaps.joints[j]
         if rims[joint.reverse].unused and joint.plain:
             continue
+        if _is_apart(overlaps, joint, interfaces, ways, frames, poses):
+            joint.plain = rims[joint.forward].plain = False
+            rims[joint.forward].placed = True
+            for k in (joint.forward, joint.reverse):
+                changed |= _leave_rim(interfaces[k], rim, points, before)
+            for slot in overlaps.slots[joint.slot : joint.slot + joint.slots]:
+                changed |= leave_out(slot.forward, points, before)
+                if slot.reverse >= 0:
+                    changed |= leave_out(slot.reverse, points, before)
+            continue
         changed |= _place(
             overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims, points, before
         )
         rims[joint.forward].placed = True
+    return changed
+
+
+@njit
+def _is_apart(overlaps, joint, interfaces, ways, frames, poses):
+    """Whether no point of a joint can touch in a step, as its faces are too far from each other."""
+    k, r = joint.forward, joint.reverse
+    slope, shift, way = np.empty((3, 2)), np.empty(3), 0.0
+    for side in range(2):
+        b = interfaces[r if side else k].slave
+        way += ways[b, 0] + ways[b, 1] * joint.arm[side]
+    map_between(interfaces[k], interfaces[r], frames, poses[k], slope, shift)
+    return height_over(joint, overlaps.sides, slope, shift) > APART * joint.size + 2 * way
+
+
+@njit
+def _leave_rim(interface, rim, points, before):
+    """Let the points of a round rim take no part; whether any did in the step before."""
+    changed = False
+    for q in range(interface.rim_count):
+        changed |= leave_out(rim[interface.rim_first + q], points, before)
     return changed
 
 

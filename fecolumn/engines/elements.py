@@ -66,10 +66,10 @@ def _checked_layout(case, file) -> Layout:
                 'has no elements: engine = "full" takes bodies of elements, engine = '
                 '"reduced" takes all kinds',
             )
-        if body.rigid:
+        if not body.deforms:
             raise InputError(
                 file,
-                f"bodies.{name}.rigid",
+                f"bodies.{name}.{'fixed' if body.fixed else 'rigid'}",
                 True,
                 'must be false where engine = "full", whose bodies deform; engine = '
                 '"reduced" takes both',

@@ -148,7 +148,7 @@ def _rows(drawing: Drawing) -> list[QualityRow]:
     low = mesh.points[:, 2].min()
     foot = np.flatnonzero(mesh.points[:, 2] < low + 1e-6 * np.ptp(mesh.points[:, 2]))
     rows = list(quality_table(made, SpecimenMesh(mesh, _NOTHING, (), foot)))
-    if not (body.rigid or isinstance(body, Plate)):
+    if body.deforms and not isinstance(body, Plate):
         found, theory, name = _bending(drawing, made)
         rows.append(QualityRow(f"first free-free bending, {name}", "Hz", found, theory))
     return rows

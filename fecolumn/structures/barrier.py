@@ -116,6 +116,8 @@ def _together(standing: list[Standing], joints: list) -> list[Stance]:
     """
     supports, found = supports_of(standing, joints), []
     for place in range(len(standing)):
+        if standing[place].held >= 0:
+            continue
         moved, before = {place}, 0
         while len(moved) > before:
             before = len(moved)

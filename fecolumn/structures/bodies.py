@@ -42,7 +42,7 @@ class Drawing:
     @property
     def is_rigid(self) -> bool:
         """Whether it gives at its contact points only."""
-        return isinstance(self.body, Storeys) or getattr(self.body, "rigid", False)
+        return isinstance(self.body, Storeys) or not getattr(self.body, "deforms", True)
 
     @property
     def order(self) -> int:
@@ -75,7 +75,7 @@ class Drawing:
         if isinstance(self.body, Storeys):
             mass = mass_properties(self.shape.mesh, self.material.density_kg_m3).mass
             return storeys_model(self.body, mass, patches, self.material), None
-        if self.body.rigid:
+        if not self.body.deforms:
             return rigid_model(
                 self.shape, self.faces, patches, self.material, self.body.contact_stiffness_n_m3
             ), None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections import Counter
 
 import numpy as np
@@ -22,7 +23,8 @@ MOST_POINTS = 1000
 _DEPTH, _OUTSIDE = 1e-4, 1e-6
 # Over the weight: force by which a body may miss equilibrium
 _HELD = 1e-6
-# Directions of friction at a point: an inscribed pyramid, which forgives 4 % less than the cone
+# Directions of friction at a point: a pyramid around the cone, by up to 8 % wider, so that no
+# structure that can rest is refused
 _DIRECTIONS = 8
 
 
@@ -70,7 +72,8 @@ def check_meetings(case, meetings, file) -> None:
 def check_layout(case, layout, file) -> None:
     """Refuse copies without a path to the ground, and those that overlap."""
     copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
-    held = {None}
+    fixed = {copy for copy in copies if getattr(case.bodies[copy[0]], "fixed", False)}
+    held = {None} | fixed
     while more := [
         contact
         for contact in layout.contacts
@@ -93,7 +96,7 @@ def check_layout(case, layout, file) -> None:
     ]
     lowest = min(ground.level_m for ground in case.grounds.values())
     for i, one in enumerate(copies):
-        if boxes[i][0][2] < lowest - _DEPTH * np.ptp(boxes[i], axis=0).max():
+        if one not in fixed and boxes[i][0][2] < lowest - _DEPTH * np.ptp(boxes[i], axis=0).max():
             raise InputError(
                 file,
                 f"bodies.{one[0]}",
@@ -103,6 +106,8 @@ def check_layout(case, layout, file) -> None:
             )
         for j in range(i):
             other = copies[j]
+            if one in fixed and other in fixed:
+                continue
             size = min(np.ptp(boxes[i], axis=0).min(), np.ptp(boxes[j], axis=0).min())
             if np.any(boxes[i][0] > boxes[j][1] - _DEPTH * size) or np.any(
                 boxes[j][0] > boxes[i][1] - _DEPTH * size
@@ -193,6 +198,23 @@ def check_joints(joints, standing, file) -> None:
             )
 
 
+def tell_of_gaps(joints, standing, file) -> None:
+    """Warn of joints that begin open."""
+    for joint in joints:
+        if joint.gap and joint.pair < 0:
+            name = joint.name.partition(":")[0]
+            warnings.warn(
+                f"{file}: joints.{name}: {_between(joint, standing)} begin {joint.gap:.4g} m apart",
+                stacklevel=2,
+            )
+
+
+def _between(joint, standing) -> str:
+    """Names of both bodies of a joint."""
+    master = "the ground" if joint.master == GROUND else f'"{standing[joint.master].name}"'
+    return f'"{standing[joint.slave].name}" and {master}'
+
+
 def check_links(case, extents: dict, file) -> None:
     """Refuse links to nowhere; extents: lowest and highest place (3,) [m] of each body by name, as
     it is drawn.
@@ -228,13 +250,14 @@ def check_rest(case, structure, standing, file) -> None:
     if any(start.tilt_rad or start.moves for start in case.initial.values()):
         return
     columns, bounds, rows = [], [], 6 * len(structure.parts)
+    free = [part.held < 0 and not part.airborne for part in structure.parts]
     weights = np.array([part.model.mass for part in structure.parts]) * GRAVITY
     sizes = np.array(
         [math.sqrt(np.trace(part.model.inertia) / part.model.mass) for part in structure.parts]
     )
 
     def act(column, place, force, point):
-        if place != GROUND:
+        if place != GROUND and free[place]:
             column[6 * place : 6 * place + 3] += force
             column[6 * place + 3 : 6 * place + 6] += (
                 np.cross(point - standing[place].center, force) / sizes[place]
@@ -243,7 +266,7 @@ def check_rest(case, structure, standing, file) -> None:
     for joint in structure.joints:
         slave = standing[joint.slave]
         surface = slave.model.surfaces[joint.slave_surface]
-        for place in footing(standing, joint):
+        for place in footing(standing, joint) if not joint.gap else ():
             point = place + (joint.ball.radius * surface.normal if joint.ball else 0.0)
             for angle in (
                 2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS if joint.friction else [None]
@@ -252,6 +275,7 @@ def check_rest(case, structure, standing, file) -> None:
                     np.zeros(3)
                     if angle is None
                     else joint.friction
+                    / math.cos(np.pi / _DIRECTIONS)
                     * (math.cos(angle) * surface.axes[:, 0] + math.sin(angle) * surface.axes[:, 1])
                 )
                 force, column = along - surface.normal, np.zeros(rows)
@@ -270,10 +294,11 @@ def check_rest(case, structure, standing, file) -> None:
         columns.append(column)
         bounds.append((None if link.pushes else 0, None))
     load = np.zeros(rows)
-    load[2::6] = weights
+    load[2::6] = weights * free
     scale = np.repeat(weights, 6)
     missing = np.eye(rows)
-    matrix = np.column_stack([np.array(columns).T / scale[:, None], missing, -missing])
+    pushes = np.reshape(columns, (-1, rows)).T / scale[:, None]
+    matrix = np.column_stack([pushes, missing, -missing])
     cost = np.concatenate([np.zeros(len(columns)), np.ones(2 * rows)])
     found = linprog(
         cost,

@@ -73,7 +73,7 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
         return None
     shift = place_of(case, meeting.master) - place_of(case, meeting.slave)
     outlines, plane = (outline_of(other), outline_of(face)), other.axes[:, :2]
-    allowance = allowance_of(case.joints[meeting.interface], face)
+    allowance = allowance_of(case, meeting, face)
     sides, reached = outlines[0] @ plane, (outlines[1] - shift) @ plane
     if (
         inwards(reached[:, 0], sides).min() > allowance

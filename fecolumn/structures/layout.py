@@ -26,8 +26,8 @@ class Contact:
     """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the
     copy), None of the ground.
 
-    pair, outlines: as of `model.Joint`, place among the contacts and sides [m] in the drawings of
-    the bodies, of plain lists.
+    pair, outlines, gap: as of `model.Joint`, place among the contacts and sides [m] in the drawings
+    of the bodies, of plain lists.
     """
 
     interface: str
@@ -37,6 +37,7 @@ class Contact:
     master_surface: str | None
     pair: int = -1
     outlines: tuple = ()
+    gap: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -99,7 +100,11 @@ def layout_of(case, file) -> Layout:
         master = meeting.master and _surface_name(
             drawings[meeting.master[0]].faces, meeting.master_face, "master"
         )
-        contacts.append(Contact(meeting.interface, meeting.slave, slave, meeting.master, master))
+        contacts.append(
+            Contact(
+                meeting.interface, meeting.slave, slave, meeting.master, master, gap=meeting.gap
+            )
+        )
     for edge in edges:
         slave = _surface_name(drawings[edge.lower[0]].faces, edge.lower_face, "edge")
         pair = next(
@@ -117,6 +122,7 @@ def layout_of(case, file) -> Layout:
                 _surface_name(drawings[edge.upper[0]].faces, edge.upper_face, "master"),
                 pair,
                 edge.outlines,
+                meetings[pair].gap,
             )
         )
     return Layout(drawings, patches, tuple(contacts))

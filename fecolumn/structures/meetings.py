@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,7 +27,7 @@ class Meeting:
 
     interface: name of it. slave, master: body and number of its copy, master None for the ground.
     slave_face, master_face: places of the faces in the lists of their bodies, master_face -1 of the
-    ground.
+    ground. gap: between the faces [m], 0 where they touch.
     """
 
     interface: str
@@ -35,6 +35,25 @@ class Meeting:
     slave_face: int
     master: tuple[str, int] | None
     master_face: int
+    gap: float = 0.0
+
+
+@dataclass(frozen=True)
+class _Gap:
+    """A meeting of faces that look at one another across a gap, below 0 where they overlap [m];
+    width: of the slave's face [m], to which a gap is related.
+    """
+
+    meeting: Meeting
+    gap: float
+    width: float
+
+    @property
+    def sides(self) -> list[tuple]:
+        """Copy and face of both bodies, of the slave alone on the ground."""
+        one = self.meeting
+        found = [(one.slave, one.slave_face), (one.master, one.master_face)]
+        return found if one.master else found[:1]
 
 
 def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
@@ -43,7 +62,7 @@ def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
     Raises
     ------
     InputError
-        an interface whose bodies do not touch, or leave a gap or overlap.
+        an interface whose bodies have no faces that touch or look at one another, or overlap.
     """
     return [meeting for name in case.joints for meeting in _of_interface(case, name, faces, file)]
 
@@ -53,43 +72,63 @@ def _of_interface(case, name: str, faces, file) -> list[Meeting]:
     slaves = _copies(case, interface.slave)
     ground = case.grounds.get(interface.on)
     masters = _copies(case, interface.on) if ground is None else [None]
-    found, near, far = [], [], []
+    found, gaps = [], []
     for slave in slaves:
         for master in masters:
             if master == slave:
                 continue
-            meetings, gaps = _of_pair(
+            meetings, apart = _of_pair(
                 case, name, slave, master, faces, master in slaves and slave in masters
             )
             found += meetings
-            if not meetings and gaps:
-                gap, width, face = min(gaps, key=lambda one: abs(one[0]))
-                (near if abs(gap) <= _NEAR * width else far).append((gap, slave, master, face))
-    touching = {(meeting.slave, meeting.slave_face) for meeting in found}
-    if near := [one for one in near if (one[1], one[3]) not in touching]:
-        gap, slave, master, _ = min(near, key=lambda one: abs(one[0]))
-        raise InputError(
-            file,
-            f"joints.{name}",
-            None,
-            f'"{_name(case, slave)}" and {_quoted(case, master)} {_gap_text(gap)}: '
-            "their faces must coincide at the start",
-        )
-    if not found:
-        told = "no faces of theirs look at one another"
-        if far:
-            gap, slave, master, _ = min(far, key=lambda one: abs(one[0]))
-            told = (
-                f'the nearest faces, of "{_name(case, slave)}" and {_quoted(case, master)}, '
-                f"{_gap_text(gap)}"
-            )
-        raise InputError(
-            file,
-            f"joints.{name}",
-            None,
-            f'"{interface.slave}" does not touch "{interface.on}" at the start: {told}',
-        )
+            gaps += apart if not meetings else []
+    touching = {(one.slave, one.slave_face) for one in found}
+    touching |= {(one.master, one.master_face) for one in found if one.master}
+    gaps = [one for one in gaps if not touching & set(one.sides)]
+    if interface.open or not found and interface.open is None:
+        across = _across_gaps(gaps)
+        met = {frozenset((one.slave, one.master)) for one in across}
+        gaps = [one for one in gaps if one.gap < 0]
+        gaps = [
+            one for one in gaps if frozenset((one.meeting.slave, one.meeting.master)) not in met
+        ]
+        found += across
+    near = [one for one in gaps if abs(one.gap) <= _NEAR * one.width]
+    if near or not found:
+        _refuse(case, name, interface, near or gaps, bool(near), file)
     return found
+
+
+def _across_gaps(gaps: list[_Gap]) -> list[Meeting]:
+    """Meetings of faces that look at one another across a gap: of each face with the nearest one,
+    where that has none nearer, either.
+    """
+    least, gaps = {}, [one for one in gaps if one.gap > 0]
+    for one in gaps:
+        for side in one.sides:
+            least[side] = min(least.get(side, np.inf), one.gap)
+    return [
+        one.meeting
+        for one in gaps
+        if all(one.gap <= least[side] * (1 + SAME_PLANE) for side in one.sides)
+    ]
+
+
+def _refuse(case, name: str, interface, gaps: list[_Gap], near: bool, file) -> None:
+    """Refuse a joint of whose faces none touch, or some nearly; gaps: between those that look at
+    one another.
+    """
+    told = "no faces of theirs look at one another"
+    if gaps:
+        one = min(gaps, key=lambda gap: abs(gap.gap))
+        bodies = f'"{_name(case, one.meeting.slave)}" and {_quoted(case, one.meeting.master)}'
+        told = f"the nearest faces, of {bodies}, {_gap_text(one.gap)}"
+    if near:
+        told = f"{bodies} {_gap_text(one.gap)}: their faces must coincide at the start"
+        told += f"; joints.{name}.open = true lets them begin apart" if one.gap > 0 else ""
+    else:
+        told = f'"{interface.slave}" does not touch "{interface.on}" at the start: {told}'
+    raise InputError(file, f"joints.{name}", None, told)
 
 
 def _gap_text(gap: float) -> str:
@@ -114,14 +153,13 @@ def place_of(case, copy: tuple[str, int]) -> np.ndarray:
     return np.array(case.bodies[copy[0]].places[copy[1]])
 
 
-def allowance_of(interface, face: Face) -> float:
-    """How far [m] a slave with this face may slide."""
-    box = plane_box(face)
-    return (
-        min(box[1] - box[0], box[3] - box[2]) / 4
-        if interface.allowance_m is None
-        else interface.allowance_m
-    )
+def allowance_of(case, meeting: Meeting, face: Face) -> float:
+    """How far [m] the slave of a meeting, with this face, may slide."""
+    stated, box = case.joints[meeting.interface].allowance_m, plane_box(face)
+    if stated is not None:
+        return stated
+    sides = box[1] - box[0], box[3] - box[2]
+    return max(sides) if meeting.gap else min(sides) / 4
 
 
 def zones_of(
@@ -133,7 +171,7 @@ def zones_of(
     3) [m].
     """
     allowance, shift = (
-        allowance_of(case.joints[meeting.interface], slave),
+        allowance_of(case, meeting, slave),
         place_of(case, meeting.slave) - place_of(case, meeting.master),
     )
     spans = (
@@ -144,9 +182,8 @@ def zones_of(
 
 def _of_pair(
     case, name: str, slave, master, faces, twice: bool
-) -> tuple[list[Meeting], list[tuple[float, float, int]]]:
-    """Meetings of two copies; and gap, slave's width [m] and slave's face of those faces that look
-    at one another elsewhere.
+) -> tuple[list[Meeting], list[_Gap]]:
+    """Meetings of two copies; and of those faces that look at one another elsewhere.
 
     twice: the two are looked at the other way round, too, so that of two faces one way is left out.
     """
@@ -158,10 +195,11 @@ def _of_pair(
         if master is None:
             if face.normal[2] < -1 + _OPPOSITE:
                 gap = place[2] - face.offset - case.grounds[case.joints[name].on].level_m
+                meeting = Meeting(name, slave, number, None, -1)
                 if abs(gap) <= SAME_PLANE * width:
-                    found.append(Meeting(name, slave, number, None, -1))
+                    found.append(meeting)
                 else:
-                    gaps.append((gap, width, number))
+                    gaps.append(_Gap(replace(meeting, gap=gap), gap, width))
             continue
         offset = place - place_of(case, master)
         for other_number, other in enumerate(faces[master[0]]):
@@ -173,12 +211,11 @@ def _of_pair(
             corners = (face.corners + offset) @ other.axes[:, :2]
             if not _overlap(face, corners, other):
                 continue
+            meeting = _meeting(case, name, (slave, number, face), (master, other_number, other))
             if abs(gap) <= SAME_PLANE * width:
-                found.append(
-                    _meeting(case, name, (slave, number, face), (master, other_number, other))
-                )
+                found.append(meeting)
             else:
-                gaps.append((gap, width, number))
+                gaps.append(_Gap(replace(meeting, gap=gap), gap, width))
     return found, gaps
 
 

@@ -134,7 +134,8 @@ class Part:
     (3,) [m] place of the centre of mass in the table frame; rotation: (3, 3) of the body's frame
     into the table's. damping_ratio: (m,) or one number, of the elastic modes kept; rigid motion is
     never damped. velocity: (3,) [m/s] of the centre of mass relative to the ground; spin: (3,)
-    [rad/s] in the table frame.
+    [rad/s] in the table frame. held: place of the ground that a fixed body moves with, -1 of a body
+    that is free. airborne: whether no joint that is closed at the start, and no link, holds it up.
     """
 
     name: str
@@ -144,6 +145,8 @@ class Part:
     damping_ratio: float | np.ndarray
     velocity: np.ndarray
     spin: np.ndarray
+    held: int = -1
+    airborne: bool = False
 
 
 @dataclass(frozen=True)
@@ -179,7 +182,8 @@ class Joint:
     Coulomb's coefficient. law: (k, 3) [m/N] compliance of the contact law at each point, zero for a
     rigid interface. round: whether the slave's outer outline is a round rim, on which it rolls.
     restitution: velocity after over before an impact. ball: of a slave whose foot is not flat.
-    ground: place of the ground among those of the case, of a joint with one. rolling: coefficient
+    ground: place of the ground among those of the case, of a joint with one. gap: between the faces
+    at the start [m]. rolling: coefficient
     of the rim's resistance, see `contact.rolling`; pad: what lies between, see
     `contact.pad`, None where nothing does.
     pair, outlines: of a joint with the roles exchanged, by which a joint has two sides: place of
@@ -203,6 +207,7 @@ class Joint:
     rolling: float = 0.0
     pad: Pad | None = None
     ground: int = 0
+    gap: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -31,13 +31,14 @@ _UPRIGHT, _EDGE = 1e-12, 1e-9
 @dataclass(frozen=True)
 class Standing:
     """A part before it is moved: model, place (3,) [m] of its centre of mass upright, its start as
-    of `case.Initial` or None.
+    of `case.Initial` or None, held: place of the ground that holds it, -1 of one that is free.
     """
 
     name: str
     model: BodyModel
     center: np.ndarray
     start: object
+    held: int = -1
 
 
 @dataclass(frozen=True)
@@ -117,10 +118,15 @@ def _turn(start) -> np.ndarray:
 
 
 def supports_of(standing, joints) -> list[list[tuple[int, list[Joint]]]]:
-    """Of each part what it stands on, GROUND or a part, and the joints between."""
+    """Of each part what it stands on, GROUND or a part, and the joints between; a fixed part stands
+    by itself, and across a gap nothing stands on anything.
+    """
     found = [{} for _ in standing]
     for joint in joints:
         down = standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]
+        upper = joint.slave if down < 0 else joint.master
+        if joint.gap or upper != GROUND and standing[upper].held >= 0:
+            continue
         if down < -_EDGE:
             found[joint.slave].setdefault(joint.master, []).append(joint)
         elif down > _EDGE and joint.master != GROUND:

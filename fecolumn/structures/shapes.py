@@ -148,7 +148,7 @@ def _own(key: str, body: Meshed, file) -> Shape:
         raise InputError(
             file, f"{key}.mesh_file", error.value, f"{body.mesh_file}: {error.allowed}"
         ) from None
-    if own.is_tetrahedral and body.element_order == 1 and not body.rigid:
+    if own.is_tetrahedral and body.element_order == 1 and body.deforms:
         raise InputError(
             file,
             f"{key}.element_order",
@@ -158,7 +158,7 @@ def _own(key: str, body: Meshed, file) -> Shape:
     return Shape(
         own.mesh,
         (),
-        1 if body.rigid else body.element_order or (2 if own.is_tetrahedral else 1),
+        body.element_order or (2 if own.is_tetrahedral else 1) if body.deforms else 1,
         body.element_size_m or own.foot_edge,
     )
 
@@ -195,7 +195,7 @@ def _plate_lines(body: Plate | Storeys, spots) -> tuple[float, list]:
 
 
 def _plate_order(body: Plate | Storeys) -> int:
-    return 1 if isinstance(body, Storeys) or body.rigid else body.element_order or 2
+    return 1 if isinstance(body, Storeys) or not body.deforms else body.element_order or 2
 
 
 def _block(body: Block) -> Shape:

@@ -35,7 +35,7 @@ def size_of(case, file, spots=None, bodies=None) -> Estimate:
         count, nodes = counts_of(f"bodies.{name}", body, file, (spots or {}).get(name, ()))
         times = copies if full else 1
         elements[name], dofs[name] = times * count, 3 * times * nodes
-        rigid = isinstance(body, Storeys) or body.rigid
+        rigid = isinstance(body, Storeys) or not body.deforms
         loads.append(Load(0 if rigid else 3 * nodes, _points(case, name, nodes), copies))
     return Estimate(elements, dofs, tuple(loads), case.integration.engine)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,6 +22,7 @@ from fecolumn.structures.check import (
     check_links,
     check_points,
     check_rest,
+    tell_of_gaps,
 )
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.ground import bases_of
@@ -83,7 +85,7 @@ def _geometry(case) -> dict:
     bodies = {
         name: _made_of(case, name) | {"places": body.places} for name, body in case.bodies.items()
     }
-    keys = ("slave", "on", "interior_points", "allowance_m")
+    keys = ("slave", "on", "open", "interior_points", "allowance_m")
     return {
         "bodies": bodies,
         "levels": {name: ground.level_m for name, ground in case.grounds.items()},
@@ -192,10 +194,13 @@ def assembled(
             _damping(case, name, one.model),
             there.velocity,
             there.spin,
+            one.held,
         )
         for (name, _), one, there in zip(copies, standing, placed(standing, joints, file))
     )
     links = tuple(link for name in case.links for link in _links(case, name, places, standing))
+    airborne = _airborne(standing, joints, links)
+    parts = tuple(replace(part, airborne=place in airborne) for place, part in enumerate(parts))
     extents = [
         np.array(layout["extents"][name]) - one.model.center
         for (name, _), one in zip(copies, standing)
@@ -218,8 +223,19 @@ def assembled(
         tuple(more),
         tuple(ground.level_m for ground in case.grounds.values()),
     )
+    tell_of_gaps(joints, standing, file)
     check_rest(case, structure, standing, file)
     return structure
+
+
+def _airborne(standing: list[Standing], joints, links) -> set[int]:
+    """Places of the parts that no joint without a gap, and no link, ties to a ground."""
+    pairs = [(joint.slave, joint.master) for joint in joints if not joint.gap]
+    pairs += [(link.a, link.b) for link in links if link.stiffness]
+    held = {models.GROUND} | {place for place, part in enumerate(standing) if part.held >= 0}
+    while more := {one for pair in pairs if held & set(pair) for one in pair} - held:
+        held |= more
+    return set(range(len(standing))) - held
 
 
 def _that_moves(case, name: str, model: BodyModel) -> BodyModel:
@@ -248,9 +264,18 @@ def _standing(case, copies, bodies: list[BodyModel]) -> list[Standing]:
             model,
             np.array(case.bodies[name].places[number]) + model.center,
             starts.get((name, number)),
+            _held_by(case, name),
         )
         for (name, number), model in zip(copies, bodies)
     ]
+
+
+def _held_by(case, name: str) -> int:
+    """Place of the ground that holds a body, -1 of one that is free."""
+    body = case.bodies[name]
+    if not getattr(body, "fixed", False):
+        return -1
+    return list(case.grounds).index(body.moves_with) if body.moves_with else 0
 
 
 def _starts(case) -> dict[tuple[str, int], Initial]:
@@ -299,6 +324,7 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
     ball = ball_of(case.bodies[body]) if contact["slave_surface"] == "foot" else None
     round_rim = (
         not (ball and ball.is_dome)
+        and abs(surface.normal[2]) > 1 - 1e-9
         and Rim.find(surface.plane(model.arms[surface.nodes])) is not None
     )
     title = case.names_of(body)[number]
@@ -319,6 +345,7 @@ def _joint(case, contact: dict, bodies, places, sizes, file) -> Joint:
         outlines,
         contact_keys.rolling_resistance,
         ground=list(case.grounds).index(keys.on) if master is None else 0,
+        gap=contact["gap"],
     )
 
 
@@ -369,13 +396,19 @@ def _links(case, name: str, places, standing: list[Standing]):
         if keys.to not in case.grounds:
             other_body, (other_number,) = case.meant_by(keys.to)
             other = places[other_body, other_number]
-        end = origin + keys.to_point_m
+        start, end = origin + keys.point_m, origin + keys.to_point_m
+        ground = list(case.grounds).index(keys.to) if other == models.GROUND else 0
+        if standing[a].held >= 0:
+            a, other, start, end = other, a, end, start
+        # what a fixed body holds, its ground holds
+        if other != models.GROUND and standing[other].held >= 0:
+            other, ground = models.GROUND, standing[other].held
         both = keys.kind in ("spring", "restrainer")
         yield Link(
             name if len(numbers) == 1 else f"{name} {number + 1}",
             keys.kind,
             a,
-            origin + keys.point_m - standing[a].center,
+            start - standing[a].center,
             other,
             end if other == models.GROUND else end - standing[other].center,
             keys.stiffness_n_m,
@@ -386,7 +419,7 @@ def _links(case, name: str, places, standing: list[Standing]):
             both or keys.kind == "tendon",
             keys.yield_n or math.inf,
             keys.breaking_n or math.inf,
-            list(case.grounds).index(keys.to) if other == models.GROUND else 0,
+            ground,
         )
 
 
@@ -404,6 +437,6 @@ def _observed(case, parts, places, file) -> tuple[int, str]:
             )
         return place, mark
     return max(
-        range(len(parts)),
+        (place for place, part in enumerate(parts) if part.held < 0),
         key=lambda place: parts[place].center[2] + parts[place].model.marks["top"][0][2],
     ), "top"

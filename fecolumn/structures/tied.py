@@ -87,7 +87,7 @@ def tied_mesh(key: str, body, file):
         mesh, ties = body_mesh(built)
     except InputError as error:
         raise InputError(file, f"{key}: {error.key}", error.value, error.allowed) from None
-    return mesh, ties, 1 if body.rigid else built.mesh.element_order, built.mesh.fine_size_m
+    return mesh, ties, built.mesh.element_order if body.deforms else 1, built.mesh.fine_size_m
 
 
 def tied_counts(body) -> tuple[int, int]:

@@ -199,6 +199,8 @@ class Interface(Places):
             self.interfaces,
             self.joints.rim,
             self.arms,
+            # a face may be as near as it likes: bodies of elements take longer than their points
+            np.full((len(self.arms), 2), np.inf),
             frames_at(self.centers(state.x)),
             poses,
             state.contact,

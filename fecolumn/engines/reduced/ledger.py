@@ -89,6 +89,20 @@ def _work_of_grounds(structure, work, start, end):
 
 
 @njit
+def _work_of_held(structure, work, start, end):
+    """Energy [J] that grounds which move relative to the first one bring in a step through the
+    bodies that they hold: as much as contact and links take from these.
+    """
+    done = 0.0
+    for b in range(len(structure.bodies.body)):
+        if structure.bodies.body[b].held >= 0:
+            for a in range(3):
+                moved = end.frames[b].center[a] - start.frames[b].center[a]
+                done -= work.action.push[b, a] * moved
+    return done
+
+
+@njit
 def book(structure, scheme, work, start, end, ledger):
     """Book a step before its impact; returns the work of contact but that of dashpots [J].
 
@@ -136,7 +150,7 @@ def book(structure, scheme, work, start, end, ledger):
         structure.links, end.grounds, end.frames, end.rotation, start.ties, end.ties, dt
     )
     carried = _work_of_grounds(structure, work, start, end)
-    moved_base += carried
+    moved_base += carried + _work_of_held(structure, work, start, end)
     done -= carried
     contact = done - rolling + end.whole[0].static + tied - start.whole[0].static + taken
     end.whole[0].static += tied

@@ -287,7 +287,7 @@ def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
     for b in range(len(bodies)):
         for a in range(3):
             end.frames[b].center[a] = (
-                free_center[b, a] + scheme.half * action.push[b, a] / bodies[b].mass
+                free_center[b, a] + scheme.half * action.push[b, a] * bodies[b].inverse_mass
             )
         turning(
             bodies[b],
@@ -398,9 +398,9 @@ def push_bodies(structure, scheme, points, arms, poses, impulses, motion):
                 p0, p1, p2 = pushed[0], pushed[1], pushed[2]
             if not on:
                 p0, p1, p2 = -p0, -p1, -p2
-            motion.frames[b].velocity[0] += p0 / body.mass
-            motion.frames[b].velocity[1] += p1 / body.mass
-            motion.frames[b].velocity[2] += p2 / body.mass
+            motion.frames[b].velocity[0] += p0 * body.inverse_mass
+            motion.frames[b].velocity[1] += p1 * body.inverse_mass
+            motion.frames[b].velocity[2] += p2 * body.inverse_mass
             for a in range(3):
                 arm[a] = arms[i, a] if on else points[i].seat[a]
             b0, b1, b2 = (

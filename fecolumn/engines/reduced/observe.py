@@ -97,7 +97,8 @@ class View(NamedTuple):
     many is lost, none for one alone; standing: (nb,) of `overturning.STANDING`, by which it is lost
     before, with the corners (k, 2) [m] of all. feet: (ni, 3) of the interfaces [m] and normals:
     (ni, 3) of them in the frames of their slaves, in the reference configuration; marks: (nm,) of
-    MARK, their shapes (nm, 3, m). links: how many. levels: (G,) heights of the grounds [m].
+    MARK, their shapes (nm, 3, m). links: how many. levels: (G,) heights of the grounds [m]. held:
+    (nb,) as of `contact.bodies.BODY`.
     """
 
     center: np.ndarray
@@ -116,6 +117,7 @@ class View(NamedTuple):
     shapes: np.ndarray
     links: int = 0
     levels: np.ndarray = np.zeros(1)
+    held: np.ndarray = np.zeros(0, np.int64)
 
     @property
     def width(self) -> int:
@@ -246,6 +248,8 @@ def lost(eye, motion, row, steepest):
             for a in range(3):
                 spins[b, a] = motion.frames[b].spin[a]
         for b in range(len(eye.limits)):
+            if eye.held[b] >= 0:
+                continue
             if motion.frames[b].center[2] < eye.levels.min():
                 return FELL
             if row[WIDTH + PER_BODY * b + _BODY_TILT] > eye.limits[b] or gone(

@@ -175,7 +175,7 @@ def _pushed(structure, J):
         body = structure.bodies.body[b]
         for j in range(len(J)):
             for a in range(3):
-                pushed[6 * b + a, j] = J[j, 6 * b + a] / body.mass
+                pushed[6 * b + a, j] = J[j, 6 * b + a] * body.inverse_mass
                 for c in range(3):
                     pushed[6 * b + 3 + a, j] += body.inverse_inertia[a, c] * J[j, 6 * b + 3 + c]
     return pushed
@@ -250,6 +250,8 @@ def _book(structure, motion, booked, ledger):
     """
     weight, width, g = np.inf, np.inf, structure.gravity
     for b in range(len(motion.frames)):
+        if structure.bodies.body[b].held >= 0:
+            continue
         weight = min(
             weight, structure.bodies.body[b].mass * np.sqrt(g[0] ** 2 + g[1] ** 2 + g[2] ** 2)
         )

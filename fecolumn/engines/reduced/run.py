@@ -153,7 +153,9 @@ def advance(structure, base, schemes, work, eye, course, chunk):
         for b in range(bodies):
             put(motion.modal[b, COORDINATE], bent[b])
             for a in range(3):
-                fall[b, a] = motion.frames[b].center[a] + scheme.half * structure.gravity[a]
+                fall[b, a] = motion.frames[b].center[a]
+                if structure.bodies.body[b].held < 0 and not structure.bodies.body[b].airborne:
+                    fall[b, a] += scheme.half * structure.gravity[a]
         return 0, settled(structure, base, scheme, work, motion, fall, bent, still, spare, counts)
     booked, held, now, then, swapped, made, answer, target = (
         ledger.copy(),
@@ -261,7 +263,7 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
                 work.poses[START],
                 spare.rims,
             )
-            lay_points(structure, work, motion, spare)
+            lay_points(structure, 0.0, work, motion, spare)
             break
     answer = equilibrate(
         structure, base, scheme, work, motion, fall, bent, still, spare.rims, spare, counts

@@ -44,7 +44,9 @@ def standing(engine) -> motions.Motion:
         for b, body in enumerate(bodies)
     ]
     firmness = max(
-        pseudo_inertia(weight, lever, body["inertia"]) for body, lever in zip(bodies, levers)
+        pseudo_inertia(weight, lever, body["inertia"])
+        for body, lever in zip(bodies, levers)
+        if body["held"] < 0
     )
     # links answer the motion of a step at once: the motion must not answer them as strongly
     held = [
@@ -103,9 +105,10 @@ def _settled(engine, firmness: float) -> motions.Motion:
         motions.copy(end, start)
         return moved
 
-    iterate_to_rest(proximal_step, 2 * centers[:, 2].max())
+    iterate_to_rest(proximal_step, 2 * np.abs(centers[:, 2]).max())
     engine.counts[:] = 0
-    start.frames["acceleration"] = -work.action.push / bodies["mass"][:, None]
+    start.frames["acceleration"] = -work.action.push * bodies["inverse_mass"][:, None]
+    start.frames["acceleration"][bodies["airborne"]] = structure.gravity
     start.modal[:, ACCELERATION] = -structure.squares * start.modal[:, COORDINATE]
     start.ties["work"] = 0.0  # what links lose on the way there is not of the motion
     return start
@@ -115,7 +118,8 @@ def unstrained(engine, motion) -> motions.Motion:
     """A motion of which the places of the bodies are known: they fall freely from there, and links
     are as tight as they are.
     """
-    motion.frames["acceleration"] = engine.structure.gravity
+    free = engine.structure.bodies.body["held"] < 0
+    motion.frames["acceleration"] = free[:, None] * engine.structure.gravity
     motion.contact["relative"] = engine.places(motion.frames["center"], motion.rotation)
     motion.contact["anchor"], motion.contact["located"] = (
         motion.contact["relative"][:, :2],

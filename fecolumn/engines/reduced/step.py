@@ -115,18 +115,26 @@ def place_points_of_step(structure, dt, work, start, end, allowed):
             )
         if structure.interfaces[k].ball > 0.0:
             roll_balls(structure, k, work, start, end)
-    lay_points(structure, work, start, end)
+    lay_points(structure, dt, work, start, end)
     return rolled
 
 
 @njit
-def lay_points(structure, work, start, end):
-    """Lay the points of joints with two sides."""
+def lay_points(structure, dt, work, start, end):
+    """Lay the points of joints with two sides, for a step dt [s]."""
+    if len(structure.overlaps.joints) == 0:
+        return
+    ways = np.empty((len(start.frames), 2))
+    for b in range(len(start.frames)):
+        v, w = start.frames[b].velocity, start.frames[b].spin
+        ways[b, 0] = dt * np.sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2])
+        ways[b, 1] = dt * np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
     if place_overlaps(
         structure.overlaps,
         structure.interfaces,
         structure.rim,
         structure.bodies.arms,
+        ways,
         start.frames,
         work.poses[START],
         start.contact,
@@ -198,7 +206,14 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
         np.empty((bodies, 3)),
     )
     for b in range(bodies):
+        held = structure.bodies.body[b].held
         for a in range(3):
+            action.resistance[b, a] = 0.0
+            if held >= 0:
+                way = end.grounds[held].place[a] - start.grounds[held].place[a]
+                free_center[b, a], advance[b, a] = start.frames[b].center[a] + way, 0.0
+                end.frames[b].acceleration[a] = 0.0
+                continue
             before, now = gravity[a] - start.whole[0].ground[a], gravity[a] - ground[a]
             end.frames[b].acceleration[a] = (1 + al) * now - al * before
             memory = (0.5 - be) * start.frames[b].acceleration[a] + be * end.frames[b].acceleration[
@@ -208,7 +223,6 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
                 start.frames[b].center[a] + dt * start.frames[b].velocity[a] + dt**2 * memory
             )
             advance[b, a] = dt * start.frames[b].spin[a]
-            action.resistance[b, a] = 0.0
         for k in range(m):
             q, rate = start.modal[b, COORDINATE, k], start.modal[b, RATE, k]
             memory = (0.5 - be) * start.modal[b, ACCELERATION, k] + be * al * structure.squares[
@@ -313,9 +327,13 @@ def _finish(structure, scheme, work, start, ground, end):
             acceleration = (
                 (1 - ga) * start.frames[b].acceleration[a]
                 + ga * end.frames[b].acceleration[a]
-                + action.push[b, a] / body.mass
+                + action.push[b, a] * body.inverse_mass
             )
-            end.frames[b].velocity[a] = start.frames[b].velocity[a] + dt * acceleration
+            end.frames[b].velocity[a] = (
+                end.grounds[body.held].velocity[a]
+                if body.held >= 0
+                else start.frames[b].velocity[a] + dt * acceleration
+            )
             momentum[a] = (
                 J[a, 0] * spin[0] + J[a, 1] * spin[1] + J[a, 2] * spin[2] + dt * action.moment[b, a]
             )
@@ -429,9 +447,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
     energy, brought = kinetic(structure, end), 0.0
     push_bodies(structure, scheme, points, arms, work.poses[END], impulses, end)
     for i in listed:
-        if points[i].master == BASE:
-            for a in range(3):
-                brought += impulses[i, a] * end.grounds[points[i].ground].velocity[a]
+        brought += _brought_by_grounds(structure, points[i], work.poses[END], impulses[i], end)
     ledger[BASE_WORK] += brought
     own, other = (HIT, FRICTION) if happens == LANDS else (FRICTION, HIT)
     terms = book_impulses(
@@ -447,6 +463,23 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
     )
     counts[N_IMPACTS] += happens == LANDS
     return OK
+
+
+@njit
+def _brought_by_grounds(structure, point, poses, impulse, end):
+    """Energy [J] that an impulse (3,) at a point brings from grounds that move relative to the
+    first one: those on which its slave stands, or which hold one of its bodies.
+    """
+    total, frame = 0.0, poses[point.interface].frame
+    for side in range(2):
+        b, sign = (point.master, 1.0) if side else (point.slave, -1.0)
+        g = point.ground if b == BASE else structure.bodies.body[b].held
+        if g < 0:
+            continue
+        for a in range(3):
+            along = frame[a, 0] * impulse[0] + frame[a, 1] * impulse[1] + frame[a, 2] * impulse[2]
+            total += sign * along * end.grounds[g].velocity[a]
+    return total
 
 
 @njit

@@ -51,11 +51,12 @@ def structure_of(model, hht, gravity, parts_of_step: int = 1) -> tuple[Structure
         static = (
             node_matrix(body.flexibility) - modal_sum(own, 1 / squares[b, :m])
             if body.flexibility.any()
-            else _least_give(body, hht.dt / parts_of_step)
+            else _least_give(body, hht.dt / parts_of_step, part.held)
         )
-        bodies.append(
-            one_body(body.arms, static, modal_sum(own, np.ones(m)), float(body.mass), body.inertia)
-        )
+        inertia = (0.0,) if part.held >= 0 else (float(body.mass), body.inertia)
+        one = one_body(body.arms, static, modal_sum(own, np.ones(m)), *inertia)
+        one.body["held"], one.body["airborne"] = part.held, part.airborne
+        bodies.append(one)
         pushes.append(np.pad(own, ((0, 0), (0, 0), (0, modes - m))))
     whole, first = joined(bodies), np.cumsum([0] + [len(part.model.arms) for part in parts])
     reach = np.concatenate(
@@ -89,10 +90,13 @@ def structure_of(model, hht, gravity, parts_of_step: int = 1) -> tuple[Structure
     return structure, joints.points
 
 
-def _least_give(body, dt: float) -> np.ndarray:
+def _least_give(body, dt: float, held: int) -> np.ndarray:
     """Static compliance (3 n, 3 n) [m/N] of a BodyModel that does not deform, in steps dt [s]: each
-    contact point gives alone, RIGID_GIVE of what the body's points move on the mean.
+    contact point gives alone, RIGID_GIVE of what the body's points move on the mean; none of a
+    fixed one, `held` by a ground.
     """
+    if held >= 0:
+        return np.zeros(2 * (3 * len(body.arms),))
     touching = np.unique(
         np.concatenate(
             [np.zeros(0, np.int64), *(surface.nodes for surface in body.surfaces.values())]
@@ -163,4 +167,5 @@ def view_of(model, structure, weight: float, limits: Limits, cap: float = 0.0) -
         shapes,
         len(structure.links),
         np.array(model.levels, float),
+        np.array([part.held for part in model.parts]),
     )
