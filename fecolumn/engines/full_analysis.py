@@ -20,8 +20,8 @@ class FullAnalysis(OfStructure, Analysis):
     """A running analysis of bodies with all their degrees of freedom.
 
     Attributes beside those of Analysis: structure: StructureModel at its start, standing: the same
-    upright, meshed: `elements.Meshed` of each part. system, state, ledger, stepper: of `dynamics`.
-    observer: measures states and says when all is lost.
+    upright, meshed: `elements.MeshedBody` of each part. system, state, ledger, stepper: of
+    `dynamics`. observer: measures states and says when all is lost.
     """
 
     def __init__(self, case, folder, comm, file, quiet):

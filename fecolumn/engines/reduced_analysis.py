@@ -16,7 +16,7 @@ from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
-from fecolumn.engines.reduced.observe import place_of
+from fecolumn.engines.reduced.observe import column_index
 from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.engines.reduced.run import advance
 from fecolumn.engines.reduced.states import States, state_of
@@ -122,9 +122,9 @@ class ReducedAnalysis(OfStructure, Analysis):
                 progress.show(
                     self.step,
                     {
-                        "time": last[place_of("time")],
-                        "tilt": last[place_of("tilt")],
-                        "active_nodes": int(last[place_of("active_nodes")]),
+                        "time": last[column_index("time")],
+                        "tilt": last[column_index("tilt")],
+                        "active_nodes": int(last[column_index("active_nodes")]),
                     },
                     engine.record,
                 )

@@ -117,7 +117,7 @@ class OfStructure:
         return f'"{parts[b].name}" has tilted by {tilts[b]:.3g} rad, {told} rad'
 
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
-        """How the analysis ends, from the answer of `reduced.observe.lost`."""
+        """How the analysis ends, from the answer of `reduced.observe.outcome_of_row`."""
         if fallen != FELL:
             return super().ending(fallen, rotation)
         return Ending(

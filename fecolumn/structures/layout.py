@@ -22,7 +22,7 @@ from fecolumn.structures.size import refuse_too_large
 
 
 @dataclass(frozen=True)
-class Contact:
+class ContactPair:
     """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the
     copy), None of the ground.
 
@@ -47,7 +47,7 @@ class Layout:
 
     drawings: dict[str, Drawing]
     patches: dict[str, dict[str, Patch]]
-    contacts: tuple[Contact, ...]
+    contacts: tuple[ContactPair, ...]
 
 
 def layout_of(case, file) -> Layout:
@@ -99,7 +99,9 @@ def layout_of(case, file) -> Layout:
         master = meeting.master and _surface_name(
             drawings[meeting.master[0]].faces, meeting.master_face, "master"
         )
-        contacts.append(Contact(meeting.interface, meeting.slave, slave, meeting.master, master))
+        contacts.append(
+            ContactPair(meeting.interface, meeting.slave, slave, meeting.master, master)
+        )
     for edge in edges:
         slave = _surface_name(drawings[edge.lower[0]].faces, edge.lower_face, "edge")
         pair = next(
@@ -109,7 +111,7 @@ def layout_of(case, file) -> Layout:
             == (edge.upper, edge.upper_face, edge.lower, edge.lower_face)
         )
         contacts.append(
-            Contact(
+            ContactPair(
                 edge.interface,
                 edge.lower,
                 slave,
