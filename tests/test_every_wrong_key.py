@@ -141,6 +141,11 @@ def test_no_invalid_section_can_be_made_from_python(section, key, value):
         dataclasses.replace(getattr(case.short, section), **{key: value})
 
 
+def test_the_mesh_of_a_structure_is_named_as_in_its_file():
+    with pytest.raises(InputError, match="^case: mesh.limit_dofs = 3"):
+        dataclasses.replace(read_case(STOUT).mesh, limit_dofs=3)
+
+
 def test_case_takes_only_sections_of_their_kind():
     with pytest.raises(InputError, match="contact.*must be a Contact"):
         dataclasses.replace(read_case(STOUT), contact=0.3)

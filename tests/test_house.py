@@ -13,8 +13,8 @@ PACKAGE = ROOT / "fecolumn"
 
 #: What is left to mend. These numbers may only shrink.
 FOLDERS, MODULES = 12, 4
-LONG_CALLS = 1
-NAMES_TWICE = 20
+LONG_CALLS = 0
+NAMES_TWICE = 0
 #: Arguments of a function, self and cls left out
 ARGUMENTS = 8
 # Each command has these two functions, each verification case the third

@@ -9,7 +9,8 @@ import numpy as np
 
 from benchmarks.engines.motions import strong_shaking
 from benchmarks.engines.pair import case_of, column, engine, mesh, system_of
-from fecolumn.verification.one_column import top_of
+from fecolumn.mesh.bricks import boundary_faces
+from fecolumn.mesh.surface import face_points, nodal_areas
 from fecolumn.verification.rocking import leaning_start, rocked_trial, uplift_accelerations
 from fecolumn.verification.sliding import slipped
 from fecolumn.verification.trial import RigidRocking, Trial
@@ -139,6 +140,20 @@ def reduced_order(case, shaking, disturbance=(0.0, 0.0)) -> np.ndarray:
     rows = one.advance(shaking[:AFTER])[0]
     one.motion.frames["velocity"][0, :2] += disturbance
     return column(np.vstack([rows, one.advance(shaking[AFTER:])[0]]), "u_top")[:, :2]
+
+
+def top_of(column, specimen) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (k,) of the top's face and their shares (k,) in its mean."""
+    mesh = specimen.body
+    part = mesh.top_part
+    height = mesh.points[:, 2].max()
+    quads = boundary_faces(mesh, part, height, 1e-6 * height)
+    found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
+    nodes, position = np.unique(found, return_inverse=True)
+    areas = nodal_areas(
+        mesh.points[quads], position.reshape(len(quads), -1), len(nodes), column.order
+    )
+    return nodes, areas / areas.sum()
 
 
 def full_order(system, shaking) -> tuple[np.ndarray, list[int]]:

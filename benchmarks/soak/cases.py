@@ -13,7 +13,7 @@ from benchmarks.soak.motions import sampling_and_peak, write_motions
 from benchmarks.soak.specimens import Specimen, specimens
 from fecolumn.case.case import Case, case_from_tables
 from fecolumn.case.sections import GRAVITY
-from fecolumn.study.plan import Analysis, Plan
+from fecolumn.study.plan import Plan, PlannedAnalysis
 
 # Analyses of a block: its study is drawn, resumed and reported as one; its workers start once
 BLOCK = 10_000
@@ -100,13 +100,13 @@ def _draws(number: int, seed: int) -> list[Draw]:
 
 def _analysis(
     number: int, draw: Draw, sources: dict[str, list[str]], columns: list[Specimen]
-) -> Analysis:
+) -> PlannedAnalysis:
     which = draw.place("specimen", len(columns))
     case = case_from_tables(
         tables_of(draw, columns[which], sources) | {"title": f"soak {number}"}, FILE
     )
     source = case.motion.source if case.motion else ""
-    return Analysis(
+    return PlannedAnalysis(
         case,
         case.id,
         KEYS,

@@ -12,7 +12,7 @@ import numpy as np
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.problem import N_ASSEMBLED, N_CONTACT, N_ITERATIONS
-from fecolumn.engines.reduced.observe import place_of
+from fecolumn.engines.reduced.observe import column_index
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
 
@@ -132,7 +132,7 @@ def cost(case, model, ground: np.ndarray, first: int) -> dict:
     counts, began = engine.counts.copy(), time.process_time()
     rows, _ = engine.advance(ground[first:])
     spent, made = time.process_time() - began, engine.counts - counts
-    near = float(np.mean(rows[:, place_of("active_nodes")]))
+    near = float(np.mean(rows[:, column_index("active_nodes")]))
     return dict(
         us=1e6 * spent / len(rows),
         steps=len(rows),

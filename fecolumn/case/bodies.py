@@ -343,7 +343,7 @@ class Matrices(Placed):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Mesh(Section):
+class MeshLimits(Section):
     """How large the meshes of a structure may be; sizes of elements are those of its bodies."""
 
     limit_dofs: int = parameter(
@@ -355,6 +355,11 @@ class Mesh(Section):
         counts=False,
         since="0.7",
     )
+
+    @classmethod
+    def section_name(cls) -> str:
+        """As in a case."""
+        return "mesh"
 
 
 #: Class of the keys by kind of body.

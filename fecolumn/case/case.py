@@ -19,7 +19,7 @@ from fecolumn.case.bodies import (
     Ground,
     Interface,
     LinkKeys,
-    Mesh,
+    MeshLimits,
     Placed,
     Storeys,
 )
@@ -70,7 +70,7 @@ COMMON = {
     "motion": Motion,
     "overturn": Overturn,
     "output": Output,
-    "mesh": Mesh,
+    "mesh": MeshLimits,
 }
 # of which no number depends
 _IDLE = ("output", "mesh")
@@ -100,7 +100,7 @@ class Case:
     title: str = ""
     observed: str = ""
     motion: Motion | None = None
-    mesh: Mesh = Mesh()
+    mesh: MeshLimits = MeshLimits()
     grounds: dict[str, Ground] = field(default_factory=lambda: {GROUND: Ground()})
     own: dict[str, Section] = field(default_factory=dict)
     short: ShortForm | None = field(default=None, compare=False, repr=False)

@@ -247,6 +247,11 @@ class ShortForm(Section, Heights):
     motion: Motion | None = None
     flange: Flange | None = None
 
+    @classmethod
+    def section_name(cls) -> str:
+        """Empty: messages name the sections in it."""
+        return ""
+
     def tables(self, opened: bool = False) -> dict:
         """The tables of its file; `opened`: without those sizes that it would be given anyway, so
         that another column gets its own.
@@ -291,11 +296,11 @@ def finished(case: ShortForm, file) -> ShortForm:
     sizes.check_shape(case, file)
     case = sizes.with_sizes(case, file)
     sizes.check_sizes(case, file)
-    check(case, file)
+    check_short_form(case, file)
     return case
 
 
-def check(case: ShortForm, file) -> None:
+def check_short_form(case: ShortForm, file) -> None:
     """What no single key can know, but for sizes (`fecolumn.case.sizes`)."""
 
     def refuse(key, value, allowed):
@@ -420,8 +425,6 @@ PLACES = {
 }
 #: Sections that stand in both forms alike
 ALIKE = ("contact", "integration", "overturn", "output", "motion", "title")
-# Keys of the short form that its translation does not say by their own place
-_ELSEWHERE = ("column.shape",)
 
 
 def full_tables(form: ShortForm) -> dict:

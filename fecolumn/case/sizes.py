@@ -323,6 +323,6 @@ def check_sizes(case, file) -> None:
                 getattr(base, key),
                 f"must be at least the foot and twice slide_allowance_m, {least:g} m",
             )
-    from fecolumn.mesh.estimate import refuse_too_large
+    from fecolumn.mesh.estimate import refuse_large_column
 
-    refuse_too_large(case, file)
+    refuse_large_column(case, file)

@@ -31,7 +31,7 @@ TOP = record(
 )
 
 
-class Base(NamedTuple):
+class GroundTops(NamedTuple):
     """Tops of the grounds for compiled code: tops: (G,) of TOP; grid lines x, y of all [m]; number:
     (n,) of their nodes, row by row; slot: (n_top,) of a node in `compliance`, -1 where it is not
     known yet; compliance: (3 k, 3 k) [m/N]. gathered: of it.
@@ -46,16 +46,16 @@ class Base(NamedTuple):
     gathered: Gathered
 
 
-def base_of(x, y, number, slot, compliance, square: float = 0.0) -> Base:
-    """A Base of one ground, of which nothing is gathered."""
+def base_of(x, y, number, slot, compliance, square: float = 0.0) -> GroundTops:
+    """GroundTops of one ground, of which nothing is gathered."""
     top = np.zeros(1, TOP)
     top["count_x"], top["count_y"], top["square"] = len(x), len(y), square
     gathered = none_gathered(len(compliance) // 3)
-    return Base(top, x, y, np.ascontiguousarray(number).ravel(), slot, compliance, gathered)
+    return GroundTops(top, x, y, np.ascontiguousarray(number).ravel(), slot, compliance, gathered)
 
 
-def base_for_steps(base) -> Base:
-    """The Base of a `contact.base_plate.BasePlate`, or what answers as it does, as far as its
+def base_for_steps(base) -> GroundTops:
+    """GroundTops of a `contact.base_plate.BasePlate`, or what answers as it does, as far as its
     compliance is known.
     """
     return base_of(
@@ -68,8 +68,8 @@ def base_for_steps(base) -> Base:
     )
 
 
-def grounds_for_steps(bases) -> Base:
-    """The Base of several grounds; nodes and slots of one come after those of the others."""
+def grounds_for_steps(bases) -> GroundTops:
+    """GroundTops of several grounds; nodes and slots of one come after those of the others."""
     each = [base_for_steps(base) for base in bases]
     if len(each) == 1:
         return each[0]
@@ -86,7 +86,7 @@ def grounds_for_steps(bases) -> Base:
     ):
         tops[name] = np.cumsum([0, *map(len, arrays[:-1])])
     nodes = np.cumsum([0, *(len(one.slot) for one in each)])
-    return Base(
+    return GroundTops(
         tops,
         np.concatenate([one.x for one in each]),
         np.concatenate([one.y for one in each]),

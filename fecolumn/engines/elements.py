@@ -20,7 +20,7 @@ from fecolumn.structures.structure import assembled, check_drawings, said_of
 
 
 @dataclass(frozen=True, eq=False)
-class Meshed:
+class MeshedBody:
     """A body of elements, the same object for all copies.
 
     body: `fem.body.Body`. model: its BodyModel without modes and flexibility; nodes: (n,) of the
@@ -38,7 +38,7 @@ class Meshed:
     patches: dict[str, Patch]
 
 
-def structure_of_elements(case, comm, file) -> tuple[StructureModel, list[Meshed]]:
+def structure_of_elements(case, comm, file) -> tuple[StructureModel, list[MeshedBody]]:
     """The structure of a case at its start, and the elements of each part; the same on every rank.
 
     Raises
@@ -79,7 +79,7 @@ def _checked_layout(case, file) -> Layout:
     return layout
 
 
-def meshed(drawing: Drawing, patches: dict[str, Patch], comm) -> Meshed:
+def meshed(drawing: Drawing, patches: dict[str, Patch], comm) -> MeshedBody:
     """Elements and contact points of a drawing."""
     from fecolumn.engines.dynamics.checkpoint import node_order
     from fecolumn.fem.free_body import rigid_fields
@@ -107,6 +107,6 @@ def meshed(drawing: Drawing, patches: dict[str, Patch], comm) -> Meshed:
         },
         marks={"top": (shares @ positions - body.center, np.zeros((3, 0)))},
     )
-    return Meshed(
+    return MeshedBody(
         body, model, nodes, body.find_nodes(positions, face.part), shares, drawing.shape, patches
     )

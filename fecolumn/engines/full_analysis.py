@@ -8,7 +8,7 @@ import time
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
+from fecolumn.engines.analysis import CHECKPOINT, Analysis
 from fecolumn.engines.reduced_engine import leans, upright
 from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.fem.rotation import out_of_frames
@@ -20,8 +20,8 @@ class FullAnalysis(OfStructure, Analysis):
     """A running analysis of bodies with all their degrees of freedom.
 
     Attributes beside those of Analysis: structure: StructureModel at its start, standing: the same
-    upright, meshed: `elements.Meshed` of each part. system, state, ledger, stepper: of `dynamics`.
-    observer: measures states and says when all is lost.
+    upright, meshed: `elements.MeshedBody` of each part. system, state, ledger, stepper: of
+    `dynamics`. observer: measures states and says when all is lost.
     """
 
     def __init__(self, case, folder, comm, file, quiet):
@@ -199,15 +199,9 @@ class FullAnalysis(OfStructure, Analysis):
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         from fecolumn.contact.overturning import STANDS
         from fecolumn.engines.dynamics.cuts import StepFailed
-        from fecolumn.foundation.progress import Progress
 
         cadence = self.case.output
-        progress = Progress(
-            self.steps,
-            self.case.integration.dt_s,
-            quiet=self.quiet or self.comm.rank > 0,
-            until_rest_from=self.motion_steps if self.until_rest else None,
-        )
+        progress = self.progress()
         saved, fallen, over, off = time.perf_counter(), STANDS, False, None
         try:
             while self.step < self.steps and not over:
@@ -230,12 +224,7 @@ class FullAnalysis(OfStructure, Analysis):
                 if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
-            off = self.off_base(failure)
-            if off is None:
-                self._save()
-                raise AnalysisFailed(
-                    f"{failure}; state saved in {self.folder / CHECKPOINT}"
-                ) from None
+            off = self.off_or_failed(failure)
         finally:
             progress.end()
         dofs = 3 * self.system.bodies.n_nodes + sum(base.dofs for base in self.system.bases)

@@ -23,7 +23,7 @@ class Observer:
     system
         of `dynamics.structure.structure_system`.
     meshed
-        `elements.Meshed` of each part.
+        `elements.MeshedBody` of each part.
     structure
         StructureModel, as it stands upright: displacements are measured from there.
     limits
@@ -148,7 +148,7 @@ class Observer:
         )
 
     def fallen(self, state, measures: dict, steepest: float) -> int:
-        """As `reduced.observe.lost`; on all ranks together."""
+        """As `reduced.observe.outcome_of_row`; on all ranks together."""
         tilts = []
         for center, part in zip(self._centers, self.structure.parts):
             if center[2] + measures[f"body/{part.name}/displacement"][2] < min(

@@ -12,11 +12,11 @@ from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.gathered import base_to_resume, gather_again
 from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.problem import list_present
-from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
+from fecolumn.engines.analysis import CHECKPOINT, Analysis
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
-from fecolumn.engines.reduced.observe import place_of
+from fecolumn.engines.reduced.observe import column_index
 from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.engines.reduced.run import advance
 from fecolumn.engines.reduced.states import States, state_of
@@ -24,7 +24,6 @@ from fecolumn.engines.reduced_engine import engine_of, leans, upright
 from fecolumn.engines.structure_analysis import OfStructure, columns_of
 from fecolumn.foundation._compiled import compiled, interpreted
 from fecolumn.foundation.atomic import write_bytes
-from fecolumn.foundation.progress import Progress
 from fecolumn.structures.pads import warn_of_grounds
 from fecolumn.structures.structure import structure_model
 
@@ -102,12 +101,7 @@ class ReducedAnalysis(OfStructure, Analysis):
     def run(self, stop) -> dict:
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         cadence, engine = self.case.output, self.engine
-        progress = Progress(
-            self.steps,
-            self.case.integration.dt_s,
-            quiet=self.quiet,
-            until_rest_from=self.motion_steps if self.until_rest else None,
-        )
+        progress = self.progress()
         saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
@@ -122,9 +116,9 @@ class ReducedAnalysis(OfStructure, Analysis):
                 progress.show(
                     self.step,
                     {
-                        "time": last[place_of("time")],
-                        "tilt": last[place_of("tilt")],
-                        "active_nodes": int(last[place_of("active_nodes")]),
+                        "time": last[column_index("time")],
+                        "tilt": last[column_index("tilt")],
+                        "active_nodes": int(last[column_index("active_nodes")]),
                     },
                     engine.record,
                 )
@@ -136,12 +130,7 @@ class ReducedAnalysis(OfStructure, Analysis):
                 if ended and self.step < self.steps and not over:
                     raise KeyboardInterrupt
         except StepFailed as failure:
-            off = self._off_base(failure)
-            if off is None:
-                self._save()
-                raise AnalysisFailed(
-                    f"{failure}; state saved in {self.folder / CHECKPOINT}"
-                ) from None
+            off = self.off_or_failed(failure)
         finally:
             progress.end()
         fallen = engine.fallen(self.steepest(self.step)) if over else STANDS
@@ -155,7 +144,8 @@ class ReducedAnalysis(OfStructure, Analysis):
             0,
         )
 
-    def _off_base(self, failure) -> Ending | None:
+    def off_base(self, failure) -> Ending | None:
+        """The Ending of a step that failed because a foot met the edge of its ground, or None."""
         motion = self.engine.motion
 
         def foot(joint, model, nodes):

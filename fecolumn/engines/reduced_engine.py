@@ -42,7 +42,7 @@ def engine_of(case, model: StructureModel, file) -> Engine:
     Raises
     ------
     InputError
-        a link too stiff for the step. NoEquilibrium: as of `start.standing`.
+        a link too stiff for the step. NoEquilibrium: as of `start.gravity_equilibrium`.
     """
     plan, gravity, stands = case.integration, np.array([0.0, 0.0, -GRAVITY]), not leans(model)
     standing, hht = upright(case, model), HHT(plan.dt_s, plan.alpha_hht)

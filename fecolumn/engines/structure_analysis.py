@@ -7,8 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from fecolumn.contact.overturning import FELL, critical_displacement
+from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
 from fecolumn.engines.ending import SLID_OFF, Ending
 from fecolumn.engines.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
+from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import GROUND, StructureModel
@@ -61,6 +63,29 @@ class OfStructure:
     def grounds(self, step: int) -> np.ndarray:
         """Accelerations (3 G,) of all grounds [m/s2] at a step."""
         return accelerations(self.motions, step)
+
+    def progress(self) -> Progress:
+        """The line that shows how far the analysis is, of one rank alone."""
+        return Progress(
+            self.steps,
+            self.case.integration.dt_s,
+            quiet=self.quiet or self.comm.rank > 0,
+            until_rest_from=self.motion_steps if self.until_rest else None,
+        )
+
+    def off_or_failed(self, failure) -> Ending:
+        """The Ending of a step that failed because a foot met the edge of its ground.
+
+        Raises
+        ------
+        AnalysisFailed
+            it failed otherwise; the state before it is saved.
+        """
+        off = self.off_base(failure)
+        if off is None:
+            self._save()
+            raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
+        return off
 
     def off_ground(self, failure, bases, grounds, foot) -> Ending | None:
         """The ending of a structure whose step failed because a foot met the edge of its ground,
@@ -117,7 +142,7 @@ class OfStructure:
         return f'"{parts[b].name}" has tilted by {tilts[b]:.3g} rad, {told} rad'
 
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
-        """How the analysis ends, from the answer of `reduced.observe.lost`."""
+        """How the analysis ends, from the answer of `reduced.observe.outcome_of_row`."""
         if fallen != FELL:
             return super().ending(fallen, rotation)
         return Ending(

@@ -267,6 +267,11 @@ class Section:
 
     __slots__ = ()
 
+    @classmethod
+    def section_name(cls) -> str:
+        """Name of the section in messages, "" of a whole case."""
+        return cls.__name__.lower()
+
     def __post_init__(self):
         """Check every key, and turn numbers into the key's own type.
 
@@ -275,10 +280,8 @@ class Section:
         InputError
             names section, key, value and range.
         """
-        prefix, errors = (
-            "" if type(self).__name__ == "ShortForm" else f"{type(self).__name__.lower()}.",
-            [],
-        )
+        name = self.section_name()
+        prefix, errors = f"{name}." if name else "", []
         for key, (field, kind, inner, optional) in _kinds(type(self)).items():
             value = getattr(self, key)
             try:

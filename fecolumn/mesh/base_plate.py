@@ -86,21 +86,6 @@ def base_counts(case: ShortForm) -> tuple[int, int, int] | None:
     return x, y, 1 if below < fine / 2 else 1 + growing_count(below, fine, largest)
 
 
-def grid_lines(mesh: BrickMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Grid lines x, y, z [m] of a tensor-product grid.
-
-    Raises
-    ------
-    ValueError
-        the points are not the product of the lines in the order of `swept_grid`.
-    """
-    x, y, z = (np.unique(coordinate) for coordinate in mesh.points.T)
-    product = np.stack(np.meshgrid(z, y, x, indexing="ij")[::-1], axis=-1).reshape(-1, 3)
-    if product.shape != mesh.points.shape or not np.array_equal(product, mesh.points):
-        raise ValueError("the mesh is not a tensor-product grid")
-    return x, y, z
-
-
 def _symmetric_count(fine_width, length, fine, largest) -> int:
     """Steps of `_symmetric_line`."""
     if (length - fine_width) / 2 < fine / 2:

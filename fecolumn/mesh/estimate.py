@@ -188,7 +188,7 @@ def _cap_counts(case: ShortForm):
     )
 
 
-def refuse_too_large(case: ShortForm, file) -> None:
+def refuse_large_column(case: ShortForm, file) -> None:
     """Refuse a case of more degrees of freedom than `mesh.limit_dofs`, naming the size that makes
     it so and one that would fit.
     """

@@ -133,9 +133,11 @@ def exact_column(case: ShortForm) -> MassProperties:
     """Closed form of the tube, solid cylinder or block, without flange and cap."""
     column, density = case.column, case.material.density_kg_m3
     if column.shape == "block":
-        return box(column.length_m, column.width_m, column.height_m, case.seat_m, density)
+        return box_properties(
+            column.length_m, column.width_m, column.height_m, case.seat_m, density
+        )
     outer = column.outer_diameter_m / 2
-    return ring(
+    return ring_properties(
         outer,
         0.0 if is_solid(case.column) else outer - column.wall_m,
         column.height_m,
@@ -147,7 +149,7 @@ def exact_column(case: ShortForm) -> MassProperties:
 def exact_flange(case: ShortForm) -> MassProperties:
     """Closed form of the flange."""
     flange = case.flange
-    return ring(
+    return ring_properties(
         flange.outer_diameter_m / 2,
         flange.inner_diameter_m / 2,
         flange.thickness_m,
@@ -159,7 +161,7 @@ def exact_flange(case: ShortForm) -> MassProperties:
 def exact_cap(case: ShortForm) -> MassProperties:
     """Closed form of the cap plate."""
     cap = case.cap
-    return box(
+    return box_properties(
         cap.length_m,
         cap.width_m,
         cap.thickness_m,
@@ -168,7 +170,7 @@ def exact_cap(case: ShortForm) -> MassProperties:
     )
 
 
-def ring(outer, inner, height, bottom, density) -> MassProperties:
+def ring_properties(outer, inner, height, bottom, density) -> MassProperties:
     """Of a tube, or of a solid cylinder with the inner radius 0, from a height `bottom` up [m]."""
     squares = outer**2 + inner**2
     volume = math.pi * (outer**2 - inner**2) * height
@@ -182,7 +184,7 @@ def ring(outer, inner, height, bottom, density) -> MassProperties:
     )
 
 
-def box(a, b, c, bottom, density) -> MassProperties:
+def box_properties(a, b, c, bottom, density) -> MassProperties:
     """Of a block of sides a, b, c from a height `bottom` up [m]."""
     mass = density * a * b * c
     inertia = np.diag([b * b + c * c, a * a + c * c, a * a + b * b]) * mass / 12

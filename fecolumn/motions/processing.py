@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import cumulative_trapezoid
-from scipy.signal import butter, firwin, resample_poly, sosfiltfilt
+from scipy.signal import firwin, resample_poly
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.motions.record import GroundMotion
@@ -63,116 +63,6 @@ def integrate(motion: GroundMotion) -> tuple[NDArray[Any], NDArray[Any]]:
     """
     velocity = cumulative_trapezoid(motion.acceleration, dx=motion.dt, axis=0, initial=0.0)
     return velocity, cumulative_trapezoid(velocity, dx=motion.dt, axis=0, initial=0.0)
-
-
-def correct_baseline(motion: GroundMotion, degree: int = 6) -> GroundMotion:
-    """Motion without the drift of its displacement.
-
-    A polynomial is fitted to the displacement from rest by least squares, with neither constant nor
-    linear term, and its second derivative taken from the acceleration; degree 6 is PEER's practice
-    (Ancheta et al. 2013). The motion starts at rest; how well it ends at rest is up to the record:
-    see `end_at_rest`.
-
-    Parameters
-    ----------
-    degree
-        of the polynomial in the displacement, from 2 (constant error of the acceleration) to 10.
-
-    Raises
-    ------
-    ValueError
-        degree out of range, or fewer samples than it has terms.
-    """
-    n_steps = len(motion.acceleration)
-    if degree != int(degree) or not 2 <= degree <= 10:
-        raise ValueError(f"degree = {degree:g} must be a whole number in [2, 10]")
-    if n_steps <= degree:
-        raise ValueError(f"{n_steps} samples are too few for a polynomial of degree {degree:g}")
-    # powers of t/T keep the fit well-conditioned
-    s, powers = np.linspace(0, 1, n_steps), np.arange(2, degree + 1)
-    _, displacement = integrate(motion)
-    coefficients = np.linalg.lstsq(s[:, None] ** powers, displacement, rcond=None)[0]
-    drift = (powers * (powers - 1) * s[:, None] ** (powers - 2)) @ coefficients / motion.duration**2
-    return dataclasses.replace(motion, acceleration=motion.acceleration - drift)
-
-
-def end_at_rest(motion: GroundMotion, displacement: float | None = 0.0) -> GroundMotion:
-    """Motion whose velocity, integrated from rest by the trapezoidal rule, is zero at the end.
-
-    Of all corrections it is the least in the mean square: a straight line over time, but for the
-    first and last sample.
-
-    Parameters
-    ----------
-    displacement
-        at the end, in all directions [m]; None lets the ground stay where it comes to rest.
-
-    Raises
-    ------
-    ValueError
-        fewer than four samples.
-    """
-    n_steps = len(motion.acceleration)
-    if n_steps < 4:
-        raise ValueError(f"{n_steps} samples are too few to correct velocity and displacement")
-    # what a unit of acceleration at each sample adds to the last velocity and displacement
-    to_velocity = np.full(n_steps, motion.dt)
-    to_velocity[[0, -1]] = 0.5 * motion.dt
-    to_displacement = motion.dt**2 * np.arange(n_steps - 1.0, -1.0, -1.0)
-    to_displacement[[0, -1]] = motion.dt**2 * (0.5 * n_steps - 0.75), 0.25 * motion.dt**2
-    velocity, path = integrate(motion)
-    effects, excess = to_velocity[None], velocity[-1:]
-    if displacement is not None:
-        effects, excess = (
-            np.array([to_velocity, to_displacement]),
-            np.array([velocity[-1], path[-1] - displacement]),
-        )
-    change = effects.T @ np.linalg.solve(effects @ effects.T, excess)
-    return dataclasses.replace(motion, acceleration=motion.acceleration - change)
-
-
-def band_pass(
-    motion: GroundMotion, low: float | None, high: float | None, order: int = 4
-) -> GroundMotion:
-    """Motion between two frequencies: Butterworth filter run forwards and backwards, so that no
-    phase is shifted.
-
-    Zeros are put before and after the motion for the filter to swing in and out, 1.5 order/low
-    seconds altogether, and kept (Boore 2005): without them velocity and displacement of the result
-    would drift.
-
-    Parameters
-    ----------
-    low, high
-        corners, where the amplitude falls to half [Hz]; None leaves that side open.
-    order
-        of the filter as run twice, even; the amplitude falls as f^order below `low`.
-
-    Raises
-    ------
-    ValueError
-        corners out of order or above the Nyquist frequency, or an order that is not 2, 4, ... 16.
-    """
-    nyquist = 0.5 / motion.dt
-    for name, corner in (("low", low), ("high", high)):
-        if corner is not None and not 0 < corner < nyquist:
-            raise ValueError(
-                f"{name} = {corner:g} Hz must lie between 0 and {nyquist:g} Hz, the "
-                "Nyquist frequency"
-            )
-    if low is not None and high is not None and low >= high:
-        raise ValueError(f"low = {low:g} Hz must be less than high = {high:g} Hz")
-    if order not in range(2, 17, 2):
-        raise ValueError(f"order = {order:g} must be 2, 4, ... 16")
-    acceleration = motion.acceleration
-    if low is not None:
-        pad = math.ceil(0.75 * order / low / motion.dt)
-        acceleration = np.pad(acceleration, ((pad, pad), (0, 0)))
-    for corner, kind in ((low, "highpass"), (high, "lowpass")):
-        if corner is not None:
-            sections = butter(order // 2, corner / nyquist, kind, output="sos")
-            acceleration = sosfiltfilt(sections, acceleration, axis=0, padtype=None)
-    return dataclasses.replace(motion, acceleration=acceleration)
 
 
 def arias_intensity(motion: GroundMotion) -> NDArray[Any]:

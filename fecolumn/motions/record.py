@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from typing import Any
 
@@ -86,13 +85,6 @@ def sound(motion: GroundMotion) -> GroundMotion:
             f"most {LARGEST:g}"
         )
     return motion
-
-
-def motion_hash(motion: GroundMotion) -> str:
-    """SHA-256 of samples and step, as 64 hexadecimal digits; name and source do not count."""
-    digest = hashlib.sha256(np.float64(motion.dt).tobytes())
-    digest.update(motion.acceleration.tobytes())
-    return digest.hexdigest()
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterable
 from pathlib import Path
 
 from fecolumn.foundation.schema import InputError
@@ -39,3 +40,21 @@ def read_csv(path: Path, needed: str) -> tuple[list[str], list[tuple[int, list[s
     return [name.strip() for name in table[0]], [
         (number, row) for (number, _), row in zip(lines[1:], table[1:])
     ]
+
+
+def check_columns(path: Path, header: list[str], names: Iterable[str]) -> None:
+    """InputError where there is not one column of each of these names."""
+    for name in names:
+        if header.count(name) != 1:
+            raise InputError(path, "header", ", ".join(header), f"must have one column {name}")
+
+
+def check_row(path: Path, header: list[str], number: int, row: list[str]) -> None:
+    """InputError where the line of this number has more or fewer cells than the header."""
+    if len(row) != len(header):
+        raise InputError(
+            path,
+            f"line {number}",
+            None,
+            f"has {len(row)} columns where the header has {len(header)}",
+        )

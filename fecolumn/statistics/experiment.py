@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.foundation.schema import InputError
-from fecolumn.statistics.csv_table import read_csv
+from fecolumn.statistics.csv_table import check_columns, check_row, read_csv
 
 _TO_METRES = {"u_max_m": 1.0, "u_max_mm": 1e-3, "u_max_cm": 1e-2}
 _WORDS = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
@@ -54,13 +54,7 @@ def read_maxima(path: Path | str) -> Maxima:
     columns, factor = _columns(path, header)
     motions, maxima, overturned = [], [], []
     for number, row in rows:
-        if len(row) != len(header):
-            raise InputError(
-                path,
-                f"line {number}",
-                None,
-                f"has {len(row)} columns where the header has {len(header)}",
-            )
+        check_row(path, header, number, row)
         motion, u_text, word = (row[column].strip() for column in columns)
         if not motion or motion in motions:
             raise InputError(
@@ -90,9 +84,7 @@ def _columns(path: Path, header: list[str]) -> tuple[tuple[int, int, int], float
             f"must have one of the columns {', '.join(_TO_METRES)}: the unit is part of the name"
             + ("; columns are separated by commas" if len(header) == 1 else ""),
         )
-    for name in ("motion", "overturned"):
-        if header.count(name) != 1:
-            raise InputError(path, "header", ", ".join(header), f"must have one column {name}")
+    check_columns(path, header, ("motion", "overturned"))
     return (
         header.index("motion"),
         header.index(maxima[0]),

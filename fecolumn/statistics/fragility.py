@@ -83,12 +83,14 @@ class Fragility:
 
     def median_interval(self, confidence: float = 0.95) -> tuple[float, float]:
         """Interval of the median, normal in its logarithm."""
-        reach = math.exp(self._quantile(confidence) * math.sqrt(self.covariance[0, 0]))
+        reach = math.exp(_quantile(self.clusters, confidence) * math.sqrt(self.covariance[0, 0]))
         return self.median / reach, self.median * reach
 
     def beta_interval(self, confidence: float = 0.95) -> tuple[float, float]:
         """Interval of beta, normal in its logarithm, so never below 0."""
-        reach = math.exp(self._quantile(confidence) * math.sqrt(self.covariance[1, 1]) / self.beta)
+        reach = math.exp(
+            _quantile(self.clusters, confidence) * math.sqrt(self.covariance[1, 1]) / self.beta
+        )
         return self.beta / reach, self.beta * reach
 
     def probability(self, im: ArrayLike, confidence: float = 0.95) -> Probability:
@@ -97,13 +99,8 @@ class Fragility:
         """
         eta = np.log(np.asarray(im, float) / self.median) / self.beta
         gradient = np.stack([-np.ones_like(eta), -eta], axis=-1) / self.beta
-        reach = self._quantile(confidence) * _deviation(gradient, self.covariance)
+        reach = _quantile(self.clusters, confidence) * _deviation(gradient, self.covariance)
         return Probability(ndtr(eta), ndtr(eta - reach), ndtr(eta + reach))
-
-    def _quantile(self, confidence: float) -> float:
-        if self.clusters is None:
-            return normal_quantile(confidence)
-        return float(stdtrit(self.clusters - 1, (1 + confidence) / 2))
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,13 +140,16 @@ class LogitFragility:
         the scale of the logit.
         """
         x = log_columns(im, len(self.coefficients) - 1)
-        quantile = (
-            normal_quantile(confidence)
-            if self.clusters is None
-            else float(stdtrit(self.clusters - 1, (1 + confidence) / 2))
-        )
+        quantile = _quantile(self.clusters, confidence)
         eta, reach = x @ self.coefficients, quantile * _deviation(x, self.covariance)
         return Probability(expit(eta), expit(eta - reach), expit(eta + reach))
+
+
+def _quantile(clusters: int | None, confidence: float) -> float:
+    """Of the normal distribution, or of Student's where runs come in clusters."""
+    if clusters is None:
+        return normal_quantile(confidence)
+    return float(stdtrit(clusters - 1, (1 + confidence) / 2))
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.foundation.schema import InputError
-from fecolumn.statistics.csv_table import read_csv
+from fecolumn.statistics.csv_table import check_columns, check_row, read_csv
 from fecolumn.statistics.experiment import overturned_word
 
 #: Columns that are no intensity measure
@@ -58,17 +58,9 @@ def read_intensity_table(path: Path | str, wanted: tuple[str, ...] = ()) -> Inte
     """
     path = Path(path)
     header, rows = read_csv(path, "the column overturned and one of an intensity measure")
-    for name in ("overturned", *wanted):
-        if header.count(name) != 1:
-            raise InputError(path, "header", ", ".join(header), f"must have one column {name}")
+    check_columns(path, header, ("overturned", *wanted))
     for number, row in rows:
-        if len(row) != len(header):
-            raise InputError(
-                path,
-                f"line {number}",
-                None,
-                f"has {len(row)} columns where the header has {len(header)}",
-            )
+        check_row(path, header, number, row)
     columns = {name: [row[place].strip() for _, row in rows] for place, name in enumerate(header)}
     numbers = [number for number, _ in rows]
     fallen = np.array(

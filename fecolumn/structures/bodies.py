@@ -14,7 +14,7 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.quality import mass_properties
 from fecolumn.structures.faces import Face, plane_faces
 from fecolumn.structures.feet import domed, with_balls
-from fecolumn.structures.matrices import System, matrices_model, read_system
+from fecolumn.structures.matrices import SystemMatrices, matrices_model, read_system
 from fecolumn.structures.model import BodyModel
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.reduction import elastic_model, rigid_model
@@ -34,7 +34,7 @@ class Drawing:
     key: str
     body: object
     shape: Shape | None
-    system: System | None
+    system: SystemMatrices | None
     faces: list[Face]
     material: Material | None
     file: object

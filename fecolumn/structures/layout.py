@@ -22,7 +22,7 @@ from fecolumn.structures.size import refuse_too_large
 
 
 @dataclass(frozen=True)
-class Contact:
+class ContactPair:
     """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the
     copy), None of the ground.
 
@@ -48,7 +48,7 @@ class Layout:
 
     drawings: dict[str, Drawing]
     patches: dict[str, dict[str, Patch]]
-    contacts: tuple[Contact, ...]
+    contacts: tuple[ContactPair, ...]
 
 
 def layout_of(case, file) -> Layout:
@@ -101,7 +101,7 @@ def layout_of(case, file) -> Layout:
             drawings[meeting.master[0]].faces, meeting.master_face, "master"
         )
         contacts.append(
-            Contact(
+            ContactPair(
                 meeting.interface, meeting.slave, slave, meeting.master, master, gap=meeting.gap
             )
         )
@@ -114,7 +114,7 @@ def layout_of(case, file) -> Layout:
             == (edge.upper, edge.upper_face, edge.lower, edge.lower_face)
         )
         contacts.append(
-            Contact(
+            ContactPair(
                 edge.interface,
                 edge.lower,
                 slave,

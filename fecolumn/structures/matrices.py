@@ -29,7 +29,7 @@ _DENSE = 1000
 
 
 @dataclass(frozen=True, eq=False)
-class System:
+class SystemMatrices:
     """mass, stiffness: (N, N) [kg, N/m]; dofs: (n, 3) rows of x, y, z of each contact node;
     coordinates: (n, 3) [m]; triangles: (t, 3) of nodes.
     """
@@ -62,7 +62,7 @@ class System:
         return sorted(found, key=lambda face: -face.area)
 
 
-def read_system(key: str, body: Matrices, file) -> System:
+def read_system(key: str, body: Matrices, file) -> SystemMatrices:
     """Matrices and nodes of a body's files.
 
     Raises
@@ -107,7 +107,7 @@ def read_system(key: str, body: Matrices, file) -> System:
         )
     if triangles is None:
         triangles = _hull(coordinates, lambda allowed: refuse("nodes_file", allowed))
-    return System(found["mass"], found["stiffness"], dofs, coordinates, triangles)
+    return SystemMatrices(found["mass"], found["stiffness"], dofs, coordinates, triangles)
 
 
 def _matrix(path: str, name: str, refuse) -> sparse.csc_matrix:
@@ -174,7 +174,7 @@ def _hull(coordinates: np.ndarray, refuse) -> np.ndarray:
 
 
 def matrices_model(
-    system: System, faces: list[Face], patches: dict[str, Patch], n_modes: int, refuse
+    system: SystemMatrices, faces: list[Face], patches: dict[str, Patch], n_modes: int, refuse
 ) -> BodyModel:
     """Reduce a body given by its matrices, as `reduction.elastic_model` does one of finite
     elements.

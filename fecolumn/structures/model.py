@@ -53,7 +53,7 @@ class Surface:
 
 
 @dataclass(frozen=True)
-class Storeys:
+class StoreyDrifts:
     """What the modes of a building say of its storeys, from below, along x and y of the body.
 
     drifts: (n, 2, m) [1/sqrt(kg)] displacement of each floor relative to the one below it, without
@@ -95,7 +95,7 @@ class BodyModel:
     surfaces: dict[str, Surface]
     marks: dict[str, tuple[np.ndarray, np.ndarray]]
     damping: np.ndarray | None = None
-    storeys: Storeys | None = None
+    storeys: StoreyDrifts | None = None
 
     @property
     def reference(self) -> np.ndarray:

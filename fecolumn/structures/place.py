@@ -42,7 +42,7 @@ class Standing:
 
 
 @dataclass(frozen=True)
-class Placed:
+class Placement:
     """Where a part is: center (3,) [m], rotation (3, 3), velocity (3,) [m/s] of the centre of mass,
     spin (3,) [rad/s].
     """
@@ -70,7 +70,7 @@ def touching(standing: list[Standing], joint: Joint) -> np.ndarray:
     )
 
 
-def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placed]:
+def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placement]:
     """Places of all parts at the start.
 
     A part leans by its own tilt about the point of its foot that is farthest in the direction in
@@ -84,7 +84,7 @@ def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placed]:
     """
     turns = [_turn(part.start) for part in standing]
     supports = supports_of(standing, joints)
-    found: dict[int, Placed] = {}
+    found: dict[int, Placement] = {}
     for place in _from_below(supports):
         part, centers, pivot = standing[place], [], None
         for below, between in supports[place]:
@@ -101,7 +101,7 @@ def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placed]:
                 f'"{part.name}" cannot stand on bodies that lean differently: '
                 "give all that it stands on the same tilt_rad and direction_deg",
             )
-        found[place] = Placed(
+        found[place] = Placement(
             center,
             turns[place],
             *_moving(part, center, pivot, turns[place], supports[place], joints, standing),

@@ -24,7 +24,7 @@ from fecolumn.foundation._compiled import cache_folder
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.lock import alone
 from fecolumn.foundation.sources import digest_of, files_of
-from fecolumn.structures.model import BodyModel, Storeys, Surface
+from fecolumn.structures.model import BodyModel, StoreyDrifts, Surface
 
 #: Sources that bodies, layouts and grounds are made from, whole folders where most of them are.
 SOURCES = (
@@ -107,7 +107,7 @@ def kept_body(key: str) -> BodyModel:
         **plain,
         surfaces={name: Surface(**values) for name, values in surfaces.items()},
         marks={name: (values["arm"], values["shape"]) for name, values in marks.items()},
-        storeys=Storeys(**storeys) if storeys else None,
+        storeys=StoreyDrifts(**storeys) if storeys else None,
     )
 
 

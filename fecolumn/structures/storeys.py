@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh
 
-from fecolumn.case.bodies import Storeys as Keys
+from fecolumn.case.bodies import Storeys
 from fecolumn.case.sections import Material
-from fecolumn.structures.model import BodyModel, Storeys
+from fecolumn.structures.model import BodyModel, StoreyDrifts
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.reduction import local_points
 
@@ -37,7 +37,7 @@ class Building:
         return np.sqrt(eigh(self.stiffness_matrix(axis), np.diag(self.masses), eigvals_only=True))
 
 
-def building_of(body: Keys) -> Building:
+def building_of(body: Storeys) -> Building:
     """Floors and storeys as a body's keys say."""
 
     def each(values):
@@ -55,7 +55,7 @@ def building_of(body: Keys) -> Building:
     return Building(masses, heights, stiffness)
 
 
-def _of_period(body: Keys, masses, heights) -> np.ndarray:
+def _of_period(body: Storeys, masses, heights) -> np.ndarray:
     """Stiffnesses (n,) [N/m] of storeys by which the first mode on a fixed slab has the wanted
     period, and the wanted profile.
 
@@ -76,7 +76,7 @@ def _of_period(body: Keys, masses, heights) -> np.ndarray:
 
 
 def storeys_model(
-    body: Keys, slab_mass: float, patches: dict[str, Patch], material: Material
+    body: Storeys, slab_mass: float, patches: dict[str, Patch], material: Material
 ) -> BodyModel:
     """The building and its slab as one free body.
 
@@ -153,7 +153,7 @@ def storeys_model(
         surfaces,
         marks,
         damping,
-        Storeys(drifts, building.stiffness),
+        StoreyDrifts(drifts, building.stiffness),
     )
 
 
@@ -169,7 +169,7 @@ def _raised(z: float) -> np.ndarray:
 
 
 def _rayleigh(
-    body: Keys, building: Building, ratio: float, mass, stiffness, moved, frequencies
+    body: Storeys, building: Building, ratio: float, mass, stiffness, moved, frequencies
 ) -> np.ndarray:
     """Damping ratios (m,) of the free modes: floors damped relative to the slab by C = a M + b K on
     each axis.

@@ -132,7 +132,7 @@ def _of_structures() -> list[Table]:
         Ground,
         Interface,
         LinkKeys,
-        Mesh,
+        MeshLimits,
         Placed,
         Solid,
         Stuff,
@@ -169,7 +169,7 @@ def _of_structures() -> list[Table]:
         "joints.NAME": Interface,
         "links.NAME": LinkKeys,
         "initial.NAME": Initial,
-        "mesh": Mesh,
+        "mesh": MeshLimits,
     }
     return [
         Table(

@@ -66,7 +66,7 @@ def member_of(values: dict[str, Any]) -> tuple[str, ...]:
     return tuple(repr(value) for key, value in values.items() if key in ENSEMBLE_AXES)
 
 
-class Analysis:
+class PlannedAnalysis:
     """One analysis of the study.
 
     Attributes
@@ -118,7 +118,7 @@ class Plan:
     file: Path
     title: str
     axes: dict[str, tuple[Any, ...]]
-    analyses: tuple[Analysis, ...]
+    analyses: tuple[PlannedAnalysis, ...]
     case: dict[str, Any]
 
     @property
@@ -206,7 +206,7 @@ class _Maker:
         self.common, self.factors, self.path = common, factors, path
         self.keys = tuple(key for factor in factors for key in factor.keys)
 
-    def analysis(self, places: tuple[int, ...]) -> Analysis:
+    def analysis(self, places: tuple[int, ...]) -> PlannedAnalysis:
         """The analysis at a level of each factor; an error names the study file and the key
         there.
         """
@@ -217,7 +217,7 @@ class _Maker:
             case = self._case(places)
         except InputError as error:
             self._refuse(error, levels)
-        return Analysis(case, case.id, self.keys, levels)
+        return PlannedAnalysis(case, case.id, self.keys, levels)
 
     def _case(self, places: tuple[int, ...]) -> Case:
         """The case at a level of each factor."""

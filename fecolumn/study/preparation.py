@@ -21,7 +21,7 @@ def preparation(analyses: Iterable[Any]) -> str:
     Parameters
     ----------
     analyses
-        `plan.Analysis`, those in the hands of workers.
+        `plan.PlannedAnalysis`, those in the hands of workers.
     """
     if not any(analysis.case.integration.engine in _COMPILED for analysis in analyses):
         return ""

@@ -22,7 +22,7 @@ class StudyProgress(Bar):
     counts
         of the ledger at the start, number by state.
     effort
-        expected work of what is missing, see `plan.Analysis.effort`.
+        expected work of what is missing, see `plan.PlannedAnalysis.effort`.
     workers
         how many there are.
     stream

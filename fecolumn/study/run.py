@@ -14,7 +14,7 @@ from fecolumn.case.sections import REST, Motion
 from fecolumn.foundation.atomic import disk_full
 from fecolumn.study.mixture import other_code
 from fecolumn.study.outcome import FULL, RETURNED, TaskOutcome
-from fecolumn.study.plan import Analysis, Plan
+from fecolumn.study.plan import Plan, PlannedAnalysis
 from fecolumn.study.pool import LocalPool
 from fecolumn.study.preparation import preparation
 from fecolumn.study.progress import StudyProgress, analysis_s
@@ -143,7 +143,7 @@ def check_motions(plan: Plan) -> None:
     # factor and direction change neither length nor whether it can be used; the longest step is the
     # most demanding
     longest_step: dict[Motion, float] = {}
-    users: dict[Motion, list[Analysis]] = {}
+    users: dict[Motion, list[PlannedAnalysis]] = {}
     for analysis in plan.analyses:
         if motion := analysis.case.motion:
             key = dataclasses.replace(motion, scale=float(motion.scale != 0), rotation_deg=0.0)
@@ -169,10 +169,10 @@ def check_motions(plan: Plan) -> None:
 
 
 def _work_off(
-    store: Store, queue: collections.deque[Analysis], team: Team, progress: StudyProgress
+    store: Store, queue: collections.deque[PlannedAnalysis], team: Team, progress: StudyProgress
 ) -> None:
     pace = _Pace()
-    given: dict[str, Analysis] = {}
+    given: dict[str, PlannedAnalysis] = {}
     while queue or team.at_work:
         while queue and team.wants(2 if pace.seconds(queue[0]) < _BATCH_S else 1):
             batch = pace.batch(queue, team.size)
@@ -201,18 +201,20 @@ class _Pace:
     def __init__(self) -> None:
         self._s_per_effort: float | None = None
 
-    def note(self, outcome: TaskOutcome, analysis: Analysis) -> None:
+    def note(self, outcome: TaskOutcome, analysis: PlannedAnalysis) -> None:
         if outcome.started is not None:
             s = analysis_s(outcome) / analysis.effort
             self._s_per_effort = (
                 s if self._s_per_effort is None else 0.8 * self._s_per_effort + 0.2 * s
             )
 
-    def seconds(self, analysis: Analysis) -> float:
+    def seconds(self, analysis: PlannedAnalysis) -> float:
         """Expected wall time [s]."""
         return float("inf") if self._s_per_effort is None else self._s_per_effort * analysis.effort
 
-    def batch(self, queue: collections.deque[Analysis], workers: int) -> list[Analysis]:
+    def batch(
+        self, queue: collections.deque[PlannedAnalysis], workers: int
+    ) -> list[PlannedAnalysis]:
         """The next analyses of the queue, at least one, worth half a second, but no more than a
         fair share of what is left.
         """

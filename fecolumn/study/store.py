@@ -34,7 +34,7 @@ from fecolumn.study.ledger import (
 )
 from fecolumn.study.lock import FolderLock, stem
 from fecolumn.study.outcome import DONE, FAILED, Task, TaskOutcome, finished_outcome
-from fecolumn.study.plan import Analysis, Plan
+from fecolumn.study.plan import Plan, PlannedAnalysis
 
 # Files of a driver that was stopped before it had written study.json
 _OWN = re.compile(
@@ -159,7 +159,7 @@ class Store:
                 for file in ledger_files(other):
                     file.unlink(missing_ok=True)
 
-    def missing(self, workers: int = 1) -> list[Analysis]:
+    def missing(self, workers: int = 1) -> list[PlannedAnalysis]:
         """What is planned: in the order of the study file for one worker, so that a study which is
         stopped has what stands first there; for several the longest first, so that no straggler is
         left at the end.
@@ -180,7 +180,7 @@ class Store:
         """File with the output and traceback of one analysis."""
         return self.folder / "logs" / f"{case_id}.log"
 
-    def task(self, analysis: Analysis) -> Task:
+    def task(self, analysis: PlannedAnalysis) -> Task:
         """An analysis as a worker takes it."""
         return Task(
             analysis.id, analysis.case, self.result_folder(analysis.id), self.log_file(analysis.id)
@@ -286,7 +286,7 @@ def _ledgers(folder: Path) -> list[Path]:
     )
 
 
-def _share(plan: Plan, share: tuple[int, int] | None) -> list[tuple[int, Analysis]]:
+def _share(plan: Plan, share: tuple[int, int] | None) -> list[tuple[int, PlannedAnalysis]]:
     """Analyses of a driver with their places; dealt out longest first, so that all tasks of an
     array have about the same work.
     """

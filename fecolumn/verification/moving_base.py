@@ -11,13 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.engines.dynamics.interface import Interface
+from fecolumn.engines.dynamics.interface import ContactInterface
 from fecolumn.engines.dynamics.stepper import Stepper
 from fecolumn.verification.models import AMPLITUDES, TONES
 from fecolumn.verification.trial import Trial
 
 
-class MovingInterface(Interface):
+class MovingInterface(ContactInterface):
     """Contact with a base that moves: the column's motion is absolute, contact sees it relative to
     the base.
 
@@ -32,7 +32,7 @@ class MovingInterface(Interface):
         the last one is the end of the step.
     """
 
-    def __init__(self, still: Interface):
+    def __init__(self, still: ContactInterface):
         super().__init__(still.composite, still.foot, still.bases, still.joints)
         self.position, self.first = np.zeros(3), np.zeros(3)
         self.known_velocities: list = []

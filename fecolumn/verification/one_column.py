@@ -167,17 +167,3 @@ def footprint_of(case: ShortForm, specimen: SpecimenMesh, column: Body) -> Footp
     )
     on_outline = np.isin(foot, column.find_nodes(outline, part))
     return footprint(foot, column.all_X[foot], areas, on_outline, case.contact.interior_points)
-
-
-def top_of(column, specimen) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (k,) of the top's face and their shares (k,) in its mean."""
-    mesh = specimen.body
-    part = mesh.top_part
-    height = mesh.points[:, 2].max()
-    quads = boundary_faces(mesh, part, height, 1e-6 * height)
-    found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
-    nodes, position = np.unique(found, return_inverse=True)
-    areas = nodal_areas(
-        mesh.points[quads], position.reshape(len(quads), -1), len(nodes), column.order
-    )
-    return nodes, areas / areas.sum()

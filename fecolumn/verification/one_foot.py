@@ -6,14 +6,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.case.sections import Initial
 from fecolumn.engines.reduced.engine import Engine
-from fecolumn.engines.reduced.start import unstrained
 from fecolumn.engines.reduced.structure import structure_of, view_of
 from fecolumn.fem.reduction import reduced_at
 from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
-from fecolumn.structures.place import Standing, placed
+from fecolumn.structures.place import Standing
 
 # Tangents of a foot and its normal, which points down, as columns
 _DOWN = np.diag([1.0, -1.0, -1.0])
@@ -99,7 +97,7 @@ def engine_on(
     Parameters
     ----------
     begin
-        function of the engine that returns the first Motion.
+        function of the engine that returns the first MotionState.
     cap
         displacement of the top that counts as overturned [m], 0 for none.
     """
@@ -113,16 +111,5 @@ def engine_on(
     return Engine(build, structure.bases, eye, hht, begin, model=structure, substeps=substeps)
 
 
-def tilted(engine: Engine, tilt: float, direction: float):
-    """The Motion of the unstrained body turned by `tilt` [rad] about its rim, towards `direction`
-    [rad].
-    """
-    structure, motion = engine.model, engine.motion_at_rest()
-    start = Initial(tilt_rad=tilt, direction_deg=float(np.degrees(direction)))
-    (there,) = placed(_standing(structure, start), list(structure.joints), "")
-    motion.frames["center"], motion.rotation[:] = there.center, there.rotation
-    return unstrained(engine, motion)
-
-
-def _standing(structure: StructureModel, start=None) -> list[Standing]:
-    return [Standing(part.name, part.model, part.center, start) for part in structure.parts]
+def _standing(structure: StructureModel) -> list[Standing]:
+    return [Standing(part.name, part.model, part.center, None) for part in structure.parts]

@@ -25,7 +25,7 @@ from fecolumn.verification.trial import N_MODES, Trial
 _REDUCED: WeakKeyDictionary = WeakKeyDictionary()
 
 
-class Reduction:
+class ReducedColumn:
     """A system's column as the reduced engine knows it.
 
     Attributes
@@ -51,7 +51,7 @@ class Reduction:
         self.rigid, self.momentum, self.masses = rigid_fields(body)
 
     @classmethod
-    def of(cls, system, n_modes: int) -> Reduction:
+    def of(cls, system, n_modes: int) -> ReducedColumn:
         """That of a system, made once."""
         known = _REDUCED.setdefault(system.body, {})
         if n_modes not in known:
@@ -59,8 +59,8 @@ class Reduction:
         return known[n_modes]
 
     def projected(self, engine, state, system):
-        """The Motion that a full-order State is, seen by the rigid motions and the modes: their
-        momenta, not their values at nodes.
+        """The MotionState that a full-order State is, seen by the rigid motions and the modes:
+        their momenta, not their values at nodes.
         """
         body = system.body
         motion, whole = (
@@ -99,11 +99,11 @@ class Reduction:
 
 
 class Expanded:
-    """A Motion as a `dynamics.system.State` is read; fields all over the column by its rigid motion
-    and modes.
+    """A MotionState as a `dynamics.system.State` is read; fields all over the column by its rigid
+    motion and modes.
     """
 
-    def __init__(self, engine, reduction: Reduction, column):
+    def __init__(self, engine, reduction: ReducedColumn, column):
         self._motion, self._reduction, self._column = engine.motion_at_rest(), reduction, column
         copy(engine.motion, self._motion)
         motion = self._motion
@@ -184,12 +184,12 @@ class ReducedTrial(Trial):
 
     def __init__(self, system, start=standing, n_modes: int = N_MODES):
         self.system, self.penetration = system, 0.0
-        self.reduction = Reduction.of(system, n_modes)
+        self.reduction = ReducedColumn.of(system, n_modes)
         first = None if start is standing else start(system)
 
         def begin(engine):
             return (
-                starts.standing(engine)
+                starts.gravity_equilibrium(engine)
                 if first is None
                 else self.reduction.projected(engine, first, system)
             )

@@ -1,5 +1,6 @@
 """Small record files in the dialects met in the wild."""
 
+from hashlib import sha256
 from pathlib import Path
 
 import numpy as np
@@ -40,3 +41,8 @@ def _fortran(value: float) -> str:
 def write_text(path: Path, text: str) -> Path:
     path.write_bytes(text.encode())
     return path
+
+
+def motion_hash(motion):
+    """SHA-256 of samples and step; name and source do not count."""
+    return sha256(np.float64(motion.dt).tobytes() + motion.acceleration.tobytes()).hexdigest()

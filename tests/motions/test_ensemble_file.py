@@ -5,7 +5,7 @@ import csv
 import h5py
 import numpy as np
 import pytest
-from record_files import write_at2
+from record_files import motion_hash, write_at2
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import Motion
@@ -21,7 +21,7 @@ from fecolumn.motions.ensemble_file import (
 )
 from fecolumn.motions.export import write_text_files
 from fecolumn.motions.load import load_motion, read_motion
-from fecolumn.motions.record import GroundMotion, UnusableRecord, motion_hash
+from fecolumn.motions.record import GroundMotion, UnusableRecord
 from fecolumn.study.plan import read_plan
 
 SMALL = {

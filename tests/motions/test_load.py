@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from record_files import ACCELERATION, write_at2, write_text
+from record_files import ACCELERATION, motion_hash, write_at2, write_text
 
 from fecolumn.case.sections import GRAVITY, Motion
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.load import load_motion, read_motion
 from fecolumn.motions.processing import AliasingWarning, integrate
-from fecolumn.motions.record import GroundMotion, motion_hash
+from fecolumn.motions.record import GroundMotion
 
 
 def at2(tmp_path, name="a.AT2", values=ACCELERATION, **header):

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from record_files import motion_hash
 from scipy.optimize import least_squares
 from scipy.special import erfc
 
@@ -19,7 +20,6 @@ from fecolumn.motions.near_fault import (
     stochastic_spectra,
 )
 from fecolumn.motions.processing import integrate
-from fecolumn.motions.record import motion_hash
 
 SCENARIOS = [(5.5, 5.0), (6.5, 10.0), (7.0, 12.5), (7.5, 20.0)]
 

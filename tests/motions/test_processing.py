@@ -5,9 +5,10 @@ import warnings
 
 import numpy as np
 import pytest
+from record_files import motion_hash
 
 from fecolumn.motions import processing
-from fecolumn.motions.record import GRAVITY, GroundMotion, motion_hash
+from fecolumn.motions.record import GRAVITY, GroundMotion
 
 
 def motion_of(x, y=0.0, z=0.0, dt=0.01):

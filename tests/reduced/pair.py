@@ -2,9 +2,11 @@
 
 import numpy as np
 
+from fecolumn.case.sections import Initial
 from fecolumn.engines.dynamics import gravity
 from fecolumn.engines.reduced import start
 from fecolumn.engines.reduced.observe import COLUMNS
+from fecolumn.structures.place import Standing, placed
 from fecolumn.verification.models import column_system
 from fecolumn.verification.one_foot import engine_on, foot_model, on_base
 from fecolumn.verification.trial import Trial
@@ -18,7 +20,7 @@ def top_nodes(body):
     return nodes, np.full(len(nodes), 1 / len(nodes))
 
 
-def reduced(system, n_modes=30, begin=start.standing, overturn=0.25):
+def reduced(system, n_modes=30, begin=start.gravity_equilibrium, overturn=0.25):
     """The reduced engine of a full-order system."""
     foot = system.footprint
     model, _ = foot_model(system.body, foot.nodes, foot.areas, top_nodes(system.body)[0], n_modes)
@@ -34,6 +36,18 @@ def tops(system, grounds, begin=gravity.standing):
     return np.array(
         [weights @ (trial.step(ground).x[nodes] - system.body.X[nodes]) for ground in grounds]
     ), trial
+
+
+def tilted_motion(engine, tilt, direction):
+    """The motion of the unstrained body turned by `tilt` [rad] about its rim, towards `direction`
+    [rad].
+    """
+    structure, motion = engine.model, engine.motion_at_rest()
+    initial = Initial(tilt_rad=tilt, direction_deg=float(np.degrees(direction)))
+    parts = [Standing(part.name, part.model, part.center, initial) for part in structure.parts]
+    (there,) = placed(parts, list(structure.joints), "")
+    motion.frames["center"], motion.rotation[:] = there.center, there.rotation
+    return start.unstrained(engine, motion)
 
 
 def column(rows, name, width=1):

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from pair import column, reduced, system_of, tops
+from pair import column, reduced, system_of, tilted_motion, tops
 
 from fecolumn.engines.dynamics import gravity
 from fecolumn.verification.models import shaking
-from fecolumn.verification.one_foot import tilted
 from fecolumn.verification.trial import RigidRocking
 
 
@@ -16,7 +15,7 @@ def test_free_rocking_is_that_of_the_full_engine():
     """
     system = system_of(integration={"dt_s": 1e-3}, contact={"friction_coefficient": 0.8})
     tilt, still = 0.4 * RigidRocking(system).slenderness, np.zeros((400, 3))
-    engine = reduced(system, begin=lambda engine: tilted(engine, tilt, 0.0))
+    engine = reduced(system, begin=lambda engine: tilted_motion(engine, tilt, 0.0))
     rows, lost = engine.advance(still)
     path, trial = tops(system, still, lambda system: gravity.tilted(system, tilt, 0.0))
     assert not lost and engine.record.impacts > 0
@@ -103,7 +102,7 @@ def test_rolling_on_the_round_rim_takes_no_energy():
     spin = np.array([0.8, 0.3, 0.0])
 
     def begin(engine):
-        motion = tilted(engine, 0.04, 0.3)
+        motion = tilted_motion(engine, 0.04, 0.3)
         pivot = np.array([np.cos(0.3), np.sin(0.3), 0.0]) * 0.0508
         motion.frames["velocity"] = np.cross(spin, motion.frames["center"] - pivot)
         motion.frames["spin"] = motion.rotation[0].T @ spin

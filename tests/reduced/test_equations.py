@@ -4,6 +4,7 @@ written here once more from that page.
 
 import numpy as np
 import pytest
+from pair import tilted_motion
 
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.unbounded_base import rigid_base
@@ -11,7 +12,7 @@ from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.reduced import motion as motions
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.structures.model import BodyModel
-from fecolumn.verification.one_foot import engine_on, foot_surface, on_base, tilted
+from fecolumn.verification.one_foot import engine_on, foot_surface, on_base
 
 ALPHA, DT, ZETA, GRAVITY = -0.2, 1e-3, 0.05, np.array([0.0, 0.0, -9.81])
 MASS, INERTIA = 10.0, np.diag([0.9, 1.0, 0.1])
@@ -48,7 +49,7 @@ def model():
 @pytest.fixture(scope="module")
 def engine(model):
     def begin(engine):
-        motion = tilted(engine, 0.004, 0.3)
+        motion = tilted_motion(engine, 0.004, 0.3)
         motion.frames["spin"][0] = [0.3, -0.9, 0.2]
         return motion
 

@@ -24,7 +24,7 @@ def test_a_column_that_leaves_a_stiff_base_flies_free_of_force(density, dt):
     )
 
     def thrown(engine):
-        motion = start.standing(engine)
+        motion = start.gravity_equilibrium(engine)
         motion.frames["velocity"][0, 2] = speed
         return motion
 

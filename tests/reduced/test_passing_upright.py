@@ -4,10 +4,9 @@ rolling takes nothing.
 
 import numpy as np
 import pytest
-from pair import column, reduced, system_of
+from pair import column, reduced, system_of, tilted_motion
 from rolling_column import roll
 
-from fecolumn.verification.one_foot import tilted
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.trial import RigidRocking
 
@@ -18,7 +17,7 @@ def turning(engine, rim, tilt, spin):
     """Motion of a column that leans by `tilt` [rad] towards +x and turns with `spin` (3,) [rad/s]
     about the lowest point of its rim.
     """
-    motion = tilted(engine, tilt, 0.0)
+    motion = tilted_motion(engine, tilt, 0.0)
     motion.frames["velocity"] = np.cross(spin, motion.rotation[0] @ [-rim.radius, 0.0, rim.height])
     motion.frames["spin"] = motion.rotation[0].T @ spin
     return motion

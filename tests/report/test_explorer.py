@@ -2,6 +2,7 @@
 that the page states.
 """
 
+import base64
 import json
 import re
 
@@ -12,7 +13,7 @@ from synthetic_study import ALPHA, DT, write_synthetic
 from test_page import Page
 
 from fecolumn.study.report import explorer as explorer_module
-from fecolumn.study.report.explorer import explorer_data, packed, unpacked
+from fecolumn.study.report.explorer import explorer_data, packed
 from fecolumn.study.report.histories import Trace, read_histories
 from fecolumn.study.report.page import write_report
 from fecolumn.study.report.sweep import read_sweep
@@ -125,6 +126,19 @@ def test_peaks_and_ends_are_those_of_the_analyses(out, data):
     assert data["end_mm"] > max(
         peak for one in data["settings"] for peak in one["peaks"] if peak is not None
     )
+
+
+def unpacked(text):
+    """Time [s], u_top (n, 2) [m] and tilt [rad] of a history in the form of `packed`."""
+    content = base64.b64decode(text)
+    time, u, tilt = np.frombuffer(content, "<f4", 3) / np.array([65535, 32767, 32767])
+    n = (len(content) - 12) // 8
+    rows = np.frombuffer(content, "<i2", offset=12 + 2 * n).reshape(3, n)
+    return {
+        "time": time * np.frombuffer(content, "<u2", n, 12),
+        "u_top": u * rows[:2].T,
+        "tilt": tilt * rows[2],
+    }
 
 
 def test_embedded_histories_miss_no_row_of_the_stored_ones_by_more_than_the_page_says(

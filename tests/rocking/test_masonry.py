@@ -15,7 +15,6 @@ from fecolumn.engines.rocking.masonry_displacement import (
     oscillator,
     performance_point,
     secant_demand,
-    spectral_acceleration_multiplier,
     trilinear,
 )
 from fecolumn.engines.rocking.masonry_force import (
@@ -83,7 +82,6 @@ def test_a_mechanism_of_several_parts_has_the_oscillator_of_their_displacements(
     """
     found = oscillator([1e4, 1e4], [1.0, 0.5])
     assert (found.share, found.displacement) == pytest.approx((0.9, 1.25 / 1.5))
-    assert spectral_acceleration_multiplier(0.1, found.share) == pytest.approx(0.1 * 9.80665 / 0.9)
 
 
 def test_the_secant_period_grows_with_displacement_and_worn_joints_lengthen_it():

@@ -12,7 +12,6 @@ from fecolumn.engines.rocking.overturning import (
     linear_overturning,
     outcomes,
     overturning_bands,
-    rectangular_overturning,
     verge_velocity,
 )
 from fecolumn.engines.rocking.swing import GRAVITY, rock_all, rock_one, row_of_block
@@ -78,6 +77,11 @@ def test_band_that_leaves_the_range_has_no_upper_end():
     bands = overturning_bands("one_sine", 2.0, TEN, lowest=1.0, highest=1.5, points=51)
     assert bands[-1] == Band(bands[-1].low, math.inf, 1)
     assert overturning_bands("one_cosine", 8.0, TEN, highest=3.0, points=21) == []
+
+
+def rectangular_overturning(duration):
+    """Housner (1963): cosh(p T) = 1 + 1/(2 a (a - 1))."""
+    return 0.5 + math.sqrt(0.25 + 0.5 / (math.cosh(duration) - 1))
 
 
 def test_half_sine_needs_more_than_the_rectangular_pulse_of_its_length_and_less_at_low_frequency():

@@ -5,6 +5,8 @@ in halves.
 from __future__ import annotations
 
 import enum
+from collections.abc import Callable
+from dataclasses import dataclass
 
 from fecolumn.engines.dynamics.hht import HHT
 
@@ -31,24 +33,37 @@ class StepFailed(RuntimeError):
         self.stop = stop
 
 
-def in_halves(
-    take, state, before, after, hht: HHT, max_cuts: int, failure: StepFailed, count, cuts: int = 0
-):
+@dataclass(frozen=True, slots=True)
+class Halving:
+    """How steps that fail are halved.
+
+    Attributes
+    ----------
+    take
+        function (state, ground, hht) of the state one hht.dt later, or StepFailed.
+    max_cuts
+        halvings allowed.
+    count
+        called once for each.
+    """
+
+    take: Callable
+    max_cuts: int
+    count: Callable[[], None]
+
+
+def in_halves(halving: Halving, state, before, after, hht: HHT, failure: StepFailed, cuts: int = 0):
     """The state after a step that failed with `failure`, made in two halves, and these in halves
     where they fail, too.
 
     Parameters
     ----------
-    take
-        function (state, ground, hht) of the state one hht.dt later, or StepFailed.
     state
         at the start of the step.
     before, after
         (3,) ground acceleration at the ends of the step [m/s2].
-    max_cuts
-        halvings allowed.
-    count
-        called once for each.
+    cuts
+        halvings made so far.
 
     Raises
     ------
@@ -56,16 +71,16 @@ def in_halves(
         even with the smallest step; at once where the foot left the base or the part of a face that
         is known, which no smaller step mends.
     """
-    if cuts == max_cuts or failure.stop in (Stop.OFF_BASE, Stop.OFF_PATCH):
+    if cuts == halving.max_cuts or failure.stop in (Stop.OFF_BASE, Stop.OFF_PATCH):
         raise StepFailed(
             failure.stop,
             f"{failure} (step cut {cuts} times to {hht.dt:.3g} s)" if cuts else str(failure),
         )
-    count()
+    halving.count()
     half, middle = HHT(hht.dt / 2, hht.alpha), (before + after) / 2
     for first, last in ((before, middle), (middle, after)):
         try:
-            state = take(state, last, half)
+            state = halving.take(state, last, half)
         except StepFailed as again:
-            state = in_halves(take, state, first, last, half, max_cuts, again, count, cuts + 1)
+            state = in_halves(halving, state, first, last, half, again, cuts + 1)
     return state

@@ -38,7 +38,7 @@ from fecolumn.foundation._compiled import compile_for, compiled, interpreted
 _STOPS = {CONTACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.CONTACT, OFF_BASE: Stop.OFF_BASE}
 
 
-class Interface(Places):
+class ContactInterface(Places):
     """Contact of bodies with the grounds and with one another, step by step.
 
     Parameters

@@ -39,8 +39,8 @@ class Stage:
             start brings turn with the bodies; not in the literal HHT
         scheme, whose accelerations hold contact forces.
     place, internal: (n_owned, 3) positions [m] and internal forces [N] at the start; levers: (P, 2,
-    3) of the points there, as of `Interface.levers`. surface_a, surface_forces: of the State at the
-    start, the first guess of what contact forces do; None: it is found.
+    3) of the points there, as of `ContactInterface.levers`. surface_a, surface_forces: of the State
+    at the start, the first guess of what contact forces do; None: it is found.
     """
 
     target: np.ndarray
@@ -190,9 +190,9 @@ def carried(bodies, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
 class Outcome:
     """Positions, internal forces and strain energy of the bodies, what its points carry now (n,) of
     CONTACT, the energy `static` [J] of base, foot's static rest, penalty springs and pad, and the
-    record; surface_forces: (N, 3) of the contact forces, as of `Interface.surface_forces`, push:
-    (n_owned, 3) their nodal forces [N] and surface_a: (n_owned, 3) their acceleration [m/s2], as of
-    `Interface.answer`; mends: of `Stage.untwisting`.
+    record; surface_forces: (N, 3) of the contact forces, as of `ContactInterface.surface_forces`,
+    push: (n_owned, 3) their nodal forces [N] and surface_a: (n_owned, 3) their acceleration [m/s2],
+    as of `ContactInterface.answer`; mends: of `Stage.untwisting`.
     """
 
     stop: Stop

@@ -13,7 +13,7 @@ from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import move_anchors
 from fecolumn.engines.dynamics.booking import StepMade, book_step
 from fecolumn.engines.dynamics.collision import collide
-from fecolumn.engines.dynamics.cuts import IMPACTS, ROLLING, StepFailed, Stop, in_halves
+from fecolumn.engines.dynamics.cuts import IMPACTS, ROLLING, Halving, StepFailed, Stop, in_halves
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.record import Record
 from fecolumn.engines.dynamics.stage import Stage, carried, equilibrate
@@ -132,16 +132,8 @@ class Stepper:
         try:
             return self._hht_step(state, ground, hht)
         except StepFailed as failure:
-            return in_halves(
-                self._hht_step,
-                state,
-                state.ground,
-                ground,
-                hht,
-                self.max_cuts,
-                failure,
-                self._count_cut,
-            )
+            halving = Halving(self._hht_step, self.max_cuts, self._count_cut)
+            return in_halves(halving, state, state.ground, ground, hht, failure)
 
     def _count_cut(self) -> None:
         self.record.cuts += 1

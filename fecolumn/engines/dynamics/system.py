@@ -12,7 +12,7 @@ from fecolumn.contact.joints import Joints
 from fecolumn.contact.points import CONTACT, may_touch
 from fecolumn.contact.pose import grounds_at
 from fecolumn.engines.dynamics.hht import HHT
-from fecolumn.engines.dynamics.interface import Interface, Nodal
+from fecolumn.engines.dynamics.interface import ContactInterface, Nodal
 from fecolumn.engines.dynamics.linkage import Linkage
 from fecolumn.engines.dynamics.links import TIE
 from fecolumn.engines.dynamics.resistance import Resistance
@@ -156,7 +156,7 @@ class System:
         factors = hht.mass_factor, hht.stiffness_factor
         factor = self._factor(*factors)
         foot = CompositeFoot(bodies, touching.nodes, factor, *factors, touching.filtered)
-        self.interface = Interface(bodies, foot, self.bases, touching.joints, self.levels)
+        self.interface = ContactInterface(bodies, foot, self.bases, touching.joints, self.levels)
         self.links = Linkage(bodies, links) if links is not None and len(links) else None
         self._add(*factors, hht.rate_factor, factor, bodies.unturned)
         self.resistance = (

@@ -16,7 +16,8 @@ from fecolumn.foundation._compiled import njit
 # What is asked for at each point is put in place of its call: a call would hand on two hundred
 # addresses of arrays, which takes as long as what is done there
 
-# Rows of Motion.modal: coordinate, rate, and the acceleration that HHT remembers, without contact
+# Rows of MotionState.modal: coordinate, rate, and the acceleration that HHT remembers, without
+# contact
 COORDINATE, RATE, ACCELERATION = range(3)
 
 

@@ -24,7 +24,7 @@ from fecolumn.contact.problem import (
     ROLLS_FAST,
 )
 from fecolumn.contact.projection import grounds_for_steps
-from fecolumn.engines.dynamics.cuts import StepFailed, Stop, in_halves
+from fecolumn.engines.dynamics.cuts import Halving, StepFailed, Stop, in_halves
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.links import span
 from fecolumn.engines.dynamics.record import Record
@@ -32,7 +32,7 @@ from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.equilibrium import work_of
 from fecolumn.engines.reduced.ledger import N_PLACES
 from fecolumn.engines.reduced.model import scheme
-from fecolumn.engines.reduced.observe import ENERGY, lost
+from fecolumn.engines.reduced.observe import ENERGY, outcome_of_row
 from fecolumn.engines.reduced.run import LENGTHS, Chunk, Course, advance
 from fecolumn.foundation._compiled import compile_for, interpreted
 
@@ -63,7 +63,7 @@ class Engine:
     hht
         HHT.
     start
-        function of the engine that returns the first Motion; see `reduced.start`.
+        function of the engine that returns the first MotionState; see `reduced.start`.
     model
         what `start` needs of the bodies.
     substeps
@@ -104,8 +104,8 @@ class Engine:
         self.motion = start(self)
         self.ledger[0] = self.mechanical()
 
-    def motion_at_rest(self) -> motions.Motion:
-        """A Motion with zeros."""
+    def motion_at_rest(self) -> motions.MotionState:
+        """A MotionState with zeros."""
         structure = self.structure
         return motions.at_rest(
             len(self.points),
@@ -199,7 +199,7 @@ class Engine:
         """As `overturning.fallen`, now; steepest: tangent of the steepest inclination of apparent
         gravity to come.
         """
-        return interpreted(lost)(self.eye, self.motion, self.row(), steepest)
+        return interpreted(outcome_of_row)(self.eye, self.motion, self.row(), steepest)
 
     def advance(
         self,
@@ -296,16 +296,8 @@ class Engine:
 
         failure = StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
         try:
-            in_halves(
-                take,
-                None,
-                self._accelerations(),
-                ground,
-                self.hht,
-                self.max_cuts,
-                failure,
-                self._count_cut,
-            )
+            halving = Halving(take, self.max_cuts, self._count_cut)
+            in_halves(halving, None, self._accelerations(), ground, self.hht, failure)
         except BaseException as error:
             motions.copy(saved, self.motion)
             self.ledger[:] = booked

@@ -238,7 +238,7 @@ def find_arms(structure, work, end):
 
 
 @njit
-def equilibrate(
+def find_equilibrium(
     structure, base, scheme, work, start, free_center, free_modal, advance, rims, end, counts
 ):
     """Find forces and motion at the end of a step; the motion is exact for the forces at every
@@ -247,8 +247,8 @@ def equilibrate(
     Parameters
     ----------
     start
-        Motion at the start; work.points and work.before bring the first guess of the forces, and
-        the anchors.
+        MotionState at the start; work.points and work.before bring the first guess of the forces,
+        and the anchors.
     free_center, free_modal, advance
         see `motion.follow`.
     rims

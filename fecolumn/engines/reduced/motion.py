@@ -31,7 +31,7 @@ WHOLE = record(("time", "f8"), ("static", "f8"), ("ground", "f8", 3))
 SWEEPS, SETTLED, UNSETTLED = 30, 1e-14, 1e-6
 
 
-class Motion(NamedTuple):
+class MotionState(NamedTuple):
     """State of a structure in the table frame; arrays, so that compiled code may change them.
 
     frames: (nb,) of FRAME; rotation: (nb, 3, 3) body to table; modal: (nb, 3, m) of unit modal
@@ -66,9 +66,9 @@ def at_rest(
     interfaces: int = 1,
     links: int = 0,
     levels: tuple[float, ...] = (0.0,),
-) -> Motion:
+) -> MotionState:
     """Zeros everywhere but for upright rotations, and the levels of the grounds [m]."""
-    return Motion(
+    return MotionState(
         np.zeros(bodies, FRAME),
         np.tile(np.eye(3), (bodies, 1, 1)),
         np.zeros((bodies, 3, modes)),
@@ -118,7 +118,7 @@ def no_action(modes: int, bodies: int = 1, interfaces: int = 1, links: int = 0) 
 
 @njit
 def copy(source, target):
-    """Copy a Motion."""
+    """Copy a MotionState."""
     for b in range(len(source.frames)):
         target.frames[b] = source.frames[b]
     for i in range(len(source.contact)):
@@ -136,7 +136,7 @@ def copy(source, target):
 
 @njit
 def copy_grounds(source, target):
-    """Copy the grounds of a Motion."""
+    """Copy the grounds of a MotionState."""
     for g in range(len(source.grounds)):
         target.grounds[g] = source.grounds[g]
 

@@ -40,14 +40,14 @@ COLUMNS = (
 WIDTH = sum(count for _, count in COLUMNS)
 
 
-def place_of(column: str, columns=COLUMNS) -> int:
+def column_index(column: str, columns=COLUMNS) -> int:
     """Place in a row of the first number of a column."""
     names = [name for name, _ in columns]
     return sum(count for _, count in columns[: names.index(column)])
 
 
 _TOP, _TILT, _TWIST, _SLIDE, _FORCE, _ACTIVE, _DEPTH, _GROUND, _SPENT = (
-    place_of(name)
+    column_index(name)
     for name in (
         "u_top",
         "tilt",
@@ -84,9 +84,9 @@ PER_BODY, _N_INTERFACE, _N_MARK, _N_LINK = (
     sum(count for _, count in columns) for columns in (OF_BODY, OF_INTERFACE, OF_MARK, OF_LINK)
 )
 _BODY_TILT, _TURN, _RISE, _SHIFT, _NORMAL = (
-    place_of("tilt", OF_BODY),
-    place_of("rotation", OF_BODY),
-    *(place_of(name, OF_INTERFACE) for name in ("rise", "slide", "force")),
+    column_index("tilt", OF_BODY),
+    column_index("rotation", OF_BODY),
+    *(column_index(name, OF_INTERFACE) for name in ("rise", "slide", "force")),
 )
 
 
@@ -237,7 +237,7 @@ def _observe_all(structure, points, poses, eye, motion, row):
 
 
 @njit
-def lost(eye, motion, row, steepest):
+def outcome_of_row(eye, motion, row, steepest):
     """As `overturning.fallen`, of a motion and its row; FELL where one of many bodies has fallen
     past the lowest ground.
     """

@@ -22,8 +22,8 @@ from fecolumn.engines.dynamics.links import end_links
 from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.balls import roll_balls
 from fecolumn.engines.reduced.elastic import COORDINATE, END, START
-from fecolumn.engines.reduced.equilibrium import equilibrate
-from fecolumn.engines.reduced.observe import ENERGY, lost, observe
+from fecolumn.engines.reduced.equilibrium import find_equilibrium
+from fecolumn.engines.reduced.observe import ENERGY, observe, outcome_of_row
 from fecolumn.engines.reduced.step import lay_points, step
 from fecolumn.foundation._borrowed import borrowed
 from fecolumn.foundation._compiled import njit
@@ -36,7 +36,7 @@ LENGTHS = PARTS.bit_length()
 def ended(eye, motion, row, steepest, rest):
     """Whether the column is lost or at rest after a step; rest: as of `Engine.advance`."""
     return (
-        lost(eye, motion, row, steepest) != STANDS
+        outcome_of_row(eye, motion, row, steepest) != STANDS
         or max(row[ENERGY], row[ENERGY] + row[ENERGY + 1] + row[ENERGY + 2] - rest[0]) <= rest[1]
     )
 
@@ -91,13 +91,13 @@ def begin_anew(elastic):
 
 
 class Course(NamedTuple):
-    """What steps carry on. motion: Motion, after them; spare, kept: room for one; ledger:
+    """What steps carry on. motion: MotionState, after them; spare, kept: room for one; ledger:
     (N_PLACES,); counts: (N_COUNTS,).
     """
 
-    motion: motions.Motion
-    spare: motions.Motion
-    kept: motions.Motion
+    motion: motions.MotionState
+    spare: motions.MotionState
+    kept: motions.MotionState
     ledger: np.ndarray
     counts: np.ndarray
 
@@ -126,7 +126,8 @@ def advance(structure, base, schemes, work, eye, course, chunk):
     smallest where IMPACTS are located.
 
     Without any step to make: the row of `motion` where there is one to fill, else one proximal step
-    of the first scheme towards gravity equilibrium, from `motion` to `spare`; see `start.standing`.
+    of the first scheme towards gravity equilibrium, from `motion` to `spare`; see
+    `start.gravity_equilibrium`.
     They are here because each function that Python calls is compiled with all it calls.
     """
     structure, base, schemes, work, eye, course, chunk = borrowed(
@@ -265,7 +266,7 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
             )
             lay_points(structure, 0.0, work, motion, spare)
             break
-    answer = equilibrate(
+    answer = find_equilibrium(
         structure, base, scheme, work, motion, fall, bent, still, spare.rims, spare, counts
     )
     if answer == OK:

@@ -22,7 +22,7 @@ from fecolumn.engines.reduced.model import resting_scheme
 from fecolumn.foundation._compiled import interpreted
 
 
-def standing(engine) -> motions.Motion:
+def gravity_equilibrium(engine) -> motions.MotionState:
     """Gravity equilibrium, by the same proximal steps as the full-order engine: it needs no
     factorisation.
 
@@ -67,7 +67,7 @@ class _Diverged(NoEquilibrium):
     """A proximal step has no answer."""
 
 
-def _settled(engine, firmness: float) -> motions.Motion:
+def _settled(engine, firmness: float) -> motions.MotionState:
     """`standing` by proximal steps of a `firmness` [1/s2]."""
     structure, work, centers = engine.structure, engine.work, engine.eye.center
     bodies, start, end = structure.bodies.body, engine.motion_at_rest(), engine.motion_at_rest()
@@ -114,7 +114,7 @@ def _settled(engine, firmness: float) -> motions.Motion:
     return start
 
 
-def unstrained(engine, motion) -> motions.Motion:
+def unstrained(engine, motion) -> motions.MotionState:
     """A motion of which the places of the bodies are known: they fall freely from there, and links
     are as tight as they are.
     """
@@ -139,14 +139,14 @@ def unstrained(engine, motion) -> motions.Motion:
     return motion
 
 
-def of_parts(engine, parts, stands: bool) -> motions.Motion:
+def of_parts(engine, parts, stands: bool) -> motions.MotionState:
     """The motion that the parts of a StructureModel begin with.
 
     stands: whether they come from gravity equilibrium; else they are unstrained where the parts
     say.
     """
     if stands:
-        motion = standing(engine)
+        motion = gravity_equilibrium(engine)
     else:
         motion = engine.motion_at_rest()
         motion.frames["center"], motion.rotation[:] = (

@@ -44,7 +44,7 @@ _BROKEN = ("i1", (), "-", "whether a link is broken")
 _MODAL = ("f4", "m kg^(1/2)", "modal coordinates less their static part under the contact forces")
 
 
-class State(NamedTuple):
+class Snapshot(NamedTuple):
     """An instant of a reduced column, or of a structure of nb bodies whose nodes come one after
     another.
 
@@ -76,7 +76,7 @@ class State(NamedTuple):
         return forces
 
 
-def state_of(engine) -> State:
+def state_of(engine) -> Snapshot:
     """The state of an engine's bodies now.
 
     Modal coordinates are kept without their static part F f / w^2: f are the modal forces of the
@@ -106,7 +106,7 @@ def state_of(engine) -> State:
     )
     forces = np.einsum("pab,pb->pa", frames, motion.forces[loaded])
     moving = points["master"] != BASE
-    state = State(
+    state = Snapshot(
         motion.time,
         center,
         rotation,
@@ -287,8 +287,8 @@ def signature(model) -> np.ndarray:
     return np.einsum("iam,ia->m", model.shapes, np.cos(1.0 + np.arange(count)).reshape(-1, 3))
 
 
-def state_at(arrays: dict[str, np.ndarray], k: int) -> State:
-    """State `k` of the arrays of `States.arrays`."""
+def state_at(arrays: dict[str, np.ndarray], k: int) -> Snapshot:
+    """Snapshot `k` of the arrays of `States.arrays`."""
     first = int(arrays["points"][:k].sum())
     points, count = slice(first, first + int(arrays["points"][k])), int(arrays["points"][k])
     rotation = np.reshape(arrays["rotation"][k], (-1, 3, 3))
@@ -298,7 +298,7 @@ def state_at(arrays: dict[str, np.ndarray], k: int) -> State:
         else np.zeros((count, *shape), int if kind.startswith("i") else float)
         for name, (kind, shape, *_) in (_OF_POINT | _OF_PAIR).items()
     ]
-    return State(
+    return Snapshot(
         float(arrays["time"][k]),
         np.reshape(arrays["center"][k], (-1, 3)),
         rotation,
@@ -308,7 +308,7 @@ def state_at(arrays: dict[str, np.ndarray], k: int) -> State:
     )
 
 
-def _size(state: State) -> int:
+def _size(state: Snapshot) -> int:
     """Bytes in the file before it is compressed."""
     return (
         4 * state.modal.size

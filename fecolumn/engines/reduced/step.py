@@ -44,7 +44,7 @@ from fecolumn.engines.reduced.elastic import (
     find_places,
     find_velocity,
 )
-from fecolumn.engines.reduced.equilibrium import equilibrate
+from fecolumn.engines.reduced.equilibrium import find_equilibrium
 from fecolumn.engines.reduced.ledger import BASE as BASE_WORK
 from fecolumn.engines.reduced.ledger import CONTACT_WORK, FRICTION, HIT, book, kinetic
 from fecolumn.engines.reduced.motion import push_bodies
@@ -239,7 +239,7 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
     for k in range(len(structure.interfaces)):
         if structure.interfaces[k].rolling > 0.0:
             _resist(structure, k, work, start, dt)
-    answer = equilibrate(
+    answer = find_equilibrium(
         structure,
         base,
         scheme,

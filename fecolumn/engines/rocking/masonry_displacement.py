@@ -154,15 +154,6 @@ def oscillator(weights, shape, gravity: float = 9.80665) -> Oscillator:
     )
 
 
-def spectral_acceleration_multiplier(
-    multiplier: float, share: float, gravity: float = 9.80665
-) -> float:
-    """a_0* = alpha_0 g / e* [m/s2]: acceleration of the oscillator at which the mechanism begins to
-    move; e* its share of the mass.
-    """
-    return multiplier * gravity / share
-
-
 def secant_demand(
     capacity: Capacity, spectral_displacement, share: float = SECANT_SHARE
 ) -> tuple[float, float]:

@@ -241,7 +241,7 @@ def rigid_body(case, name: str, file) -> RigidColumn:
         a body of matrices, whose shape is not known.
     """
     from fecolumn.mesh.imported import own_mesh
-    from fecolumn.mesh.quality import box, mass_properties, ring
+    from fecolumn.mesh.quality import box_properties, mass_properties, ring_properties
 
     body, is_round = case.bodies[name], False
     if isinstance(body, keys.Matrices):
@@ -261,18 +261,21 @@ def rigid_body(case, name: str, file) -> RigidColumn:
     elif isinstance(body, (keys.Tube, keys.Cylinder)):
         is_round, outer = True, body.outer_diameter_m / 2
         inner = outer - body.wall_m if isinstance(body, keys.Tube) else 0.0
-        found, top = ring(outer, inner, body.height_m, seat, density), seat + body.height_m
+        found, top = (
+            ring_properties(outer, inner, body.height_m, seat, density),
+            seat + body.height_m,
+        )
         extent = (2 * outer,) * 2
     else:
         extent = body.length_m, body.width_m
         height = body.height_m if isinstance(body, keys.Block) else body.thickness_m
-        found, top = box(*extent, height, seat, density), seat + height
+        found, top = box_properties(*extent, height, seat, density), seat + height
     if flange:
         wide, bore = flange.outer_diameter_m, flange.inner_diameter_m
-        found, extent = found + ring(wide / 2, bore / 2, seat, 0.0, density), (wide,) * 2
+        found, extent = found + ring_properties(wide / 2, bore / 2, seat, 0.0, density), (wide,) * 2
         is_round = True
     if cap:
-        found = found + box(cap.length_m, cap.width_m, cap.thickness_m, top, density)
+        found = found + box_properties(cap.length_m, cap.width_m, cap.thickness_m, top, density)
         top += cap.thickness_m
     more = 1.0 if body.mass_kg is None else body.mass_kg / found.mass
     return RigidColumn(

@@ -150,13 +150,6 @@ def linear_overturning(shape: str, frequency) -> np.ndarray:
     return 1 + LINEAR[shape] * np.asarray(frequency, float)
 
 
-def rectangular_overturning(duration) -> np.ndarray:
-    """a_p/(g tan alpha) of the rectangular pulse of p T_p that just overturns a slender block
-    (Housner 1963): cosh(p T) = 1 + 1/(2 a (a - 1)).
-    """
-    return 0.5 + np.sqrt(0.25 + 0.5 / (np.cosh(np.asarray(duration, float)) - 1))
-
-
 def design_slenderness(amplitude, period, p, pulse: str = "rectangular") -> np.ndarray:
     """Least tan(alpha) that stands a pulse: (a_p/g) p T_p/(gamma + p T_p) (Makris and Vassiliou
     2012).

@@ -21,7 +21,7 @@ class StructureFields:
     bodies
         `fem.composite.Composite`.
     meshed
-        `elements.Meshed` of each part.
+        `elements.MeshedBody` of each part.
     structure
         StructureModel, as it stands upright.
     points

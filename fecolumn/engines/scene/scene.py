@@ -72,8 +72,8 @@ class JointFace:
 
     Attributes
     ----------
-    interface, slave, joint
-        names of the interface, of the slave and of the joint.
+    interface, slave
+        names of the interface and of the slave.
     piece, master
         numbers of the slave and of what it stands on, GROUND of the ground.
     faces
@@ -89,7 +89,6 @@ class JointFace:
 
     interface: str
     slave: str
-    joint: str
     piece: int
     master: int
     faces: np.ndarray

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.contact.projection import nodes_under
-from fecolumn.engines.reduced.states import State
+from fecolumn.engines.reduced.states import Snapshot
 from fecolumn.engines.scene.scene import Scene
 
 
@@ -64,7 +64,9 @@ class StateFields:
         #: First contact node of each body, one more at the end.
         self.first_node = np.cumsum([0] + [len(model.arms) for model in self.models])
 
-    def local(self, state: State, stress: bool = True) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def local(
+        self, state: Snapshot, stress: bool = True
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Displacement (n_points, 3) [m] of all points of bodies in their frames; what of it is
         deformation, of a building relative to its slab; and von Mises stress (n_cells,) [Pa], nan
         of bodies that have none or where not asked for.
@@ -88,7 +90,7 @@ class StateFields:
                 found[scene.first_cell[k] : scene.first_cell[k] + len(values)] = values
         return moved, bent, found
 
-    def positions(self, state: State, local: np.ndarray) -> np.ndarray:
+    def positions(self, state: Snapshot, local: np.ndarray) -> np.ndarray:
         """Positions (n, 3) [m] of all points, those of bodies displaced by `local` (n, 3) [m] in
         their frames.
         """
@@ -99,7 +101,7 @@ class StateFields:
             placed[own] = state.center[k] + arms @ state.rotation[k].T
         return placed
 
-    def pressures(self, state: State) -> tuple[list[np.ndarray], np.ndarray]:
+    def pressures(self, state: Snapshot) -> tuple[list[np.ndarray], np.ndarray]:
         """Pressure (k,) [Pa] at the nodes of each joint's face, and its centre (n_joints, 2) [m] in
         the plan of the face, nan of one that is open.
         """
@@ -115,7 +117,7 @@ class StateFields:
                 centres[number] = force @ seat.plan / force.sum()
         return found, centres
 
-    def values(self, state: State) -> dict[str, np.ndarray]:
+    def values(self, state: Snapshot) -> dict[str, np.ndarray]:
         """Displacement (n_points, 3) [m], von Mises stress (n_cells,) [Pa], 0 of bodies without
         any, and contact pressure (n_points,) [Pa] by their names in files.
         """

@@ -221,7 +221,6 @@ def _contact(joint, shown: _Shown, part, first: np.ndarray) -> JointFace:
     return JointFace(
         name,
         part.name,
-        joint.name,
         joint.slave,
         joint.master,
         faces,

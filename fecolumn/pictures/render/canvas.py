@@ -119,22 +119,15 @@ class Canvas:
             clim=quantity.range,
             log_scale=quantity.decades > 0,
             show_scalar_bar=False,
-            show_edges=True,
-            edge_color=_EDGE,
-            edge_opacity=0.35,
-            line_width=0.5 * self._line_width,
-            ambient=0.55,
-            diffuse=0.5,
+            **self._bricks(),
             interpolate_before_map=True,
             nan_color=_RIGID,
         )
         return mesh
 
-    def _add_base(self, first: Frame):
-        import pyvista
-
-        look = dict(
-            color=_BASE,
+    def _bricks(self) -> dict:
+        """How the faces of bricks look, with their edges."""
+        return dict(
             show_edges=True,
             edge_color=_EDGE,
             edge_opacity=0.35,
@@ -142,6 +135,11 @@ class Canvas:
             ambient=0.55,
             diffuse=0.5,
         )
+
+    def _add_base(self, first: Frame):
+        import pyvista
+
+        look = dict(color=_BASE, **self._bricks())
         for low, high, square in self._frames.result.grounds:
             square = max(square, float((high - low).max()) / 200)
             sides = high[:2] - low[:2]

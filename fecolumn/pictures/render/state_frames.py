@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.engines.reduced.states import State, modes_of, read_states, signature, state_at
+from fecolumn.engines.reduced.states import Snapshot, modes_of, read_states, signature, state_at
 from fecolumn.engines.scene.scene import Scene
 from fecolumn.engines.scene.state_fields import StateFields
 from fecolumn.foundation.schema import InputError
@@ -68,8 +68,8 @@ class StateFrames(FrameSeries):
         self.center = self._arrays["center"].reshape(count, -1, 3)
         self.rotation = self._arrays["rotation"].reshape(count, -1, 3, 3)
 
-    def state(self, k: int) -> State:
-        """State number k."""
+    def state(self, k: int) -> Snapshot:
+        """Snapshot number k."""
         return state_at(self._arrays, k)
 
     def read(self, k: int) -> Fields:

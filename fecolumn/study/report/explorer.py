@@ -131,19 +131,6 @@ def packed(trace: Trace) -> str:
     return base64.b64encode(b"".join(part.tobytes() for part in parts)).decode()
 
 
-def unpacked(text: str) -> dict[str, np.ndarray]:
-    """Time [s], u_top (n, 2) [m] and tilt [rad] of a history in the form of `packed`."""
-    content = base64.b64decode(text)
-    time, u, tilt = np.frombuffer(content, "<f4", 3).astype(float) / _FULL
-    n = (len(content) - 12) // 8
-    rows = np.frombuffer(content, "<i2", offset=12 + 2 * n).reshape(3, n)
-    return {
-        "time": time * np.frombuffer(content, "<u2", n, 12),
-        "u_top": u * rows[:2].T,
-        "tilt": tilt * rows[2],
-    }
-
-
 def _fitting(sweep: Sweep, histories: Histories) -> tuple[dict[str, str], float]:
     """Histories in the form of `packed` by case id, as fine as the page has room for, and what
     their lines may be off.

@@ -41,8 +41,6 @@ class BuildingLaws:
         share of motions that start no rocking.
     overturned
         shares under CRV and CAV.
-    disagree
-        share overturned under one law alone.
     tilt, shear
         (D, p) of the paired Kolmogorov-Smirnov test between the laws.
     outside_tilt, outside_shear
@@ -63,7 +61,6 @@ class BuildingLaws:
     motions: int
     still: float
     overturned: tuple[float, float]
-    disagree: float
     tilt: tuple[float, float]
     shear: tuple[float, float]
     outside_tilt: float
@@ -95,7 +92,6 @@ def building_laws(profile: str, storeys: int, crv, cav, resamples: int = 1999) -
         len(a),
         float((a <= STILL).mean()),
         (float(np.isinf(a).mean()), float(np.isinf(b).mean())),
-        float((np.isinf(a) != np.isinf(b)).mean()),
         (tilt.statistic, tilt.p),
         (shear.statistic, shear.p),
         _outside(a, b),
