@@ -176,6 +176,13 @@ class Integration(Section):
         choices=SUBSTEPS,
         since="0.7",
     )
+    start: str = parameter(
+        "rest",
+        doc="rest: gravity equilibrium, unless a body leans at the start; drawn: bodies begin "
+        "where they are drawn, without strain, whether or not they can stand there",
+        choices=("rest", "drawn"),
+        since="0.9",
+    )
 
 
 @dataclass(frozen=True, slots=True)

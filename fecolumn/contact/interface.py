@@ -50,7 +50,7 @@ INTERFACE = record(
 #: points were placed, 0 before they were; raised: height that they were given [m]. Of a joint with
 #: two sides: placed: whether its points were laid before; plain: whether they were the nodes of the
 #: slave; unused: whether no point of this interface takes part, as its slave is the master of a
-#: joint whose outline is not met.
+#: joint whose outline is not met; apart: whether none does, as the faces are too far apart.
 RIM = record(
     ("angle", "f8"),
     ("lift", "f8", 5),
@@ -59,6 +59,7 @@ RIM = record(
     ("placed", "?"),
     ("plain", "?"),
     ("unused", "?"),
+    ("apart", "?"),
 )
 
 

@@ -76,10 +76,14 @@ def same_points(angle, other):
 
 @njit
 def holds(stick, interfaces, rims, rigid, poses):
-    """Whether all feet are where the operator was found."""
+    """Whether all feet are where the operator was found; of faces that are apart it does not
+    matter.
+    """
     if stick.key[1] == 0.0 or stick.key[0] != rigid:
         return False
     for k in range(len(interfaces)):
+        if rims[k].apart:
+            continue
         on_pad, then, now = interfaces[k].on_pad, stick.poses[k], poses[k]
         if not same_points(stick.angles[k], rims[k].angle):
             return False

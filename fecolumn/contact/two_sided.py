@@ -97,7 +97,9 @@ def place_overlaps(
         joint = overlaps.joints[j]
         if rims[joint.reverse].unused and joint.plain:
             continue
-        if _is_apart(overlaps, joint, interfaces, ways, frames, poses):
+        apart = _is_apart(overlaps, joint, interfaces, ways, frames, poses)
+        rims[joint.forward].apart = rims[joint.reverse].apart = apart
+        if apart:
             joint.plain = rims[joint.forward].plain = False
             rims[joint.forward].placed = True
             for k in (joint.forward, joint.reverse):

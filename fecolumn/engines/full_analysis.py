@@ -9,7 +9,7 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.analysis import CHECKPOINT, Analysis
-from fecolumn.engines.reduced_engine import leans, upright
+from fecolumn.engines.reduced_engine import begins_unstrained, upright
 from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.fem.rotation import out_of_frames
 from fecolumn.foundation.schema import InputError
@@ -101,15 +101,15 @@ class FullAnalysis(OfStructure, Analysis):
         )
 
     @property
-    def leans(self) -> bool:
+    def unstrained(self) -> bool:
         """Whether the start is not from gravity equilibrium, which may not exist then."""
-        return leans(self.structure)
+        return begins_unstrained(self.case, self.structure)
 
     def _released(self, standing):
         """The State that the case begins with, from that of gravity equilibrium."""
         from fecolumn.engines.dynamics.structure import released
 
-        return released(self.system, self.structure.parts, None if self.leans else standing)
+        return released(self.system, self.structure.parts, None if self.unstrained else standing)
 
     def drawn(self):
         """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
@@ -141,10 +141,11 @@ class FullAnalysis(OfStructure, Analysis):
         try:
             state = gravity.standing(self.system)
         except gravity.NoEquilibrium:
-            if not self.leans:
+            if not self.unstrained:
                 raise
             return None
-        self.standing_j = sum(self.ledger.state_terms(state).values())
+        terms = self.ledger.state_terms(state)
+        self.standing_j = sum(terms.values()) - self.energy_to_fall()
         return state
 
     def _take(self, arrays: dict) -> None:

@@ -20,7 +20,7 @@ from fecolumn.engines.reduced.observe import column_index
 from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.engines.reduced.run import advance
 from fecolumn.engines.reduced.states import States, state_of
-from fecolumn.engines.reduced_engine import engine_of, leans, upright
+from fecolumn.engines.reduced_engine import begins_unstrained, engine_of, upright
 from fecolumn.engines.structure_analysis import OfStructure, columns_of
 from fecolumn.foundation._compiled import compiled, interpreted
 from fecolumn.foundation.atomic import write_bytes
@@ -54,9 +54,7 @@ class ReducedAnalysis(OfStructure, Analysis):
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
-            self.standing_j = (
-                self._standing_energy(file) if leans(self.structure) else self.engine.potential()
-            )
+            self.standing_j = self._standing_energy(file) - self.energy_to_fall()
             self.engine.begin_shaking(self.grounds(0))
             self._note(self.engine.row()[None])
             self._keep()
@@ -65,8 +63,11 @@ class ReducedAnalysis(OfStructure, Analysis):
         """Mechanical energy [J] in gravity equilibrium; 0, that of the unstrained structure, where
         there is none.
         """
+        if not begins_unstrained(self.case, self.structure):
+            return self.engine.potential()
         try:
-            return engine_of(self.case, upright(self.case, self.structure), file).mechanical()
+            standing = upright(self.case, self.structure)
+            return engine_of(self.case, standing, file, stands=True).mechanical()
         except NoEquilibrium:
             return 0.0
 

@@ -31,20 +31,23 @@ def upright(case, model: StructureModel) -> StructureModel:
     return replace(model, parts=tuple(parts))
 
 
-def leans(model: StructureModel) -> bool:
-    """Whether any body leans at the start, which is then unstrained."""
-    return any(part.rotation[2, 2] < 1 for part in model.parts)
+def begins_unstrained(case, model: StructureModel) -> bool:
+    """Whether the start is not gravity equilibrium: a body leans, or the case says so."""
+    return case.integration.start == "drawn" or any(part.rotation[2, 2] < 1 for part in model.parts)
 
 
-def engine_of(case, model: StructureModel, file) -> Engine:
+def engine_of(case, model: StructureModel, file, stands: bool | None = None) -> Engine:
     """The engine at the start of `model`, or of `upright` in gravity equilibrium.
+
+    stands: whether it begins in that; as the case says unless given.
 
     Raises
     ------
     InputError
         a link too stiff for the step. NoEquilibrium: as of `start.gravity_equilibrium`.
     """
-    plan, gravity, stands = case.integration, np.array([0.0, 0.0, -GRAVITY]), not leans(model)
+    plan, gravity = case.integration, np.array([0.0, 0.0, -GRAVITY])
+    stands = not begins_unstrained(case, model) if stands is None else stands
     standing, hht = upright(case, model), HHT(plan.dt_s, plan.alpha_hht)
 
     def build(step):

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import FELL, critical_displacement
 from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
 from fecolumn.engines.ending import SLID_OFF, Ending
@@ -50,6 +51,20 @@ class OfStructure:
         if self._barrier_j is None:
             self._barrier_j = least_barrier(self.structure, standing_of(self.case, self.structure))
         return self._barrier_j
+
+    def energy_to_fall(self) -> float:
+        """Energy [J] that bodies which nothing carries at the start have over what they fall on."""
+        gaps: dict[int, float] = {}
+        for joint in self.structure.joints:
+            normal = self.structure.parts[joint.slave].model.surfaces[joint.slave_surface].normal
+            upper = joint.slave if normal[2] < 0 else joint.master
+            if joint.gap and abs(normal[2]) > np.sqrt(0.5):
+                gaps[upper] = min(gaps.get(upper, np.inf), joint.gap)
+        return sum(
+            part.model.mass * GRAVITY * gaps.get(place, 0.0)
+            for place, part in enumerate(self.structure.parts)
+            if part.airborne
+        )
 
     def _load_motion(self, file):
         #: Motion of each ground, None of one at rest; that which lasts longest is told.

@@ -247,6 +247,8 @@ def check_rest(case, structure, standing, file) -> None:
 
     standing: as of `place`.
     """
+    if case.integration.start == "drawn":
+        return
     if any(start.tilt_rad or start.moves for start in case.initial.values()):
         return
     columns, bounds, rows = [], [], 6 * len(structure.parts)

@@ -66,7 +66,7 @@ def edge_patch(face: Face, order: int, points: np.ndarray) -> Patch:
 
 
 def _edge(case, drawings, meeting: Meeting) -> Edge | None:
-    """All nodes of the master's outline that the slave may reach, none where it cannot."""
+    """All nodes of the master's outline that the slave may reach, None where it cannot."""
     upper, lower = drawings[meeting.slave[0]], drawings[meeting.master[0]]
     face, other = upper.faces[meeting.slave_face], lower.faces[meeting.master_face]
     if ball_of(upper.body) and face is foot_of(upper.faces):
@@ -75,8 +75,10 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
     outlines, plane = (outline_of(other), outline_of(face)), other.axes[:, :2]
     allowance = allowance_of(case, meeting, face)
     sides, reached = outlines[0] @ plane, (outlines[1] - shift) @ plane
+    # a joint that begins open has two sides in any case: it takes no part while it is apart
     if (
-        inwards(reached[:, 0], sides).min() > allowance
+        not meeting.gap
+        and inwards(reached[:, 0], sides).min() > allowance
         and inwards(sides[:, 0], reached).max() < -allowance
         and not len(crossings(sides, reached))
     ):

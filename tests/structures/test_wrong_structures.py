@@ -27,9 +27,17 @@ STOREYS = dict(
     period_s=1.0,
 )
 WRONG = [
-    (stack(bodies=dict(upper=dict(at_m=[0, 0, 0.803]))), "joints.joint", "gap of 0.003 m"),
+    (
+        stack(bodies=dict(upper=dict(at_m=[0, 0, 0.803])), joints=dict(joint=dict(open=False))),
+        "joints.joint",
+        "gap of 0.003 m",
+    ),
     (stack(bodies=dict(upper=dict(at_m=[0, 0, 0.797]))), "joints.joint", "overlap by 0.003 m"),
-    (stack(bodies=dict(upper=dict(at_m=[0, 0, 1.5]))), "joints.joint", "does not touch"),
+    (
+        stack(bodies=dict(upper=dict(at_m=[0, 0, 1.5])), joints=dict(joint=dict(open=False))),
+        "joints.joint",
+        "does not touch",
+    ),
     (stack(bodies=dict(upper=dict(at_m=[0.6, 0, 0.8]))), "joints.joint", "does not touch"),
     (stack(bodies=dict(upper=dict(at_m=[0.35, 0, 0.8]))), "joints", '"upper" cannot rest'),
     (

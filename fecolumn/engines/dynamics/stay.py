@@ -9,6 +9,7 @@ from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.problem import STICKS_STILL, begin_problem
 from fecolumn.contact.stick import holds, is_worth, no_stick
+from fecolumn.contact.tolerances import LEVEL
 from fecolumn.foundation._compiled import interpreted
 
 
@@ -47,7 +48,9 @@ class Stay:
         if before is not None and np.array_equal(angles, rims["angle"], equal_nan=True):
             turns = np.abs(poses["turned"][:, SLAVE] - before["turned"][:, SLAVE]).max(axis=(1, 2))
             ways = np.abs(poses["foot"] - before["foot"])[:, :2].max(axis=1)
-            self._worth = all(map(interpreted(is_worth), self._interfaces, poses, turns, ways))
+            level = np.abs(self._interfaces["axes"][:, 2, 2]) > LEVEL
+            worth = map(interpreted(is_worth), self._interfaces, poses, turns, ways)
+            self._worth = level.all() and all(worth)
 
     def begin(self, problem, nodal) -> None:
         """Begin a contact problem of a stage with the compliance `nodal` of `dynamics.places`."""

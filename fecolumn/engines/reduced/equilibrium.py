@@ -32,7 +32,7 @@ from fecolumn.contact.problem import (
     stored_energy,
 )
 from fecolumn.contact.stick import Stick, holds, is_worth, no_stick, same_points
-from fecolumn.contact.tolerances import CLOSE, ITERATIONS
+from fecolumn.contact.tolerances import CLOSE, ITERATIONS, LEVEL
 from fecolumn.engines.reduced.elastic import (
     COORDINATE,
     END,
@@ -96,11 +96,20 @@ def work_of(structure, points) -> Work:
 
 
 @njit
-def stays(interfaces, poses, start, rims, free_center, advance):
+def stays(interfaces, points, before, poses, start, rims, free_center, advance):
     """Whether all feet stay in their places long enough for finding their stick operator to pay;
     poses: at the start, rims: (ni,) of RIM at the end.
+
+    Faces that are not level may touch without any load, where points open and close and the
+    operator costs more than it saves: all points of theirs must carry.
     """
+    for i in range(len(points)):
+        level = abs(interfaces[points[i].interface].axes[2, 2]) > LEVEL
+        if not (level or points[i].idle or before[i].force[2] > 0):
+            return False
     for k in range(len(interfaces)):
+        if rims[k].apart:
+            continue
         way, turn, b = 0.0, 0.0, interfaces[k].slave
         if not same_points(start.rims[k].angle, rims[k].angle):
             # they rolled in this step, and would in the next
@@ -293,7 +302,8 @@ def find_equilibrium(
     begin_problem(
         problem,
         still,
-        not still and stays(interfaces, poses[START], start, rims, free_center, advance),
+        not still
+        and stays(interfaces, points, before, poses[START], start, rims, free_center, advance),
     )
     begin_frames(structure, start, free_center, advance, end, work.action)
     begin_yielding(points, scheme.springs)
