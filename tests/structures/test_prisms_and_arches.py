@@ -92,8 +92,12 @@ def test_prism_has_the_faces_of_its_outline(outline):
     for start, end in zip(ends, np.roll(ends, -1, axis=0)):
         way = (end - start) / np.linalg.norm(end - start)
         normal = np.array([way[1], 0.0, -way[0]])
-        (face,) = [face for face in one.faces if np.abs(face.normal - normal).max() < 1e-9]
-        assert face.offset == pytest.approx(normal[[0, 2]] @ start, abs=1e-12)
+        (face,) = [
+            face
+            for face in one.faces
+            if np.abs(face.normal - normal).max() < 1e-9
+            and abs(face.offset - normal[[0, 2]] @ start) < 1e-12
+        ]
         assert face.area == pytest.approx(0.6 * np.linalg.norm(end - start), rel=1e-12)
 
 
@@ -154,16 +158,16 @@ def test_counts_are_told_before_the_mesh_is_made():
         for size in (0.05, 0.5):
             _, quads = polygon_mesh(np.array(outline), size)
             assert polygon_counts(np.array(outline), size, 1)[0] == pytest.approx(
-                len(quads), rel=0.6
+                len(quads), rel=0.6, abs=4
             )
-    with pytest.raises(InputError, match=r"element_size_m = 0.001 m: .* would fit"):
+    with pytest.raises(InputError, match=r"element_size_m = 0.001: .* would fit"):
         layout_of(_case(**_prism(NOTCHED, element_size_m=0.001)), "small.toml")
 
 
 @pytest.mark.parametrize(
     "keys, words",
     [
-        (dict(width_m=-0.1), r"bodies.body.width_m = -0.1 m: must be greater than 0"),
+        (dict(width_m=-0.1), r"bodies.body.width_m = -0.1: must be greater than 0"),
         (dict(outline_m=[[0, 0], [1, 0]]), "outline_m.*at least three corners"),
         (dict(outline_m=[[0, 0], [1, 0, 0], [1, 1]]), "outline_m.*two numbers"),
         (dict(outline_m=[[0, 0], [1, 0], [1, 1], [0, 0]]), "1 and 4 are both"),
@@ -176,7 +180,7 @@ def test_counts_are_told_before_the_mesh_is_made():
         (dict(outline_m=[[0, 0], [2, 0], [2, 1], [1, 0], [0, 1]]), "cross or touch itself"),
         (dict(outline_m=[[0, 0], [1, 0], [1, math.inf]]), "outline_m.*must lie in"),
         (dict(along="x"), "along.*one of y, z"),
-        (dict(coarse_size_m=1.0), "coarse_size_m = 1.0 m: says nothing of a prism"),
+        (dict(coarse_size_m=1.0), "coarse_size_m = 1.0: says nothing of a prism"),
         (dict(at_m=[0, 0]), "at_m.*three numbers"),
     ],
 )
@@ -236,12 +240,15 @@ def test_an_arch_is_its_voussoirs_written_one_by_one_and_is_replaced_as_an_arch(
 @pytest.mark.parametrize(
     "keys, words",
     [
-        (dict(thickness_m=4.0), r"bodies.ring.thickness_m = 4.0 m: must be less than .* 4 m"),
-        (dict(from_deg=180.0), "to_deg = 180.0 deg: must be greater than from_deg = 180 deg"),
+        (
+            dict(thickness_m=4.0),
+            r"bodies.ring.thickness_m = 4.0: must be less than twice mean_radius_m, 4 m",
+        ),
+        (dict(from_deg=180.0), "to_deg = 180.0: must be greater than from_deg = 180 deg"),
         (dict(from_deg=-180.0, to_deg=180.0), "to_deg.*by less than 360"),
         (dict(voussoirs=1), r"voussoirs = 1: must lie in \[2, 500\]"),
         (dict(voussoirs=2, arc_sides=1), "voussoirs = 2: must be more, or arc_sides"),
-        (dict(width_m=0.0), "width_m = 0.0 m: must be greater than 0"),
+        (dict(width_m=0.0), "width_m = 0.0: must be greater than 0"),
         (dict(copies_m=[[0, 0, 0], [0, 2, 0]]), "copies_m.*a name of its own"),
         (dict(material="jade"), "material.*no such table"),
         (dict(thikness_m=0.2), "did you mean bodies.ring.thickness_m"),
@@ -256,7 +263,9 @@ def test_names_beside_an_arch_are_told():
     with pytest.raises(InputError, match="no such body or ground; did you mean ring"):
         _arch(dict(joints=dict(between=["ring", "rng 3"])))
     with pytest.raises(InputError, match=r"bodies.ring 3: .*ring"):
-        _case().replace({"bodies.ring": RING | STONE, "bodies.ring 3": RING | STONE})
+        _case(**_prism(WEDGE)).replace(
+            {"bodies.ring": RING | STONE, "bodies.ring 3": _prism(WEDGE)}
+        )
     with pytest.raises(InputError, match=r'observed.*such as "ring 1"'):
         _arch().replace({"observed": "ring"})
     link = dict(kind="spring", stiffness_n_m=1e5, body="ring", to_point_m=[0, 0, 5])
