@@ -18,6 +18,7 @@ from fecolumn.structures.bodies import drawing
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.reduction import body_of
 from fecolumn.structures.shapes import counts_of
+from fecolumn.structures.structure import structure_model
 
 WEDGE = [[0.2, 0.0], [0.8, 0.0], [1.1, 1.3], [-0.1, 1.3]]
 TRIANGLE = [[0.0, 0.0], [1.0, 0.2], [0.3, 0.9]]
@@ -271,3 +272,17 @@ def test_names_beside_an_arch_are_told():
     link = dict(kind="spring", stiffness_n_m=1e5, body="ring", to_point_m=[0, 0, 5])
     with pytest.raises(InputError, match=r"links.tie.body = .ring.: must be one body, such as"):
         _arch().replace({"links.tie": link})
+
+
+@pytest.mark.parametrize("count, least", [(9, 0.102134), (11, 0.104910), (17, 0.105593)])
+def test_an_arch_stands_from_the_thickness_of_limit_analysis_on(count, least):
+    """Least thickness over mean radius of a semicircular arch on springers, by a linear programme
+    of another program with the true sectors: to 1e-3.
+    """
+    for share, stands in ((0.999, False), (1.001, True)):
+        case = _arch(mean_radius_m=3.0, thickness_m=3.0 * least * share, voussoirs=count)
+        if stands:
+            assert len(structure_model(case).parts) == count
+        else:
+            with pytest.raises(InputError, match="cannot rest"):
+                structure_model(case)
