@@ -50,6 +50,11 @@ class Placed(Section):
         """Place of each copy [m]."""
         return self.copies_m or (self.at_m,)
 
+    @property
+    def as_drawn(self) -> bool:
+        """Whether it stays where its file has it."""
+        return False
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stuff(Placed):
@@ -229,12 +234,123 @@ class Plate(Solid):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Cone(Solid):
+    """kind = "cone": a solid frustum of a cone, its axis along z: a tapered drum."""
+
+    kind: str = parameter("cone", doc="what the body is", choices=("cone",))
+    bottom_diameter_m: float = parameter(doc="diameter of its foot", unit="m", above=0, high=100)
+    top_diameter_m: float = parameter(doc="diameter of its head", unit="m", above=0, high=100)
+    height_m: float = parameter(doc="height", unit="m", above=0, high=1000)
+
+    @property
+    def outer_diameter_m(self) -> float:
+        """The larger diameter."""
+        return max(self.bottom_diameter_m, self.top_diameter_m)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Prism(Solid):
+    """kind = "prism": an extruded polygon: a voussoir, a wedge, a tapered pier, a buttress; meshed
+    in elements of element_size_m, which every corner of it is a node of.
+    """
+
+    kind: str = parameter("prism", doc="what the body is", choices=("prism",))
+    at_m: tuple[float, ...] = parameter(
+        (0.0, 0.0, 0.0),
+        doc="place [x, y, z] from which its outline is measured, so that many prisms may be drawn "
+        "in one frame",
+        unit="m",
+        low=-1e4,
+        high=1e4,
+    )
+    outline_m: tuple[tuple[float, ...], ...] = parameter(
+        doc="corners of the polygon in their order, in either sense: [x, z] of each, with "
+        'along = "z" [x, y]',
+        unit="m",
+        low=-1e4,
+        high=1e4,
+    )
+    width_m: float = parameter(
+        doc="length along y, half of it to each side of at_m; with "
+        'along = "z" its height, from at_m upwards',
+        unit="m",
+        above=0,
+        high=1000,
+    )
+    along: str = parameter("y", doc="axis along which the outline is extruded", choices=("y", "z"))
+    turned_deg: float = parameter(
+        0.0,
+        doc="angle by which it is turned about the vertical through at_m, from x to y",
+        unit="deg",
+        low=-360,
+        high=360,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Arch(Solid):
+    """kind = "arch": a ring sector in the plane of x and z of equal voussoirs, prisms "NAME 1",
+    "NAME 2" ... from from_deg on; NAME stands for all of them, in a joint between NAME and NAME for
+    neighbours. mass_kg is that of all.
+    """
+
+    kind: str = parameter("arch", doc="what the body is", choices=("arch",))
+    at_m: tuple[float, ...] = parameter(
+        (0.0, 0.0, 0.0),
+        doc="place [x, y, z] of the middle of its circle",
+        unit="m",
+        low=-1e4,
+        high=1e4,
+    )
+    mean_radius_m: float = parameter(doc="radius of its middle line", unit="m", above=0, high=1000)
+    thickness_m: float = parameter(
+        doc="thickness along the radius; less than 2 mean_radius_m", unit="m", above=0, high=1000
+    )
+    width_m: float = parameter(
+        doc="length along y, half of it to each side of at_m", unit="m", above=0, high=1000
+    )
+    voussoirs: int = parameter(doc="number of voussoirs", low=2, high=500)
+    from_deg: float = parameter(
+        0.0, doc="angle of its first springing from the x axis", unit="deg", low=-360, high=360
+    )
+    to_deg: float = parameter(
+        180.0,
+        doc="angle of its last springing; greater than from_deg, by less than 360",
+        unit="deg",
+        low=-360,
+        high=360,
+    )
+    arc_sides: int = parameter(
+        4,
+        doc="straight sides of each voussoir along its inner and its outer arc, corners so far "
+        "outside these that its area is that of the true sector",
+        low=1,
+        high=100,
+    )
+    turned_deg: float = parameter(
+        0.0,
+        doc="angle by which it is turned about the vertical through at_m, from x to y",
+        unit="deg",
+        low=-360,
+        high=360,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Meshed(Solid):
-    """kind = "mesh": a body of one's own mesh, with a flat foot; element_size_m is the length that
-    penalty_factor refers to.
+    """kind = "mesh": a body of one's own mesh, where its file has it unless at_m or copies_m says
+    otherwise; element_size_m is the length that penalty_factor refers to.
     """
 
     kind: str = parameter("mesh", doc="what the body is", choices=("mesh",))
+    at_m: tuple[float, ...] | None = parameter(
+        None,
+        doc="place [x, y, z] to which the middle of its flat foot is moved; left out: nothing is "
+        "moved",
+        unit="m",
+        low=-1e4,
+        high=1e4,
+    )
     mesh_file: str = parameter(
         doc="mesh of 8-node bricks or of tetrahedra in any format meshio reads, lengths in "
         "metres, z up"
@@ -242,7 +358,7 @@ class Meshed(Solid):
     turned_deg: float = parameter(
         0.0,
         doc="angle by which it is turned about the vertical through the middle of its "
-        "foot, from x to y",
+        "foot, or of its lowest points, from x to y",
         unit="deg",
         low=-360,
         high=360,
@@ -257,6 +373,16 @@ class Meshed(Solid):
         since="0.8",
     )
     cap: Cap | None = None
+
+    @property
+    def places(self) -> tuple[tuple[float, ...], ...]:
+        """Place of each copy [m]; the origin of its file where it stays as drawn."""
+        return self.copies_m or (self.at_m or (0.0, 0.0, 0.0),)
+
+    @property
+    def as_drawn(self) -> bool:
+        """Whether it stays where its file has it."""
+        return self.at_m is None and not self.copies_m
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -369,6 +495,9 @@ KINDS = {
     "block": Block,
     "plate": Plate,
     "slab": Plate,
+    "cone": Cone,
+    "prism": Prism,
+    "arch": Arch,
     "mesh": Meshed,
     "storeys": Storeys,
     "matrices": Matrices,
@@ -478,7 +607,7 @@ class Interface(Section):
     between: tuple[str, ...] = parameter(
         (),
         doc='the two bodies that touch, or a body and a ground, as in ["drum", "ground"]; '
-        "the same body twice where copies stand on one another",
+        "the same body twice where copies stand on one another, or voussoirs of an arch touch",
     )
     slave: str = parameter("", doc="instead of between: one of the two bodies")
     on: str = parameter("", doc="instead of between: the other body, or a ground")
@@ -628,6 +757,8 @@ def half_sides(body) -> tuple[float, float]:
     """
     if isinstance(body, Block):
         return body.length_m / 2, body.width_m / 2
+    if isinstance(body, Cone):
+        return body.bottom_diameter_m / 2, 0.0
     return (body.flange.outer_diameter_m if body.flange else body.outer_diameter_m) / 2, 0.0
 
 

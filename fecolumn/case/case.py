@@ -9,13 +9,16 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
+import re
 import typing
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from fecolumn.case.arch import voussoirs, with_voussoirs
 from fecolumn.case.bodies import (
     GROUND,
     KINDS,
+    Arch,
     Ground,
     Interface,
     LinkKeys,
@@ -77,6 +80,8 @@ _IDLE = ("output", "mesh")
 # Characters of a name that stand for something else in dotted keys, and in names of copies and
 # marks
 _TAKEN = set(".\"'[]/ ")
+# A name with a number, such as "arch 3": a body of several that its first word stands for
+_NUMBERED = re.compile(r"(\S+) [1-9][0-9]*")
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +90,7 @@ class Case:
 
     Tables of tables are dictionaries by the names that the user gave. own: the table of a rocking
     model, such as podium, that says what is analysed instead of bodies. short: the form of a column
-    on its base in which the case was stated.
+    on its base in which the case was stated. arches: the arches whose voussoirs are among bodies.
     """
 
     bodies: dict[str, Placed]
@@ -104,6 +109,7 @@ class Case:
     grounds: dict[str, Ground] = field(default_factory=lambda: {GROUND: Ground()})
     own: dict[str, Section] = field(default_factory=dict)
     short: ShortForm | None = field(default=None, compare=False, repr=False)
+    arches: dict[str, Arch] = field(default_factory=dict, compare=False, repr=False)
 
     def __post_init__(self):
         """Refuse sections of another kind; a section that is not that of the short form makes a
@@ -151,11 +157,20 @@ class Case:
         own = self.bodies[body].modes
         return 0 if self.integration.engine == "rigid" else self.n_modes if own is None else own
 
-    def names_of(self, body: str) -> tuple[str, ...]:
-        """Names of the copies of a body: its own where it is one."""
-        copies = self.bodies[body].copies_m
+    def names_of(self, name: str) -> tuple[str, ...]:
+        """Names of the copies of a body, its own where it is one; or of the bodies that have this
+        name and a number, such as the voussoirs of an arch.
+        """
+        if name not in self.bodies:
+            return self._numbered(name)
+        copies = self.bodies[name].copies_m
         return (
-            tuple(f"{body} {number}" for number in range(1, len(copies) + 1)) if copies else (body,)
+            tuple(f"{name} {number}" for number in range(1, len(copies) + 1)) if copies else (name,)
+        )
+
+    def _numbered(self, name: str) -> tuple[str, ...]:
+        return tuple(
+            body for body in self.bodies if (own := _NUMBERED.fullmatch(body)) and own[1] == name
         )
 
     def meant_by(self, name: str) -> tuple[str, tuple[int, ...]]:
@@ -176,7 +191,15 @@ class Case:
 
     def is_held(self, name: str) -> bool:
         """Whether `name` is a ground, or a body that a ground holds."""
-        return name in self.grounds or getattr(self.bodies[self.meant_by(name)[0]], "fixed", False)
+        return name in self.grounds or all(
+            getattr(self.bodies[body], "fixed", False) for body, _ in self.copies_of(name)
+        )
+
+    def copies_of(self, name: str) -> tuple[tuple[str, int], ...]:
+        """As `meant_by`, body and number of each copy; of "arch" those of all its voussoirs."""
+        bodies = (name not in self.bodies and self._numbered(name)) or (name,)
+        meant = (self.meant_by(body) for body in bodies)
+        return tuple((body, number) for body, numbers in meant for number in numbers)
 
     def replace(self, changes: dict | None = None, **sections) -> Case:
         """The case with other values, checked as a file's would be; sizes that followed a column
@@ -207,21 +230,37 @@ class Case:
                 tables = merge(tables, nested(key, value))
         return case_from_tables(stated(tables), "case")
 
-    def tables(self, defaults: bool = True) -> dict:
+    def tables(self, defaults: bool = True, arches: bool = True) -> dict:
         """The case as the tables of its file, in the full form, with keys at their `defaults` or
-        without.
+        without; with `arches` as they were stated, or voussoir by voussoir.
         """
         if self.own:
             return self._tables_of_model(defaults)
         found = {}
         for one in dataclasses.fields(self):
             value = getattr(self, one.name)
+            if one.name == "bodies" and arches:
+                value = self._with_arches()
             if one.name in NAMED:
                 value = {key: _stated(section, defaults) for key, section in value.items()}
             elif dataclasses.is_dataclass(value):
                 value = _stated(value, defaults)
-            if one.name not in ("own", "short") and value not in (None, {}, ""):
+            if one.name not in ("own", "short", "arches") and value not in (None, {}, ""):
                 found[one.name] = value
+        return found
+
+    def _with_arches(self) -> dict[str, Placed]:
+        """Bodies with an arch in the place of its voussoirs, where they are still those of it."""
+        found = dict(self.bodies)
+        for name, arch in self.arches.items():
+            made = voussoirs(name, arch)
+            if all(found.get(key) == body for key, body in made.items()):
+                first = next(iter(made))
+                found = {
+                    name if key == first else key: arch if key == first else body
+                    for key, body in found.items()
+                    if key == first or key not in made
+                }
         return found
 
     def _tables_of_model(self, defaults: bool) -> dict:
@@ -390,6 +429,10 @@ def structure_from_tables(tables: dict, file) -> Case:
         found[key] = tables.get(key, "")
         if not isinstance(found[key], str):
             errors.append(InputError(file, key, found[key], "must be text in quotes"))
+    try:
+        found["bodies"], found["arches"] = with_voussoirs(found["bodies"], file)
+    except InputError as error:
+        errors.append(error)
     if errors:
         raise InputError.of_several(errors)
     case = Case(**found)
@@ -456,8 +499,19 @@ def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
                 raise InputError(
                     file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys"
                 )
+            word = key
+            if name == "bodies" and (own := _NUMBERED.fullmatch(key)):
+                word = own[1]
+                if word in tables:
+                    raise InputError(
+                        file,
+                        f"{name}.{key}",
+                        None,
+                        f"must be named by another word: {name}.{word} stands beside it, and "
+                        "NAME means all of NAME 1, NAME 2 ...",
+                    )
             if name != "initial" and (
-                set(key) & _TAKEN or not key or name == "bodies" and key in grounds
+                set(word) & _TAKEN or not word or name == "bodies" and word in grounds
             ):
                 raise InputError(
                     file,
@@ -587,17 +641,19 @@ def check(case: Case, file) -> None:
         if case.is_held(link.body) and case.is_held(link.to):
             told = f'"{link.body}" and "{link.to}" are both fixed'
             refuse(f"links.{name}", None, f"must hold a body that moves: {told}")
-        if link.to not in case.grounds and len(case.meant_by(link.to)[1]) > 1:
+        if len({body for body, _ in case.copies_of(link.body)}) > 1:
+            refuse(
+                f"links.{name}.body",
+                link.body,
+                f'must be one body, such as "{case.names_of(link.body)[0]}"',
+            )
+        if link.to not in case.grounds and len(case.copies_of(link.to)) > 1:
             refuse(
                 f"links.{name}.to",
                 link.to,
                 f'must be one of its copies, such as "{case.names_of(link.to)[0]}"',
             )
-        if (
-            link.to not in case.grounds
-            and (own := case.meant_by(link.body))[0] == (other := case.meant_by(link.to))[0]
-            and other[1][0] in own[1]
-        ):
+        if link.to not in case.grounds and case.copies_of(link.to)[0] in case.copies_of(link.body):
             refuse(
                 f"links.{name}.to",
                 link.to,
@@ -606,7 +662,7 @@ def check(case: Case, file) -> None:
             )
     for name, start in case.initial.items():
         _check_name(case, f"initial.{name}", name, refuse, ground=False)
-        if getattr(case.bodies[case.meant_by(name)[0]], "fixed", False):
+        if case.is_held(name):
             refuse(f"initial.{name}", None, f'must be left out: "{name}" is fixed')
         for key in ("velocity_m_s", "spin_rad_s"):
             if len(value := getattr(start, key)) != 3:
@@ -614,9 +670,9 @@ def check(case: Case, file) -> None:
     if case.observed:
         body = case.observed.partition(".")[0]
         _check_name(case, "observed", body, refuse, ground=False)
-        if getattr(case.bodies[case.meant_by(body)[0]], "fixed", False):
+        if getattr(case.bodies[case.copies_of(body)[0][0]], "fixed", False):
             refuse("observed", case.observed, "must be a body that moves: this one is fixed")
-        if len(case.meant_by(body)[1]) > 1:
+        if len(case.copies_of(body)) > 1:
             refuse(
                 "observed",
                 case.observed,
@@ -644,10 +700,11 @@ def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
     if ground and name in case.grounds:
         return
     try:
-        case.meant_by(name)
+        case.copies_of(name)
     except KeyError:
         known = (
             list(case.grounds) * ground
+            + list(case.arches)
             + list(case.bodies)
             + [copy for body in case.bodies for copy in case.names_of(body) if copy != body]
         )

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 
 from fecolumn.case.bodies import (
+    Arch,
     Block,
     Footed,
     Matrices,
     Meshed,
     Plate,
+    Prism,
     Solid,
     Storeys,
     Stuff,
@@ -17,7 +19,11 @@ from fecolumn.case.bodies import (
     half_sides,
     rise,
 )
+from fecolumn.case.polygon import crossing, signed_area
 from fecolumn.case.sections import Material
+
+# Of the square of a polygon's longest side: less area is none
+_FLAT = 1e-9
 
 
 def material_of(body: Stuff, materials: dict[str, Material]) -> Material:
@@ -36,9 +42,9 @@ def material_of(body: Stuff, materials: dict[str, Material]) -> Material:
 
 def check_body(key: str, body, materials: dict, refuse) -> None:
     """Refuse places, materials and dimensions that cannot be."""
-    if len(body.at_m) != 3:
+    if body.at_m is not None and len(body.at_m) != 3:
         refuse(f"{key}.at_m", list(body.at_m), "must be three numbers: x, y, z")
-    if body.copies_m and any(body.at_m):
+    if body.copies_m and any(body.at_m or ()):
         refuse(
             f"{key}.copies_m",
             [list(place) for place in body.copies_m],
@@ -95,6 +101,9 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
                 'says nothing of a body of kind = "mesh", whose elements are in its file',
             )
         return
+    if isinstance(body, Prism):
+        _check_prism(key, body, refuse)
+        return
     if body.coarse_size_m is not None and body.coarse_size_m < (body.element_size_m or 0.0):
         refuse(
             f"{key}.coarse_size_m",
@@ -111,7 +120,7 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
             )
         return
     for name in ("flange", "cap"):
-        if (part := getattr(body, name)) is None:
+        if (part := getattr(body, name, None)) is None:
             continue
         side = part.outer_diameter_m if name == "flange" else min(part.length_m, part.width_m)
         if side < body.outer_diameter_m:
@@ -121,7 +130,7 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
                 f"must be at least the body's own {body.outer_diameter_m:g} m",
             )
     hole = body.outer_diameter_m - 2 * body.wall_m if isinstance(body, Tube) else 0.0
-    if body.flange and body.flange.inner_diameter_m > hole:
+    if getattr(body, "flange", None) and body.flange.inner_diameter_m > hole:
         refuse(
             f"{key}.flange.inner_diameter_m",
             body.flange.inner_diameter_m,
@@ -134,6 +143,76 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
             size,
             f"must be at most {around / 12:.4g} m: fewer than 12 elements around do not "
             "make a round body",
+        )
+
+
+def _check_prism(key: str, body: Prism, refuse) -> None:
+    if body.coarse_size_m is not None:
+        refuse(
+            f"{key}.coarse_size_m",
+            body.coarse_size_m,
+            "says nothing of a prism, whose elements are of element_size_m throughout",
+        )
+    outline, plane = body.outline_m, "x, z" if body.along == "y" else "x, y"
+    for corner in outline:
+        if len(corner) != 2:
+            refuse(
+                f"{key}.outline_m",
+                list(corner),
+                f"must be two numbers [m] for each corner: {plane}",
+            )
+    told = [list(corner) for corner in outline]
+    if len(outline) < 3:
+        refuse(f"{key}.outline_m", told, "must be at least three corners [m]")
+    for number, corner in enumerate(outline):
+        if (first := outline.index(corner)) < number:
+            refuse(
+                f"{key}.outline_m",
+                told,
+                f"must be different corners: {first + 1} and {number + 1} are both "
+                f"[{corner[0]:g}, {corner[1]:g}] m",
+            )
+    longest = max(math.dist(*sides) for sides in zip(outline, outline[1:] + outline[:1]))
+    if abs(signed_area(outline)) <= _FLAT * longest**2:
+        refuse(f"{key}.outline_m", told, "must enclose an area: its corners lie on a line")
+    if sides := crossing(outline):
+        one, other = (
+            f"from corner {side + 1} to {(side + 1) % len(outline) + 1}" for side in sides
+        )
+        refuse(
+            f"{key}.outline_m",
+            told,
+            f"must not cross or touch itself: the side {one} meets that {other}",
+        )
+
+
+def check_arch(key: str, arch: Arch, refuse) -> None:
+    """Refuse rings that cannot be; what else is wrong is so of its voussoirs."""
+    if arch.copies_m:
+        refuse(
+            f"{key}.copies_m",
+            [list(place) for place in arch.copies_m],
+            "must be left out: give each arch a name of its own",
+        )
+    if arch.thickness_m >= 2 * arch.mean_radius_m:
+        refuse(
+            f"{key}.thickness_m",
+            arch.thickness_m,
+            f"must be less than twice mean_radius_m, {2 * arch.mean_radius_m:g} m",
+        )
+    span = arch.to_deg - arch.from_deg
+    if not 0 < span < 360:
+        refuse(
+            f"{key}.to_deg",
+            arch.to_deg,
+            f"must be greater than from_deg = {arch.from_deg:g} deg, by less than 360 deg",
+        )
+    if span / arch.voussoirs / arch.arc_sides >= 90:
+        refuse(
+            f"{key}.voussoirs",
+            arch.voussoirs,
+            f"must be more, or arc_sides: a straight side spans {span / arch.voussoirs:g} deg "
+            "here, less than 90 deg make an arc",
         )
 
 

@@ -71,7 +71,7 @@ def _check_interface(case, key: str, interface, refuse) -> None:
     if not on_pad and (ground is None or ground.kind == "rigid"):
         return
     bodies = [interface.slave] + [interface.on] * (ground is None)
-    for body in (case.meant_by(one)[0] for one in bodies):
+    for body in {body: None for one in bodies for body, _ in case.copies_of(one)}:
         for one in _NOT_FLAT:
             if value := getattr(case.bodies[body], one, None):
                 refuse(

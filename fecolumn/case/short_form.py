@@ -452,6 +452,8 @@ def full_tables(form: ShortForm) -> dict:
             continue
         full = merge(full, nested(other, value))
     full["bodies"]["column"] |= {"kind": kind, "material": "column"}
+    if own:  # its foot at the origin, wherever its file has it
+        full["bodies"]["column"]["at_m"] = [0.0, 0.0, 0.0]
     ground = full["grounds"]["ground"] | {"element_size_m": form.mesh.fine_size_m}
     full["grounds"]["ground"] = {
         key: value

@@ -33,7 +33,7 @@ def full_form(case, defaults: bool = False) -> dict:
     defaults
         keys at their defaults, too.
     """
-    tables = case.tables(defaults)
+    tables = case.tables(defaults, arches=False)
     tables["joints"] = {name: _joint(table) for name, table in tables.pop("joints").items()}
     return tables
 

@@ -16,7 +16,7 @@ from scipy.sparse.csgraph import connected_components
 
 from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError
-from fecolumn.mesh.bricks import FACES, UPPER, BrickMesh, boundary_faces, brick_mesh
+from fecolumn.mesh.bricks import FACES, UPPER, BrickMesh, boundary_faces, brick_mesh, outer_faces
 from fecolumn.mesh.jacobian import corner_jacobians
 
 if TYPE_CHECKING:
@@ -45,14 +45,18 @@ _BRICK_EDGES = np.array(
 
 @dataclass(frozen=True, slots=True)
 class OwnMesh:
-    """A column's mesh and its measures: height [m]; foot: length along x and width along y of the
-    rectangle around its foot [m]; foot_edge: mean edge of the foot's faces [m].
+    """A body's mesh and its measures: height [m]; foot: length along x and width along y of the
+    rectangle around its foot [m]; foot_edge: mean edge of the foot's faces [m]; drawn_at: place
+    (3,) [m] of the foot's middle in the file; has_foot: whether it is flat, else its lowest points
+    are taken for it, and its outer faces for their edges.
     """
 
     mesh: BrickMesh
     height: float
     foot: tuple[float, float]
     foot_edge: float
+    drawn_at: tuple[float, float, float]
+    has_foot: bool
 
     @property
     def is_tetrahedral(self) -> bool:
@@ -82,9 +86,8 @@ def _count(groups) -> int:
 def own_mesh(path: str) -> OwnMesh:
     """The mesh of a file, the foot's middle shifted to the origin, all elements in the part UPPER.
 
-    The axis must be parallel to z, lengths must be in metres. The foot is what lies in the lowest
-    horizontal plane. Shells, lines and points beside the solids are left out; elements of negative
-    volume are turned.
+    z is up, lengths are in metres. The foot is what lies in the lowest horizontal plane. Shells,
+    lines and points beside the solids are left out; elements of negative volume are turned.
 
     Raises
     ------
@@ -108,6 +111,10 @@ def imported_column(case: ShortForm) -> BrickMesh:
         raise InputError(case.column.mesh_file, "column.mesh_file", value, allowed)
 
     own = own_mesh(case.column.mesh_file)
+    if not own.has_foot:
+        refuse(
+            None, "must stand on a flat foot: no element has a face in the lowest horizontal plane"
+        )
     _check_dimensions(own, case, refuse)
     if own.is_tetrahedral and case.cap:
         refuse(
@@ -125,7 +132,7 @@ def imported_column(case: ShortForm) -> BrickMesh:
     return own.mesh
 
 
-@functools.lru_cache(maxsize=2)
+@functools.lru_cache(maxsize=32)
 def _own_mesh(path: str, mesh_content: str) -> OwnMesh:
     def refuse(value, allowed):
         raise InputError(path, "column.mesh_file", value, allowed)
@@ -174,22 +181,29 @@ def _own_mesh(path: str, mesh_content: str) -> OwnMesh:
             "coordinates must be finite numbers",
         )
 
-    height = float(np.ptp(points[:, 2]))
-    points = points - [0.0, 0.0, points[:, 2].min()]
+    height, bottom = float(np.ptp(points[:, 2])), float(points[:, 2].min())
+    points = points - [0.0, 0.0, bottom]
     mesh = brick_mesh(points, cells, UPPER)
     _check_elements(mesh, height, refuse)
     faces = boundary_faces(mesh, UPPER, 0.0, 1e-6 * height)
-    if not len(faces):
-        refuse(
-            None, "must stand on a flat foot: no element has a face in the lowest horizontal plane"
-        )
-    foot = points[faces]
-    low, high = foot[:, :, :2].min(axis=(0, 1)), foot[:, :, :2].max(axis=(0, 1))
+    has_foot = len(faces) > 0
+    sides = points[faces if has_foot else outer_faces(mesh, UPPER)]
+    foot = sides.reshape(-1, 3) if has_foot else points[points[:, 2] <= 1e-6 * height]
+    low, high = foot[:, :2].min(axis=0), foot[:, :2].max(axis=0)
     middle = (low + high) / 2
     if np.abs(middle).max() > 1e-9 * height:
         mesh.points[:, :2] -= middle
-    edge = float(np.linalg.norm(foot - np.roll(foot, 1, axis=1), axis=2).mean())
-    return OwnMesh(mesh, height, tuple((high - low).tolist()), edge)
+    else:
+        middle = np.zeros(2)
+    edge = float(np.linalg.norm(sides - np.roll(sides, 1, axis=1), axis=2).mean())
+    return OwnMesh(
+        mesh,
+        height,
+        tuple((high - low).tolist()),
+        edge,
+        (float(middle[0]), float(middle[1]), bottom),
+        has_foot,
+    )
 
 
 def _read(path: Path, refuse):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case.bodies import Ground, Matrices, Meshed, Plate, Storeys
+from fecolumn.case.bodies import Cone, Ground, Matrices, Meshed, Plate, Prism, Storeys
 from fecolumn.case.sections import Cap, Flange, Material
 from fecolumn.case.short_form import Column, Heights
 from fecolumn.engines.reduced_engine import upright
@@ -139,8 +139,8 @@ def _closed_forms(drawings: dict[str, Drawing], scene) -> list[str]:
 
 def _rows(drawing: Drawing) -> list[QualityRow]:
     body = drawing.body
-    # of what is turned or has a dome there is no form but the mesh itself
-    if isinstance(body, (Matrices, Storeys)) or getattr(body, "foot_radius_m", None):
+    # of what is turned, has a dome or is none of these there is no form but the mesh itself
+    if isinstance(body, (Cone, Matrices, Prism, Storeys)) or getattr(body, "foot_radius_m", None):
         return []
     if getattr(body, "turned_deg", 0.0):
         return []

@@ -11,6 +11,7 @@ from fecolumn.case.bodies import Matrices, Storeys
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import Material
 from fecolumn.foundation.schema import InputError
+from fecolumn.mesh.imported import own_mesh
 from fecolumn.mesh.quality import mass_properties
 from fecolumn.structures.faces import Face, plane_faces
 from fecolumn.structures.feet import domed, with_balls
@@ -24,7 +25,8 @@ from fecolumn.structures.storeys import storeys_model
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
-    """A body in its own drawing, the middle of its foot at the origin.
+    """A body in its own drawing, the middle of its foot at the origin; a prism as its outline has
+    it, a mesh that stays as drawn as its file has it.
 
     key: such as "bodies.slab", for messages. body: its keys. shape: its mesh, and system: its
     matrices; one of them is None. faces: its plane faces. material: with the density that the body
@@ -102,6 +104,9 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
                 shape.mesh, points=_turned(shape.mesh.points, body.turned_deg)
             ),
         )
+    if body.as_drawn:
+        moved = shape.mesh.points + own_mesh(body.mesh_file).drawn_at
+        shape = dataclasses.replace(shape, mesh=dataclasses.replace(shape.mesh, points=moved))
     faces = plane_faces(shape.mesh)
     if getattr(body, "foot_radius_m", None):
         shape, faces = domed(body, shape, faces)

@@ -144,8 +144,7 @@ def _quoted(case, copy) -> str:
 
 
 def _copies(case, name: str) -> list[tuple[str, int]]:
-    body, numbers = case.meant_by(name)
-    return [(body, number) for number in numbers]
+    return list(case.copies_of(name))
 
 
 def place_of(case, copy: tuple[str, int]) -> np.ndarray:

@@ -1,4 +1,6 @@
-"""Meshes of single bodies, each in its own drawing: the middle of its foot at the origin, z up."""
+"""Meshes of single bodies, each in its own drawing, z up: the middle of its foot at the origin, of
+a prism the point from which its outline is measured.
+"""
 
 from __future__ import annotations
 
@@ -7,12 +9,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fecolumn.case.bodies import Block, Meshed, Plate, Storeys, Tube
+from fecolumn.case.bodies import Block, Cone, Meshed, Plate, Prism, Storeys, Tube
+from fecolumn.case.polygon import signed_area
 from fecolumn.foundation.schema import InputError
-from fecolumn.mesh.bricks import CAP, FLANGE, UPPER, BrickMesh, merged_mesh
+from fecolumn.mesh.bricks import CAP, FLANGE, UPPER, BrickMesh, brick_mesh, merged_mesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import extruded, swept_grid
 from fecolumn.mesh.imported import own_mesh
+from fecolumn.mesh.jacobian import corner_jacobians
+from fecolumn.mesh.prism import polygon_counts, prism_mesh
 from fecolumn.mesh.section import Annulus, Disc
 from fecolumn.mesh.tie import Tie, adjust, tie
 from fecolumn.structures.lines import count_at_ends, count_at_spots, fine_at_ends, fine_at_spots
@@ -62,6 +67,8 @@ def shape_of(key: str, body, file, spots=()) -> Shape:
         return _plate(body, spots)
     if isinstance(body, Block):
         return _block(body)
+    if isinstance(body, Prism):
+        return _prism(key, body, file)
     return _round(key, body, file)
 
 
@@ -75,6 +82,9 @@ def element_size(body) -> float:
         return min(
             math.sqrt(body.length_m * body.width_m) / ALONG, min(body.length_m, body.width_m) / 4
         )
+    if isinstance(body, Prism):
+        across = math.sqrt(abs(signed_area(body.outline_m)))
+        return min(math.sqrt(across * body.width_m) / ALONG, min(across, body.width_m) / 4)
     return (
         math.pi
         * (body.outer_diameter_m - (body.wall_m if isinstance(body, Tube) else 0.0))
@@ -114,13 +124,17 @@ def counts_of(key: str, body, file, spots=()) -> tuple[int, int]:
             (),
             body.element_order or 1,
         )
+    if isinstance(body, Prism):
+        order, layers = body.element_order or 1, divisions(body.width_m, size)
+        cells, nodes = polygon_counts(np.array(body.outline_m), size, order)
+        return cells * layers, nodes * (order * layers + 1)
     planes, layers = (
         _planes(body, size),
         [count_at_ends(body.height_m, size, _coarse_size(body, size))],
     )
-    if body.flange:
+    if getattr(body, "flange", None):
         layers.append(_flange_layers(body, size))
-    cap = body.cap
+    cap = getattr(body, "cap", None)
     return _counts(
         [[divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m)]]
         if cap
@@ -148,6 +162,15 @@ def _own(key: str, body: Meshed, file) -> Shape:
         raise InputError(
             file, f"{key}.mesh_file", error.value, f"{body.mesh_file}: {error.allowed}"
         ) from None
+    if not (own.has_foot or body.as_drawn):
+        placed = "copies_m" if body.copies_m else "at_m"
+        raise InputError(
+            file,
+            f"{key}.{placed}",
+            [list(place) for place in body.copies_m] or list(body.at_m),
+            "must be left out, and the body stays where its file has it: it has no flat foot, in "
+            "the lowest horizontal plane, whose middle could be moved there",
+        )
     if own.is_tetrahedral and body.element_order == 1 and body.deforms:
         raise InputError(
             file,
@@ -208,6 +231,24 @@ def _block(body: Block) -> Shape:
     return Shape(swept_grid(x, y, z, UPPER), (), body.element_order or 1, size)
 
 
+def _prism(key: str, body: Prism, file) -> Shape:
+    """A polygon extruded along y, or upwards."""
+    size, upwards = element_size(body), body.along == "z"
+    low, high = (0.0, body.width_m) if upwards else (-body.width_m / 2, body.width_m / 2)
+    levels = np.linspace(low, high, divisions(body.width_m, size) + 1)
+    mesh = prism_mesh(np.array(body.outline_m), levels, size, UPPER)
+    if not upwards:
+        mesh = brick_mesh(mesh.points[:, [0, 2, 1]], mesh.cells, UPPER)
+    if corner_jacobians(mesh).min() <= 0:
+        raise InputError(
+            file,
+            f"{key}.element_size_m",
+            body.element_size_m,
+            f"makes folded elements in this outline; {size / 2:.3g} m may do",
+        )
+    return Shape(mesh, (), body.element_order or 1, size)
+
+
 def _coarse_size(body, size: float) -> float:
     """Largest element size [m] away from the ends of a block, tube or cylinder."""
     return body.coarse_size_m or max(
@@ -226,7 +267,7 @@ def _planes(body, size: float) -> list[Annulus | Disc]:
         if wall
         else Disc(radius, n_around, divisions(radius / 2, size))
     ]
-    if body.flange:
+    if getattr(body, "flange", None):
         outer, inner = body.flange.outer_diameter_m / 2, body.flange.inner_diameter_m / 2
         n_flange = 4 * max(3, round(2 * math.pi * outer / (4 * size)))
         planes.append(
@@ -242,15 +283,19 @@ def _flange_layers(body, size: float) -> int:
 
 
 def _round(key: str, body, file) -> Shape:
-    """Tube or cylinder, on its flange and below its cap if it has them, tied; element sizes are
-    those of the body's ends.
+    """Tube, cylinder or cone, on its flange and below its cap if it has them, tied; element sizes
+    are those of the body's ends.
     """
     size = element_size(body)
+    flange, cap = getattr(body, "flange", None), getattr(body, "cap", None)
     planes = _planes(body, size)
     levels = fine_at_ends(body.height_m, size, _coarse_size(body, size))
-    seat = body.flange.thickness_m if body.flange else 0.0
-    parts, joints = [_swept(planes[0], seat + levels, UPPER, (not body.flange, not body.cap))], []
-    if body.flange:
+    seat = flange.thickness_m if flange else 0.0
+    parts, joints = (
+        [_swept(planes[0], seat + levels, UPPER, (not flange, not cap), _taper(body, levels))],
+        [],
+    )
+    if flange:
         parts.insert(
             0,
             _swept(
@@ -261,18 +306,17 @@ def _round(key: str, body, file) -> Shape:
             ),
         )
         joints.append((FLANGE, seat, f"{key}.flange, {key}.element_size_m"))
-    if body.cap:
+    if cap:
         top = seat + body.height_m
         x, y = (
             np.linspace(-side / 2, side / 2, divisions(side, size) + 1)
-            for side in (body.cap.length_m, body.cap.width_m)
+            for side in (cap.length_m, cap.width_m)
         )
         parts.append(
             swept_grid(
                 x,
                 y,
-                top
-                + np.linspace(0.0, body.cap.thickness_m, divisions(body.cap.thickness_m, size) + 1),
+                top + np.linspace(0.0, cap.thickness_m, divisions(cap.thickness_m, size) + 1),
                 CAP,
             )
         )
@@ -297,30 +341,55 @@ def _outer(plane: Annulus | Disc) -> float:
     return plane.radius if isinstance(plane, Disc) else plane.outer_radius
 
 
-def _swept(plane, levels: np.ndarray, part: int, true_ends: tuple[bool, bool]) -> BrickMesh:
-    """Bricks of a round section between levels (n,) [m].
+def _taper(body, levels: np.ndarray) -> np.ndarray:
+    """Radii (n,) of a body at levels (n,) [m] above its foot, over that of its section."""
+    if not isinstance(body, Cone):
+        return np.ones(len(levels))
+    ends = np.array([body.bottom_diameter_m, body.top_diameter_m]) / body.outer_diameter_m
+    return np.interp(levels, [0.0, body.height_m], ends)
+
+
+def _swept(
+    plane, levels: np.ndarray, part: int, true_ends: tuple[bool, bool], radii=None
+) -> BrickMesh:
+    """Bricks of a round section between levels (n,) [m], with radii (n,) over its own there.
 
     The section is a polygon. At ends that touch other bodies its corners lie on the true circles,
     since the body rolls on them; between, they lie so far outside that the volume is that of the
     circle.
     """
+    radii = np.ones(len(levels)) if radii is None else radii
     layers = len(levels) - 1
     mesh = extruded(plane, 0.0, float(layers), layers, part)
     level = np.rint(mesh.points[:, 2]).astype(int)
-    factors = np.full(len(levels), _spread(plane.equal_area, np.diff(levels), true_ends))
+    factors = radii * _spread(plane.equal_area, np.diff(levels), radii, true_ends)
     for end, true in zip((0, -1), true_ends):
         if true:
-            factors[end] = 1.0
+            factors[end] = radii[end]
     points = np.column_stack([mesh.points[:, :2] * factors[level][:, None], levels[level]])
     return replace(mesh, points=points)
 
 
-def _spread(equal_area: float, heights: np.ndarray, true_ends: tuple[bool, bool]) -> float:
+def _spread(
+    equal_area: float, heights: np.ndarray, radii: np.ndarray, true_ends: tuple[bool, bool]
+) -> float:
     """Factor s on the radii of all levels but those true ends whose factor is 1, by which the
-    volume is that of the circle.
+    volume is that of the circle, or of the frustum.
 
-    A layer of height h between factors p, q has the share h (p^2 + p q + q^2) / 3.
+    A layer of height h between radii p, q has the share h (p^2 + p q + q^2) / 3.
     """
-    ends = sum(height for height, true in zip((heights[0], heights[-1]), true_ends) if true)
-    a, b, c = heights.sum() - 2 * ends / 3, ends / 3, ends / 3 - heights.sum() * equal_area**2
+    layers = np.column_stack([heights, radii[:-1], radii[1:]])
+    ends = [
+        layer
+        for layer, true in zip((layers[0], layers[-1][[0, 2, 1]]), true_ends)
+        if true  # its own radius before the other
+    ]
+    squares = sum(height * own**2 for height, own, _ in ends)
+    crossed = sum(height * own * other for height, own, other in ends)
+    whole = (heights * ((radii[:-1] ** 2 + radii[:-1] * radii[1:] + radii[1:] ** 2) / 3)).sum()
+    a, b, c = (
+        whole - (squares + crossed) / 3,
+        crossed / 3,
+        squares / 3 - whole * equal_area**2,
+    )
     return (-b + math.sqrt(b * b - 4 * a * c)) / (2 * a)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.case.bodies import Block, Matrices, Meshed, Plate, Storeys, half_sides
+from fecolumn.case.bodies import Block, Matrices, Meshed, Plate, Prism, Storeys, half_sides
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.estimate import Estimate, Load, refuse_sizes
 from fecolumn.mesh.imported import own_mesh
@@ -48,7 +48,11 @@ def _points(case, name: str, nodes: int) -> int:
     touching = [
         one
         for one in case.joints.values()
-        if name in (one.on.rpartition(" ")[0] or one.on, one.slave.rpartition(" ")[0] or one.slave)
+        if any(
+            name in {body for body, _ in case.copies_of(end)}
+            for end in (one.slave, one.on)
+            if end not in case.grounds
+        )
     ]
     inner = [
         case.contact.interior_points if one.interior_points is None else one.interior_points
@@ -106,22 +110,29 @@ def _feet(case, ground: str) -> list[np.ndarray]:
     for one in case.joints.values():
         if one.on != ground:
             continue
-        name, numbers = case.meant_by(one.slave)
-        body = case.bodies[name]
-        if isinstance(body, Matrices):
-            continue
-        low, high = _plan(body)
-        corners = np.array([[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])])
-        found += [corners + np.array(body.places[number]) for number in numbers]
+        for name, number in case.copies_of(one.slave):
+            body = case.bodies[name]
+            if isinstance(body, Matrices):
+                continue
+            low, high = _plan(body)
+            corners = np.array([[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])])
+            found.append(corners + np.array(body.places[number]))
     return found
 
 
 def _plan(body) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest corner (2,) [m] of a foot."""
     if isinstance(body, Meshed):
-        points = own_mesh(body.mesh_file).mesh.points
+        own = own_mesh(body.mesh_file)
+        points = own.mesh.points + (own.drawn_at if body.as_drawn else np.zeros(3))
         foot = points[points[:, 2] < points[:, 2].min() + 1e-6 * np.ptp(points[:, 2]), :2]
         return foot.min(axis=0), foot.max(axis=0)
+    if isinstance(body, Prism):
+        outline, half = np.array(body.outline_m), body.width_m / 2
+        if body.along == "z":
+            return outline.min(axis=0), outline.max(axis=0)
+        foot = outline[outline[:, 1] < outline[:, 1].min() + 1e-6 * np.ptp(outline[:, 1]), 0]
+        return np.array([foot.min(), -half]), np.array([foot.max(), half])
     if isinstance(body, (Plate, Storeys)):
         half = np.array([body.length_m, body.width_m]) / 2
     else:
@@ -181,6 +192,8 @@ def _largest(body) -> float:
     """The largest element size [m] that a body takes, as `check_keys.check_body` says."""
     if isinstance(body, Block):
         return min(body.length_m, body.width_m)
+    if isinstance(body, Prism):
+        return max(body.width_m, float(np.ptp(body.outline_m, axis=0).max()))
     return (
         max(body.length_m, body.width_m)
         if isinstance(body, (Plate, Storeys))

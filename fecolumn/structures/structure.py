@@ -110,6 +110,8 @@ def _made_of(case, name: str) -> dict:
         if not isinstance(body, Storeys):
             del material["damping_ratio"]
         table["material"] = material
+    if body.as_drawn:
+        table["as_drawn"] = True
     return table | {"modes": max(case.modes_of(name), KEPT_MODES)}
 
 
@@ -279,11 +281,10 @@ def _held_by(case, name: str) -> int:
 
 
 def _starts(case) -> dict[tuple[str, int], Initial]:
-    """Start of each copy that has one; "column 2" goes before "column"."""
+    """Start of each copy that has one; "column 2" goes before "column", "arch 2" before "arch"."""
     found = {}
-    for name in sorted(case.initial, key=lambda one: one not in case.bodies):
-        body, numbers = case.meant_by(name)
-        found |= {(body, number): case.initial[name] for number in numbers}
+    for name in sorted(case.initial, key=lambda one: -len(case.copies_of(one))):
+        found |= dict.fromkeys(case.copies_of(name), case.initial[name])
     return found
 
 

@@ -13,6 +13,7 @@ from fecolumn.case.sizes import sized
 from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.estimate import body_counts
+from fecolumn.mesh.imported import own_mesh
 from fecolumn.mesh.specimen import body_mesh
 
 
@@ -44,6 +45,10 @@ def built_of(body) -> Built:
         a mesh of one's own cannot be read.
     """
     if isinstance(body, Meshed):
+        if not own_mesh(body.mesh_file).has_foot:
+            raise InputError(
+                body.mesh_file, "cap", None, "must be left out of a mesh without a flat foot"
+            )
         column = Column(mesh_file=body.mesh_file)
     elif isinstance(body, Block):
         column = Column(

@@ -2,11 +2,13 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import trapezoid
 from scipy.spatial import cKDTree
 from small_structures import BLOCK, STONE, block, frame, structure
 
 from fecolumn.contact.rim import Rim
 from fecolumn.fem.modes import elastic_modes
+from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
 from fecolumn.structures.bodies import drawing
 from fecolumn.structures.faces import apart_from_side
@@ -277,3 +279,40 @@ def test_labels_of_a_picture_stand_on_the_side_of_what_they_name():
     named = {text: tuple(np.round(point, 6)) for text, point, _, _ in labels}
     # a tendon in a column is named beside the column's name
     assert len(set(named.values())) == len(labels)
+
+
+@pytest.mark.parametrize("bottom, top", [(0.5, 0.5), (0.5, 0.35), (0.3, 0.8)])
+def test_cone_has_the_mass_centre_and_feet_of_the_frustum(bottom, top):
+    height = 1.2
+    mass, center, inertia, model = _masses(
+        kind="cone", bottom_diameter_m=2 * bottom, top_diameter_m=2 * top, height_m=height
+    )
+    z = np.linspace(0, height, 20001)
+    radius = bottom + (top - bottom) * z / height
+    exact = 2700 * np.pi * height * (bottom**2 + bottom * top + top**2) / 3
+    middle = 2700 * np.pi * trapezoid(radius**2 * z, z) / exact
+    about = 2700 * np.pi * trapezoid(radius**4 / 4 + radius**2 * (z - middle) ** 2, z)
+    assert mass == pytest.approx(exact, rel=1e-12)
+    assert center == pytest.approx([0, 0, middle], abs=1e-3 * height)
+    assert np.diag(inertia) == pytest.approx(
+        [about, about, 2700 * np.pi * trapezoid(radius**4 / 2, z)], rel=3e-3
+    )
+    foot = model.surfaces["foot"]
+    assert Rim.find(foot.plane(model.arms[foot.nodes])).radius == pytest.approx(bottom, rel=1e-10)
+
+
+def test_cones_stand_on_one_another_with_round_rims_that_fit():
+    drum = dict(kind="cone", height_m=0.5, rigid=True) | STONE
+    case = structure(
+        bodies=dict(
+            low=drum | dict(bottom_diameter_m=0.6, top_diameter_m=0.5),
+            up=drum | dict(bottom_diameter_m=0.5, top_diameter_m=0.4, at_m=[0, 0, 0.5]),
+        ),
+        joints=dict(foot=dict(between=["low", "ground"]), bed=dict(between=["low", "up"])),
+    )
+    joints = structure_model(case).joints
+    assert [joint.round for joint in joints if joint.pair < 0] == [True, True]
+    with pytest.raises(InputError, match="top_diameter_m = 0.0: must be greater than 0"):
+        case.replace({"bodies.up.top_diameter_m": 0.0})
+    with pytest.raises(InputError, match="element_size_m.*fewer than 12 elements around"):
+        case.replace({"bodies.up.element_size_m": 0.2})

@@ -5,13 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 _FOLDER = Path(__file__).parent
-#: What each kind of column is, by its name.
+#: What each kind is, by its name.
 KINDS = {
     "tube": "steel tube with a cap plate",
     "solid": "marble cylinder",
     "block": "marble block",
     "mesh": "mesh of your own (an Abaqus .inp is given)",
+    "arch": "stone arch of eleven voussoirs",
 }
+
+# Files of a kind and their templates, where they are other than those of the first ones
+_OTHERS = {"mesh": {"column.inp": "column.inp"}, "arch": {"study.toml": "arch_study.toml"}}
 
 
 def add_arguments(parser) -> None:
@@ -51,13 +55,11 @@ def main(args) -> int:
 
 
 def write(kind: str, folder) -> list[Path]:
-    """Write the files of a kind of column into a folder; as of `main`."""
+    """Write the files of a kind into a folder; as of `main`."""
     from fecolumn.foundation.schema import InputError
 
     folder = Path(folder)
-    contents = {"case.toml": f"{kind}.toml", "study.toml": "study.toml"} | (
-        {"column.inp": "column.inp"} if kind == "mesh" else {}
-    )
+    contents = {"case.toml": f"{kind}.toml", "study.toml": "study.toml"} | _OTHERS.get(kind, {})
     for name in contents:
         if (folder / name).exists() or (folder / name).is_symlink():
             raise InputError(

@@ -95,10 +95,10 @@ class _Reader:
                     f"must be 0 where integration.engine = {self.engine!r}; it starts from "
                     "tilt_rad",
                 )
-            body, numbers = self.case.meant_by(key)
-            if body == slab and one.tilt_rad:
+            copies = self.case.copies_of(key)
+            if any(body == slab for body, _ in copies) and one.tilt_rad:
                 self._lacks(f'starts upright, and "{key}" is what stands on the columns')
-            found |= {number: one for number in numbers if body == name}
+            found |= {number: one for body, number in copies if body == name}
         starts = {(one.tilt_rad, one.direction_deg) for one in found.values()}
         if found and len(found) < len(self.case.bodies[name].places):
             starts.add((0.0, 0.0))
@@ -140,11 +140,11 @@ class _Reader:
         """Pairs of bodies, or a body and the ground, between which there are interfaces."""
         pairs = set()
         for interface in self.case.joints.values():
-            own, other = (
-                one if one == keys.GROUND else self.case.meant_by(one)[0]
+            own, others = (
+                {one} if one == keys.GROUND else {body for body, _ in self.case.copies_of(one)}
                 for one in (interface.slave, interface.on)
             )
-            pairs |= {(own, other), (other, own)}
+            pairs |= {pair for a in own for b in others for pair in ((a, b), (b, a))}
         return pairs
 
     def _alone(self) -> str:
@@ -221,7 +221,9 @@ class _Reader:
     def _friction(self, name: str) -> float:
         """Coefficient of friction between a body and the ground."""
         for interface in self.case.joints.values():
-            if interface.on == keys.GROUND and self.case.meant_by(interface.slave)[0] == name:
+            if interface.on == keys.GROUND and name in {
+                body for body, _ in self.case.copies_of(interface.slave)
+            }:
                 own = interface.friction_coefficient
                 return self.case.contact.friction_coefficient if own is None else own
         return self.case.contact.friction_coefficient
@@ -238,25 +240,29 @@ def rigid_body(case, name: str, file) -> RigidColumn:
     Raises
     ------
     InputError
-        a body of matrices, whose shape is not known.
+        a body of matrices, whose shape is not known; a prism or a cone, which no model is of.
     """
     from fecolumn.mesh.imported import own_mesh
     from fecolumn.mesh.quality import box_properties, mass_properties, ring_properties
 
     body, is_round = case.bodies[name], False
-    if isinstance(body, keys.Matrices):
+    if isinstance(body, (keys.Matrices, keys.Prism, keys.Cone)):
         raise InputError(
             file,
             f"bodies.{name}.kind",
             body.kind,
-            f"has no foot that is known; integration.engine = {case.integration.engine!r} needs "
-            "a body of another kind",
+            f"is no body of a model; integration.engine = {case.integration.engine!r} needs one of "
+            "another kind, whose foot is known",
         )
     density = material_of(body, case.materials).density_kg_m3
     flange, cap = getattr(body, "flange", None), getattr(body, "cap", None)
     seat = flange.thickness_m if flange else 0.0
     if isinstance(body, keys.Meshed):
         own = own_mesh(body.mesh_file)
+        if not own.has_foot:
+            raise InputError(
+                file, f"bodies.{name}.mesh_file", body.mesh_file, "has no flat foot to rock on"
+            )
         found, extent, top = mass_properties(own.mesh, density), own.foot, own.height
     elif isinstance(body, (keys.Tube, keys.Cylinder)):
         is_round, outer = True, body.outer_diameter_m / 2
