@@ -680,8 +680,8 @@ class LinkKeys(Section):
     body: str = parameter(doc="body at one end")
     point_m: tuple[float, ...] = parameter(
         (0.0, 0.0, 0.0),
-        doc="point [x, y, z] of that body, from the middle of its foot; of a prism from its at_m, of "
-        "a mesh that stays as drawn as its file has it",
+        doc="point [x, y, z] of that body, from the middle of its foot; of a prism from its at_m, "
+        "of a mesh that stays as drawn as its file has it",
         unit="m",
         low=-1e4,
         high=1e4,
