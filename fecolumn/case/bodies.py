@@ -705,15 +705,16 @@ class LinkKeys(Section):
     body: str = parameter(doc="body at one end")
     point_m: tuple[float, ...] = parameter(
         (0.0, 0.0, 0.0),
-        doc="point [x, y, z] of that body, from the middle of its foot",
+        doc="point [x, y, z] of that body, from the middle of its foot; of a prism from its at_m, "
+        "of a mesh that stays as drawn as its file has it",
         unit="m",
         low=-1e4,
         high=1e4,
     )
     to: str = parameter(GROUND, doc="body at the other end, or a ground")
     to_point_m: tuple[float, ...] = parameter(
-        doc="point [x, y, z] of the other end at the start, from the middle of the foot of "
-        "`body` as well, so that it holds for each copy",
+        doc="point [x, y, z] of the other end at the start, from the same place of "
+        "`body` as point_m, so that it holds for each copy",
         unit="m",
         low=-1e4,
         high=1e4,
