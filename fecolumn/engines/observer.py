@@ -100,15 +100,29 @@ class Observer:
         normal = np.bincount(
             interface.points["interface"], np.maximum(forces[:, 2], 0.0), len(poses)
         )
-        for joint, pose, foot, first, force in zip(
-            structure.joints, poses, self._feet, self._normals, normal
+        turned, rows = poses["frame"], interface.points["interface"]
+        along = np.einsum("pac,pc->pa", turned[rows], forces * carries[:, None])
+        level = state.relative * [1.0, 1.0, 0.0]
+        pressed = np.einsum("pac,pc->pa", turned[rows], level) * np.maximum(forces[:, 2:], 0.0)
+        resultants, centers = np.zeros((2, len(poses), 3))
+        np.add.at(resultants, rows, along)
+        np.add.at(centers, rows, pressed)
+        loaded = normal > 0
+        centers[loaded] = poses["origin"][loaded] + centers[loaded] / normal[loaded, None]
+        for joint, pose, foot, first, force, resultant, center in zip(
+            structure.joints, poses, self._feet, self._normals, normal, resultants, centers
         ):
             now, risen = pose["turned"][SLAVE, 2], pose["foot"] - foot
             tilt = float(np.arctan2(np.linalg.norm(np.cross(now, first)), now @ first))
             row |= {
                 f"interface/{joint.name}/{name}": value
                 for name, value in dict(
-                    tilt=tilt, rise=float(risen[2]), slide=risen[:2], force=float(force)
+                    tilt=tilt,
+                    rise=float(risen[2]),
+                    slide=risen[:2],
+                    force=float(force),
+                    resultant=resultant,
+                    center=center,
                 ).items()
             }
         for link, held, tie in zip(

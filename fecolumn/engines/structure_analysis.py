@@ -192,9 +192,11 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
     "body/NAME/displacement" of the centre of mass [m], "body/NAME/tilt" [rad] and
     "body/NAME/rotation", the rotation vector [rad] from where the body stood upright;
     "interface/NAME/tilt" of the slave from the master [rad], "rise" of the middle of its foot [m],
-    "slide" along two tangents [m], normal "force" [N]; "mark/NAME.MARK/displacement" [m];
-    "link/NAME/tension" [N], "elongation" from its unstressed length and the part of it that has
-    "yielded" [m], "work" that it has taken [J], whether it is "broken"; "storey/NAME N/drift" [m]
+    "slide" along two tangents [m], normal "force" [N], "resultant" of the forces on the slave [N]
+    and "center" of pressure [m] in the table frame, 0 where nothing carries;
+    "mark/NAME.MARK/displacement" [m]; "link/NAME/tension" [N], "elongation" from its unstressed
+    length and the part of it that has "yielded" [m], "work" that it has taken [J], whether it is
+    "broken"; "storey/NAME N/drift" [m]
     along x and y of the table, "shear" [N], its elastic part.
     """
     names = [(name, count) for name, count in COLUMNS]
@@ -238,12 +240,21 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
 
 def of_both_sides(columns: dict, structure: StructureModel) -> dict:
     """Columns by name with one interface for each joint with two sides: its force is that of
-    both.
+    both, and so are its resultant and its centre of pressure.
     """
     for joint in structure.joints:
         if joint.pair >= 0:
-            force = f"interface/{structure.joints[joint.pair].name}/force"
-            columns[force] = columns[force] + columns[f"interface/{joint.name}/force"]
+            own = f"interface/{structure.joints[joint.pair].name}/"
+            other = f"interface/{joint.name}/"
+            forces = [np.asarray(columns[f"{one}force"]) for one in (own, other)]
+            total = forces[0] + forces[1]
+            weighed = sum(
+                force[..., None] * columns[f"{one}center"]
+                for force, one in zip(forces, (own, other))
+            )
+            columns[f"{own}force"] = total if total.ndim else float(total)
+            columns[f"{own}resultant"] = columns[f"{own}resultant"] - columns[f"{other}resultant"]
+            columns[f"{own}center"] = weighed / np.where(total > 0, total, 1.0)[..., None]
             for name, _ in OF_INTERFACE:
                 del columns[f"interface/{joint.name}/{name}"]
     return columns

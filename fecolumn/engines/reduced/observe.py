@@ -69,13 +69,14 @@ MARK = record(("body", "i8"), ("arm", "f8", 3))
 #: Columns of a row beside COLUMNS, of a structure of many bodies: of each body displacement of its
 #: centre of mass [m], tilt [rad] and rotation vector [rad]; of each interface tilt of the slave
 #: from the master [rad], rise of the middle of its foot and its slide along two tangents [m],
-#: normal force [N]; of each mark its displacement [m]; of each link tension [N], elongation from
-#: its
-#: unstressed length and the part of it that has yielded [m], energy that it has taken [J], whether
+#: normal force [N], resultant of all forces on the slave [N] and centre of pressure [m], both in
+#: the table frame and 0 where nothing carries; of each mark its displacement [m]; of each link
+#: tension [N], elongation from its unstressed length and the part of it that has yielded [m],
+#: energy that it has taken [J], whether
 #: it is broken.
 OF_BODY, OF_INTERFACE, OF_MARK = (
     (("displacement", 3), ("tilt", 1), ("rotation", 3)),
-    (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1)),
+    (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1), ("resultant", 3), ("center", 3)),
     (("displacement", 3),),
 )
 OF_LINK = (("tension", 1), ("elongation", 1), ("yielded", 1), ("work", 1), ("broken", 1))
@@ -83,10 +84,13 @@ OF_LINK = (("tension", 1), ("elongation", 1), ("yielded", 1), ("work", 1), ("bro
 PER_BODY, _N_INTERFACE, _N_MARK, _N_LINK = (
     sum(count for _, count in columns) for columns in (OF_BODY, OF_INTERFACE, OF_MARK, OF_LINK)
 )
-_BODY_TILT, _TURN, _RISE, _SHIFT, _NORMAL = (
+_BODY_TILT, _TURN, _RISE, _SHIFT, _NORMAL, _RESULTANT, _CENTER = (
     column_index("tilt", OF_BODY),
     column_index("rotation", OF_BODY),
-    *(column_index(name, OF_INTERFACE) for name in ("rise", "slide", "force")),
+    *(
+        column_index(name, OF_INTERFACE)
+        for name in ("rise", "slide", "force", "resultant", "center")
+    ),
 )
 
 
@@ -217,9 +221,7 @@ def _observe_all(structure, points, poses, eye, motion, row):
         for a in range(2):
             row[place + _SHIFT + a] = foot[a] - eye.feet[k, a]
         place += _N_INTERFACE
-    for i in range(len(points)):
-        if motion.contact[i].force[2] > 0:
-            row[first + _N_INTERFACE * points[i].interface + _NORMAL] += motion.contact[i].force[2]
+    _observe_forces(structure, points, poses, motion, row[first:place])
     for n in range(len(eye.marks)):
         _displace(
             eye.marks[n].body, eye.marks[n].arm, eye.shapes[n], eye.center, motion, 3, row, place
@@ -234,6 +236,26 @@ def _observe_all(structure, points, poses, eye, motion, row):
         )
         row[place + 3], row[place + 4] = tie.work, tie.broken
         place += _N_LINK
+
+
+@njit
+def _observe_forces(structure, points, poses, motion, row):
+    """Add forces and centres of pressure to what a row has of interfaces."""
+    for i in range(len(points)):
+        force, place = motion.contact[i].force, motion.contact[i].relative
+        if not force[2] > 0:
+            continue
+        k = points[i].interface
+        own, Q = row[_N_INTERFACE * k : _N_INTERFACE * (k + 1)], poses[k].frame
+        own[_NORMAL] += force[2]
+        for a in range(3):
+            own[_RESULTANT + a] += Q[a, 0] * force[0] + Q[a, 1] * force[1] + Q[a, 2] * force[2]
+            own[_CENTER + a] += force[2] * (Q[a, 0] * place[0] + Q[a, 1] * place[1])
+    for k in range(len(structure.interfaces)):
+        own = row[_N_INTERFACE * k : _N_INTERFACE * (k + 1)]
+        if own[_NORMAL] > 0:
+            for a in range(3):
+                own[_CENTER + a] = poses[k].origin[a] + own[_CENTER + a] / own[_NORMAL]
 
 
 @njit
