@@ -16,6 +16,8 @@ _WIDTH_MM, _HEIGHT_MM, _LABELS_MM, _DPI = 120.0, 120.0, 62.0, 200
 # Over the structure's width: margin of the ground around it, and half of the middle part, from
 # which a label may go to either side
 _MARGIN, _MIDDLE = 0.15, 0.1
+# Height of a line of labels
+_LINE_MM = 3.6
 # Where on a link its name points, from its first end [-]
 _ON_LINK = 0.3
 
@@ -79,7 +81,20 @@ def structure_picture(scene, structure, path) -> Path:
         interpolation="antialiased",
         aspect="auto",
     )
-    labels = _labels(structure, right, centre[0], half[0])
+    labels, numbers = _fitted(
+        _labels(structure, right, centre[0], half[0]), int(millimetres[1] / _LINE_MM) - 1
+    )
+    for number, point in numbers:
+        axes.text(
+            point @ right,
+            point @ up,
+            number,
+            fontsize=5.5,
+            ha="center",
+            va="center",
+            zorder=5,
+            bbox=dict(facecolor="white", edgecolor="none", pad=0.6, alpha=0.75),
+        )
     for side in ("left", "right"):
         _write(
             axes,
@@ -145,8 +160,32 @@ def _labels(structure, along: np.ndarray, middle: float, width: float) -> list:
     return labels + [
         (joint.name, point, _JOINT, side(point, "right"))
         for joint in structure.joints
+        if joint.pair < 0  # the other side of a joint is where this is
         for point in [_meeting_point(structure, joint)]
     ]
+
+
+def _fitted(labels: list, most: int) -> tuple[list, list]:
+    """Labels, and numbers (text, point) to stand on bodies: where there are more than `most` labels
+    on a side, one is for all bodies or interfaces of a name, with their count.
+    """
+    sides = [side for _, _, _, side in labels]
+    if max(sides.count("left"), sides.count("right")) <= most:
+        return labels, []
+    named: dict[tuple, list] = {}
+    numbers = []
+    for text, point, colour, side in labels:
+        name, _, number = text.rpartition(" ")
+        if colour == _EDGE and number.isdigit():
+            numbers.append((number, point))
+            text = name
+        elif colour == _JOINT:
+            text = text.partition(":")[0]
+        named.setdefault((text, colour), []).append((point, side))
+    return [
+        (f"{text} ({len(own)})" if len(own) > 1 else text, own[0][0], colour, own[0][1])
+        for (text, colour), own in named.items()
+    ], numbers
 
 
 def _meeting_point(structure, joint) -> np.ndarray:
@@ -166,7 +205,7 @@ def _write(axes, labels, view_axes, centre, half, millimetres, side) -> None:
     right, up = view_axes
     where = np.array([[point @ right, point @ up] for _, point, _, _ in labels])
     order = np.argsort(-where[:, 1])
-    line = 3.6 * 2 * half[1] / millimetres[1]  # data units of 3.6 mm
+    line = _LINE_MM * 2 * half[1] / millimetres[1]
     heights = where[order, 1].copy()
     for k in range(1, len(heights)):
         heights[k] = min(heights[k], heights[k - 1] - line)
@@ -185,7 +224,14 @@ def _write(axes, labels, view_axes, centre, half, millimetres, side) -> None:
             va="center",
             annotation_clip=False,
             ha="right" if side == "left" else "left",
-            arrowprops=dict(arrowstyle="-", color=colour, linewidth=0.7, shrinkA=1, shrinkB=0),
+            arrowprops=dict(
+                arrowstyle="-",
+                color=colour,
+                linewidth=0.7,
+                shrinkA=1,
+                shrinkB=0,
+                relpos=(1 if side == "left" else 0, 0.5),
+            ),
         )
         axes.plot(*where[place], "o", markersize=2.2, color=colour, clip_on=False)
 

@@ -281,6 +281,18 @@ def test_labels_of_a_picture_stand_on_the_side_of_what_they_name():
     assert len(set(named.values())) == len(labels)
 
 
+def test_labels_that_do_not_fit_beside_a_picture_are_counted_and_bodies_numbered():
+    from fecolumn.structures.picture import _fitted, _labels
+    from fecolumn.structures.structure import structure_model
+
+    labels = _labels(structure_model(structure(**frame())), np.array([1.0, 0, 0]), 0.0, 2.0)
+    assert _fitted(labels, len(labels)) == (labels, [])
+    few, numbers = _fitted(labels, 3)
+    texts = {text for text, *_ in few}
+    assert texts >= {"column (4)", "slab"} and len(few) == 4
+    assert [number for number, _ in numbers] == ["1", "2", "3", "4"]
+
+
 @pytest.mark.parametrize("bottom, top", [(0.5, 0.5), (0.5, 0.35), (0.3, 0.8)])
 def test_cone_has_the_mass_centre_and_feet_of_the_frustum(bottom, top):
     height = 1.2
