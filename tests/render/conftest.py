@@ -26,3 +26,9 @@ def building(tmp_path_factory):
     return rocking_structures.analysed(
         tmp_path_factory.mktemp("building") / "run", rocking_structures.BUILDING
     )
+
+
+@pytest.fixture(scope="session")
+def arch(tmp_path_factory):
+    """An arch that a push opens into four hinges, from rest."""
+    return rocking_structures.pushed_arch(tmp_path_factory.mktemp("arch") / "run")

@@ -84,3 +84,34 @@ def analysed(folder, *tables):
     """Result folder of a case."""
     run(case_of(*tables), folder, quiet=True)
     return folder
+
+
+# Semicircular arch of 0.15 R, which becomes a mechanism at 0.159858 g
+ARCH = dict(
+    bodies=dict(
+        arch=dict(
+            kind="arch",
+            mean_radius_m=1.0,
+            thickness_m=0.15,
+            width_m=0.5,
+            voussoirs=11,
+            density_kg_m3=2400.0,
+            element_size_m=1.0,
+        )
+    ),
+    joints=dict(ring=dict(between=["arch", "arch"]), feet=dict(between=["arch", "ground"])),
+    contact=dict(friction_coefficient=0.7, interior_points=0),
+    integration=dict(engine="rigid", dt_s=1e-3, duration_s=1.0, start="rest"),
+    output=dict(states_every_s=0.04),
+)
+# Share of its mechanism's acceleration that pushes the arch, from 0.1 s on
+PUSH = 1.3
+
+
+def pushed_arch(folder):
+    """Result folder of an arch at rest that is pushed until four hinges open."""
+    push = folder.with_suffix(".csv")
+    times = [0.05 * k for k in range(21)]
+    rows = [f"{time:.2f},{PUSH * 0.159858 * min(time / 0.1, 1):.6f}" for time in times]
+    push.write_text("\n".join(["time [s],ax [g]", *rows]) + "\n")
+    return analysed(folder, ARCH, dict(motion=dict(source=str(push))))

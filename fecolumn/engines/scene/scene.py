@@ -85,6 +85,10 @@ class JointFace:
     origin, axes
         (3,) [m] and (3, 3): a point of the face, two tangents and the normal out of the slave, in
         columns, as it stands upright; of a level face the tangents are x and y.
+    joint
+        its name in the history.
+    pair
+        number of the contact whose other side this is, -1 of none.
     """
 
     interface: str
@@ -96,6 +100,8 @@ class JointFace:
     axes: np.ndarray
     domed: bool = False
     ground: int = 0
+    joint: str = ""
+    pair: int = -1
 
     @property
     def on_ground(self) -> bool:

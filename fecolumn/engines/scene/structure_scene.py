@@ -228,6 +228,8 @@ def _contact(joint, shown: _Shown, part, first: np.ndarray) -> JointFace:
         axes,
         domed,
         joint.ground,
+        joint.name,
+        joint.pair,
     )
 
 

@@ -15,6 +15,8 @@ VIEWS = {
     "foot": (-62.0, 16.0),
     "plan": (-90.0, 90.0),
 }
+#: Views that may be taken from the level.
+LEVEL = ("lean", "front", "side")
 # Free margin around what moves [-]
 _MARGIN = 1.06
 
@@ -34,7 +36,7 @@ class Camera:
     natural: float
 
 
-def camera(result, view: str, times: np.ndarray, aspect: float = 1.0) -> Camera:
+def camera(result, view: str, times: np.ndarray, aspect: float = 1.0, below: float = 0.0) -> Camera:
     """The camera of a view that shows the column, or the structure, at all `times` [s], on pictures
     `aspect` times as wide as high.
 
@@ -42,8 +44,13 @@ def camera(result, view: str, times: np.ndarray, aspect: float = 1.0) -> Camera:
     ----------
     result
         Result.
+    below
+        room [m] for arrows below all else; where there is some, the views LEVEL look along the
+        level, so that what is in the middle of a wall is seen over its face where it is.
     """
     azimuth, elevation = VIEWS[view]
+    if below and view in LEVEL:
+        elevation = 0.0
     azimuth, elevation = (
         np.radians(_across_lean(result, times) if azimuth is None else azimuth),
         np.radians(elevation),
@@ -58,6 +65,8 @@ def camera(result, view: str, times: np.ndarray, aspect: float = 1.0) -> Camera:
     right = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
     up = np.cross(toward, right)
     shown = result.shown(view, times)
+    if below:
+        shown = np.concatenate([shown, shown - [0.0, 0.0, below]])
     extents = [(shown @ axis).min() + np.array([0.0, np.ptp(shown @ axis)]) for axis in (right, up)]
     middle = [extent.mean() for extent in extents]
     half = [np.ptp(extent) / 2 for extent in extents]

@@ -10,6 +10,8 @@ import numpy as np
 from fecolumn.pictures.figures.style import BLACK, VERMILION
 from fecolumn.pictures.render.camera import Camera
 from fecolumn.pictures.render.frame import Frame
+from fecolumn.pictures.render.overlay import Overlay, alike
+from fecolumn.pictures.render.sharp_edges import sharp_edges
 
 if TYPE_CHECKING:
     from fecolumn.pictures.render.frames import Frames
@@ -22,6 +24,8 @@ _BASE, _EDGE = "#d9dbd6", "#4a4f54"
 _PATH_POINTS = 2000
 # Of links, and of bodies that have no stress
 _LINK, _RIGID = "#1f4e79", "#b9bfc4"
+# Of all bodies where nothing colours them
+_PLAIN = "#dcd6c8"
 # Of a quick scene: how much finer it is drawn; what is not seen to move [pixels], and to change its
 # colour, of all colours [-]
 _FINER, _UNSEEN, _ALIKE = 1.5, 0.1, 1 / 256
@@ -80,18 +84,37 @@ class Canvas:
             for name, colour in (("links", _LINK), ("struts", _EDGE))
             if getattr(first, name) is not None
         ]
+        self._outlines = None
+        if not frames.coloured:
+            self._edges = frames.scene.surface.nodes[
+                sharp_edges(
+                    frames.scene.points[frames.scene.surface.nodes], frames.scene.surface.faces
+                )
+            ]
+            self._outlines = self._add_lines(self._lifted(first.points[self._edges]), BLACK, 2.0)
         self._trace = (
-            pyvista.lines_from_points(np.array(self._path)) if len(self._path) > 1 else None
+            pyvista.lines_from_points(np.array(self._path))
+            if len(self._path) > 1 and first.thrust is None
+            else None
         )
         if self._trace is not None:
             self._plotter.add_mesh(
                 self._trace, color=VERMILION, line_width=1.6 * self._line_width, lighting=False
             )
         # where the feet stood before they moved
-        self._add_lines(
-            frames.scene.outlines + camera.toward * _LIFT * 2 * camera.half_height, BLACK, 1.2
-        )
+        self._add_lines(self._lifted(frames.scene.outlines), BLACK, 1.2)
+        self._overlay = first.thrust and Overlay(self._plotter, frames, camera, first.thrust)
         self._light_and_look()
+
+    @property
+    def legend(self) -> float:
+        """Force [N] whose arrow is as long as the image is high; 0 where none are drawn."""
+        forces = self._frames.forces
+        return 2 * self._camera.half_height / forces.scale if forces else 0.0
+
+    def _lifted(self, points: np.ndarray) -> np.ndarray:
+        """Points (..., 3) [m] a little before the face that they lie on."""
+        return points + self._camera.toward * _LIFT * 2 * self._camera.half_height
 
     def _add_lines(self, ends, color, width):
         """Straight lines with ends (n, 2, 3) [m]."""
@@ -110,6 +133,10 @@ class Canvas:
         """A surface coloured by values of its faces or of its points."""
         mesh = _mesh_of(surface, frame)
         quantity = self._frames.colour_quantity
+        if not self._frames.coloured:
+            look = self._bricks() | dict(show_edges=False)
+            self._plotter.add_mesh(mesh, color=_PLAIN, **look)
+            return mesh
         self._coloured(mesh)["colour"] = np.asarray(colour, np.float32)
         # the edges of bricks show how the column turns about its axis
         self._plotter.add_mesh(
@@ -152,6 +179,9 @@ class Canvas:
                 j_resolution=max(1, round(sides[1] / square)),
             )
             self._plotter.add_mesh(plane, **look)
+            if self._frames.forces:  # a plane is not seen along the level
+                around = np.array([low, [high[0], low[1], low[2]], high, [low[0], high[1], low[2]]])
+                self._add_lines(np.stack([around, np.roll(around, -1, axis=0)], axis=1), _EDGE, 2.0)
         surface = self._frames.scene.base
         if surface is None:
             return None
@@ -188,8 +218,8 @@ class Canvas:
 
     def image(self, frame: Frame) -> np.ndarray:
         """(height, width, 3) pixels of a frame."""
-        if self._quick and self._last is not None and self._looks_like(*self._last[:2], frame):
-            return self._last[2]
+        if self._quick and self._last is not None and self._looks_like(*self._last[0], frame):
+            return self._last[1]
         scene = self._frames.scene
         self._move(self._bodies, frame.points[scene.surface.nodes], frame.colour)
         if self._base is not None and self._frames.from_fields:
@@ -201,16 +231,21 @@ class Canvas:
             points = self._path.copy()
             points[done:] = points[done - 1]
             self._trace.points = points
+        if self._outlines is not None:
+            lifted = self._lifted(frame.points[self._edges])
+            self._outlines.points = np.asarray(lifted, np.float32).reshape(-1, 3)
+        if self._overlay:
+            self._overlay.move(frame.thrust)
         self._plotter.render()
         image = self._plotter.screenshot(None, return_img=True)
         if self._quick:
             from PIL import Image
 
             image = np.asarray(Image.fromarray(image).resize(self._size, Image.Resampling.BOX))
-        self._last = frame.points, frame.colour, image
+        self._last = (frame.points, frame.colour, frame.thrust), image
         return image
 
-    def _looks_like(self, points: np.ndarray, colour: np.ndarray, frame: Frame) -> bool:
+    def _looks_like(self, points: np.ndarray, colour: np.ndarray, thrust, frame: Frame) -> bool:
         """Whether a frame differs from what was drawn by less than is seen."""
         if self._frames.from_fields:
             return False
@@ -221,6 +256,10 @@ class Canvas:
         return bool(
             np.abs(frame.points - points).max() < _UNSEEN * pixel
             and np.abs(frame.colour - colour).max() < _ALIKE * largest
+            and (
+                thrust is None
+                or alike(thrust, frame.thrust, self._frames.forces.scale, _UNSEEN * pixel)
+            )
         )
 
     def _coloured(self, mesh):
@@ -231,7 +270,7 @@ class Canvas:
 
     def _move(self, mesh, points, colour) -> None:
         mesh.points = np.asarray(points, np.float32)
-        if colour is not None:
+        if colour is not None and self._frames.coloured:
             self._coloured(mesh)["colour"] = np.asarray(colour, np.float32)
 
     def close(self) -> None:

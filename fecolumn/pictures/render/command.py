@@ -51,9 +51,16 @@ def add_arguments(parser) -> None:
     )
     parser.add_argument(
         "--color",
-        choices=("stress", "displacement"),
+        choices=("stress", "displacement", "none"),
         default="",
-        help="by von Mises stress (default where fields were written), or by displacement",
+        help="by von Mises stress (default where fields were written), by displacement, or none "
+        "(default with --forces)",
+    )
+    parser.add_argument(
+        "--forces",
+        action="store_true",
+        help="draw the forces in the joints over the bodies: their resultants as arrows, the "
+        "thrust line and hinges; lean, front and side then look along the level",
     )
     parser.add_argument(
         "--start",

@@ -15,6 +15,7 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.camera import VIEWS, camera
 from fecolumn.pictures.render.instants import chosen_instants
 from fecolumn.pictures.render.result import read_result
+from fecolumn.pictures.render.thrust import arrow_length
 
 COMMAND = "fecolumn render"
 # A movie's sides [pixels]; a picture's resolution, that of post.style, twice as fine for what VTK
@@ -52,6 +53,8 @@ class Wish:
         (width, height) of the movie [pixels].
     body
         of a structure, whose top is followed and at whose foot the view "foot" looks.
+    forces
+        whether resultants, thrust line and hinges are drawn over the bodies.
     """
 
     only: str = ""
@@ -67,6 +70,7 @@ class Wish:
     size: tuple[int, int] = (1280, 720)
     paraview: bool = False
     body: str = ""
+    forces: bool = False
 
     def __post_init__(self):
         _check(self.view in VIEWS, "--view", self.view, f"must be one of {', '.join(VIEWS)}")
@@ -132,6 +136,7 @@ class Wish:
             (int(size[1]), int(size[2])),
             args.paraview,
             args.body,
+            args.forces,
         )
 
 
@@ -155,8 +160,8 @@ def render(folder, wish: Wish = Wish(), quiet: bool = False) -> list[Path]:
     Raises
     ------
     InputError
-        no finished analysis in the folder, times outside of it, or colours and exaggeration that
-        need fields where there are none.
+        no finished analysis in the folder, times outside of it, or colours, exaggeration and
+        forces that need what was not written.
     """
     result = read_result(folder, wish.body)
     target = result.folder / "render"
@@ -201,14 +206,19 @@ def _frames(result, wish: Wish, start: float, end: float, times: np.ndarray, int
     from fecolumn.pictures.render.frames import Frames
 
     samples = np.linspace(start, end, _SAMPLES)
-    whole = Frames(result, samples, interval, wish.exaggerate, wish.color)
-    return Frames(result, times, interval, wish.exaggerate, wish.color, like=whole)
+    whole = Frames(result, samples, interval, wish.exaggerate, wish.color, forces=wish.forces)
+    return Frames(result, times, interval, wish.exaggerate, wish.color, whole, wish.forces)
+
+
+def _camera(result, wish: Wish, times: np.ndarray, aspect: float = 1.0):
+    below = arrow_length(result.scene) if wish.forces else 0.0
+    return camera(result, wish.view, times, aspect, below)
 
 
 def _pictures(result, wish: Wish, start: float, end: float, target: Path) -> list[Path]:
     """Stills, and the sequence figure of them."""
     from fecolumn.pictures.render.canvas import Canvas
-    from fecolumn.pictures.render.sequence import picture_size, sequence_figure
+    from fecolumn.pictures.render.sequence import beside, picture_size, sequence_figure
     from fecolumn.pictures.render.still import still_figure, still_size
 
     instants = np.unique(wish.instants) if wish.instants else chosen_instants(result, start, end)
@@ -219,11 +229,11 @@ def _pictures(result, wish: Wish, start: float, end: float, target: Path) -> lis
     drawn = list(frames)
 
     def scene(size):
-        return Canvas(frames, camera(result, wish.view, frames.times, size[0] / size[1]), size)
+        return Canvas(frames, _camera(result, wish, frames.times, size[0] / size[1]), size)
 
     with written(target, "render pictures", names=("sequence.png", "sequence.pdf")) as draft:
-        natural = camera(result, wish.view, frames.times).natural
-        size = picture_size(len(drawn), natural, _DPI)
+        natural = _camera(result, wish, frames.times).natural
+        size = picture_size(len(drawn), natural, _DPI, beside(frames))
         with scene(size) as sequence:
             sequence_figure(
                 frames,
@@ -231,12 +241,18 @@ def _pictures(result, wish: Wish, start: float, end: float, target: Path) -> lis
                 _DPI,
                 np.array([start, end]),
                 draft / "sequence",
+                legend=sequence.legend,
             )
-        size = still_size(natural, _DPI)
+        size = still_size(natural, _DPI, frames.coloured)
         with scene(size) as still:
             for frame in drawn:
                 still_figure(
-                    frames, frame, still.image(frame), _DPI, draft / f"still_{frame.time:.3f}s"
+                    frames,
+                    frame,
+                    still.image(frame),
+                    _DPI,
+                    draft / f"still_{frame.time:.3f}s",
+                    legend=still.legend,
                 )
         names = sorted(file.name for file in draft.iterdir())
     return [target / name for name in names]
@@ -263,8 +279,9 @@ def _movie(result, wish: Wish, start: float, end: float, target: Path, quiet: bo
     )
     size = panel.scene_size
     with written(target, f"render {name}", names=(name,)) as draft:
-        view = camera(result, wish.view, frames.times, size[0] / size[1])
+        view = _camera(result, wish, frames.times, size[0] / size[1])
         with Canvas(frames, view, size, quick=True) as scene:
+            panel.place_legend(scene.legend)
 
             def picture(k):
                 frame = frames.frame(k)

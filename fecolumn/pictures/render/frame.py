@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fecolumn.pictures.render.thrust import Thrust
+
 
 @dataclass(frozen=True, slots=True)
 class Fields:
@@ -44,6 +46,8 @@ class Frame:
     centres
         (n_contacts, 2) [m] of the pressure: in the plan of the face, of a body alone in that of the
         ground; nan of an open one, and where it is not known.
+    thrust
+        forces in the joints; None where they are not drawn.
     """
 
     time: float
@@ -55,6 +59,7 @@ class Frame:
     faces: list[np.ndarray]
     pressures: list[np.ndarray]
     centres: np.ndarray
+    thrust: Thrust | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,11 +12,12 @@ from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.render.frame import Fields, Frame
 from fecolumn.pictures.render.joints import gaps, moved_from_master
 from fecolumn.pictures.render.pose import nearest_rigid
+from fecolumn.pictures.render.thrust import JointForces
 
 if TYPE_CHECKING:
     from fecolumn.pictures.render.result import Result
 
-COLOURS = ("stress", "displacement")
+COLOURS = ("stress", "displacement", "none")
 #: Largest elastic displacement as it is drawn under "auto", over the height of what moves [-]
 SEEN = 0.05
 # Points of the pressure's path a frame, so that it is a curve where a body rolls
@@ -50,6 +51,8 @@ class Frames:
         Quantity of Frame.colour.
     pressure_quantity
         of Frame.pressures, None where there is none.
+    forces
+        JointForces; None where they are not drawn.
     """
 
     def __init__(
@@ -60,16 +63,17 @@ class Frames:
         exaggerate: float | str = 1.0,
         colour: str = "",
         like: Frames | None = None,
+        forces: bool = False,
     ):
         """Frames at `times` (k,) [s], each for `interval` [s]; exaggerate: elastic displacements by
         this factor, or "auto"; colour: of COLOURS, "" for what there is; like: others whose
-        exaggeration and ranges of colours these have.
+        exaggeration, forces and ranges of colours these have; forces: of the joints are drawn.
 
         Raises
         ------
         InputError
-            elastic displacements or stress are asked for, and were not written, or no body has any
-            stress.
+            elastic displacements, stress or forces are asked for, and were not written, or no body
+            has any stress.
         """
         self.result, self.scene, fields = result, result.scene, result.frames
         if colour == "stress" and not self.scene.has_stress:
@@ -81,7 +85,9 @@ class Frames:
                 "storeys or matrices",
             )
         # what the history gives at once is not made from states
-        wanted = fields is result.fields or colour != "displacement" or exaggerate != 1.0
+        colour = colour or ("none" if forces else "")
+        rigid = colour in ("displacement", "none") and exaggerate == 1.0
+        wanted = fields is result.fields or not rigid
         self.from_fields = (
             wanted and bool(len(fields.time)) and fields.interval <= 1.5 * interval + 1e-9
         )
@@ -114,6 +120,9 @@ class Frames:
         self._interval = max(
             interval / _FINER, 4 * rows
         )  # of momentum, for which velocities are wanted
+        self.forces = like.forces if like else None
+        if forces and not self.forces:
+            self.forces = JointForces(result, self._interval)
         self.centres = self._pressure_centres(self.times)
         # what presses at one point has no pressure that could be drawn
         at_point = self.centres is not None and self.scene.contacts[0].domed
@@ -134,7 +143,7 @@ class Frames:
             largest = max(map(self._largest_elastic, range(len(self))))
             self.exaggeration = round_down(SEEN * self.scene.height / max(largest, 1e-12))
         frames = list(self)
-        if self.colour == "displacement":
+        if self.colour != "stress":
             largest = max(frame.colour.max() for frame in frames)
             self.colour_quantity = Quantity.of("displacement", "m", largest)
         else:
@@ -144,6 +153,11 @@ class Frames:
         if self._pressed:
             largest = max(np.percentile(np.concatenate(one.pressures), RANGE) for one in frames)
             self.pressure_quantity = Quantity.of("contact pressure", "Pa", largest, DECADES)
+
+    @property
+    def coloured(self) -> bool:
+        """Whether bodies have a colour that says something."""
+        return self.colour != "none"
 
     def __len__(self) -> int:
         return len(self.times)
@@ -192,6 +206,7 @@ class Frames:
             faces,
             pressures,
             centres,
+            self.forces.at(float(self.times[k]), self._poses, k) if self.forces else None,
         )
 
     def _fields(self, k: int) -> Fields:

@@ -21,6 +21,7 @@ from fecolumn.pictures.figures.style import (
 )
 from fecolumn.pictures.render.canvas import COLOUR_MAPS
 from fecolumn.pictures.render.frame import Frame, Strip
+from fecolumn.pictures.render.overlay import draw_legend
 from fecolumn.pictures.render.plans import Plans, square
 from fecolumn.pictures.render.strips import strips_of
 
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
 
 # Places of the parts in the picture, as shares of its width and height: left, bottom, width, height
 _SCENE = (0.005, 0.105, 0.40, 0.84)
+# What the legend of forces takes of the scene, from below [-]
+_LEGEND = 0.05
 _BAR = (0.07, 0.075, 0.26, 0.018)
 _STRIPS = (0.475, 0.085, 0.27, 0.855)
 _TOP = (0.82, 0.645, 0.165, 0.295)
@@ -66,12 +69,37 @@ class Panel:
             self._plan = Plans(frames, figure)
             self._moving += self._plan.artists
             self._place_words(figure, speed)
-            self._canvas.draw()
-            self._still = self._canvas.copy_from_bbox(figure.bbox)
-        left, bottom, width, height = (round(share * size[k % 2]) for k, share in enumerate(_SCENE))
+            self._draw_still()
+        left, bottom, width, height = (
+            round(share * size[k % 2]) for k, share in enumerate(self._scene)
+        )
         self._corner = size[1] - bottom - height, left
         #: (width, height) [pixels] of the scene's image.
         self.scene_size = width, height
+
+    @property
+    def _scene(self) -> tuple[float, float, float, float]:
+        """Place of the scene in the picture."""
+        left, bottom, width, height = _SCENE
+        below = _LEGEND if self.frames.forces else 0.0
+        return left, bottom + below, width, height - below
+
+    def _draw_still(self) -> None:
+        """Draw all that stays."""
+        self._canvas.draw()
+        self._still = self._canvas.copy_from_bbox(self._canvas.figure.bbox)
+
+    def place_legend(self, legend: float) -> None:
+        """Say what is drawn of forces; legend: force [N] whose arrow is as long as the scene is
+        high, 0 where none are drawn.
+        """
+        if not legend:
+            return
+        left, bottom, width, height = self._scene
+        with styled():
+            axes = self._canvas.figure.add_axes([left, bottom - _LEGEND, width, _LEGEND])
+            draw_legend(axes, self.frames, legend / (height * _HEIGHT_IN))
+            self._draw_still()
 
     def _place_strips(self, figure) -> None:
         from matplotlib.patches import Rectangle
@@ -120,13 +148,14 @@ class Panel:
         from matplotlib.cm import ScalarMappable
 
         frames = self.frames
-        bar, quantity = figure.add_axes(_BAR), frames.colour_quantity
-        figure.colorbar(
-            ScalarMappable(quantity.norm(), COLOUR_MAPS[frames.colour]),
-            cax=bar,
-            orientation="horizontal",
-            label=quantity.label,
-        )
+        if frames.coloured:
+            quantity = frames.colour_quantity
+            figure.colorbar(
+                ScalarMappable(quantity.norm(), COLOUR_MAPS[frames.colour]),
+                cax=figure.add_axes(_BAR),
+                orientation="horizontal",
+                label=quantity.label,
+            )
         told = [f"speed × {speed:g}"] if speed != 1 else []
         told += (
             [f"elastic deformation × {frames.exaggeration:g}"] if frames.exaggeration != 1 else []

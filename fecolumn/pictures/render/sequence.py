@@ -10,6 +10,7 @@ import numpy as np
 
 from fecolumn.pictures.figures.style import BLACK, PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.pictures.render.canvas import COLOUR_MAPS
+from fecolumn.pictures.render.overlay import draw_legend
 from fecolumn.pictures.render.panel import draw_strip
 from fecolumn.pictures.render.strips import strips_of
 
@@ -17,6 +18,8 @@ from fecolumn.pictures.render.strips import strips_of
 # these; the colour bar's width [in]
 _STRIP_IN, _HEIGHTS_IN, _GAP_IN, _BAR_IN = 0.95, (1.3, 3.6), 0.06, 0.12
 _LEFT_IN, _RIGHT_IN = 0.55, 0.75
+# Of the legend of forces [in]
+_LEGEND_IN = 0.22
 _LETTERS = "abcdefghij"
 # Height that they take of a strip, over that of its line [-]
 _LETTERS_SHARE = 0.25
@@ -24,11 +27,16 @@ _LETTERS_SHARE = 0.25
 _END = 0.02
 
 
-def picture_size(count: int, natural: float, dpi: int) -> tuple[int, int]:
+def beside(frames) -> float:
+    """Width [in] of what stands beside the pictures: the scale of colours, and of deformation."""
+    return _RIGHT_IN if frames.coloured or frames.exaggeration != 1 else 0.0
+
+
+def picture_size(count: int, natural: float, dpi: int, right: float = _RIGHT_IN) -> tuple[int, int]:
     """(width, height) [pixels] of each of `count` pictures in the figure; natural: width over
-    height of what they show.
+    height of what they show; right: width [in] of what stands beside them.
     """
-    width = (PAGE_WIDTH_IN - _RIGHT_IN) / count - _GAP_IN
+    width = (PAGE_WIDTH_IN - right) / count - _GAP_IN
     return round(width * dpi), round(float(np.clip(width / natural, *_HEIGHTS_IN)) * dpi)
 
 
@@ -39,6 +47,7 @@ def sequence_figure(
     times: np.ndarray,
     path: Path,
     formats=("png", "pdf"),
+    legend: float = 0.0,
 ) -> list[Path]:
     """Write the figure as PNG and PDF.
 
@@ -52,16 +61,19 @@ def sequence_figure(
         (2,) [s] first and last of the history shown.
     path
         without suffix.
+    legend
+        force [N] whose arrow is as long as the pictures are high, 0 where none are drawn.
     """
     from matplotlib.cm import ScalarMappable
 
     count, strips = len(images), strips_of(frames.result, times)[:2]
     picture = images[0].shape[0] / dpi
-    height = picture + len(strips) * _STRIP_IN + 0.75
+    below = _LEGEND_IN if legend else 0.0
+    height = picture + below + len(strips) * _STRIP_IN + 0.75
     with styled():
         figure = new_figure(PAGE_WIDTH_IN, height)
         figure.set_layout_engine("none")
-        width = (PAGE_WIDTH_IN - _RIGHT_IN) / count
+        width = (PAGE_WIDTH_IN - beside(frames)) / count
         for k, image in enumerate(images):
             axes = figure.add_axes(
                 [
@@ -76,20 +88,22 @@ def sequence_figure(
             axes.set_title(
                 f"({_LETTERS[k]}) $t$ = {frames.times[k]:.{_digits(frames.times)}f} s", pad=3
             )
-        bar = figure.add_axes(
-            [
+        if frames.coloured:
+            place = [
                 1 - (_RIGHT_IN - 0.08) / PAGE_WIDTH_IN,
                 1 - (0.85 * picture + 0.22) / height,
                 _BAR_IN / PAGE_WIDTH_IN,
                 0.7 * picture / height,
             ]
-        )
-        quantity = frames.colour_quantity
-        figure.colorbar(
-            ScalarMappable(quantity.norm(), COLOUR_MAPS[frames.colour]),
-            cax=bar,
-            label=quantity.label,
-        )
+            quantity = frames.colour_quantity
+            figure.colorbar(
+                ScalarMappable(quantity.norm(), COLOUR_MAPS[frames.colour]),
+                cax=figure.add_axes(place),
+                label=quantity.label,
+            )
+        if legend:
+            place = [0, 1 - (picture + 0.22 + below) / height, 1, below / height]
+            draw_legend(figure.add_axes(place), frames, legend / picture)
         for row, strip in enumerate(strips):
             bottom = 0.42 + (len(strips) - 1 - row) * (_STRIP_IN + 0.02)
             axes = figure.add_axes(
