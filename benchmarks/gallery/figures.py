@@ -125,6 +125,13 @@ def collapse(_: Work, target: Path) -> str:
     return draw(target)
 
 
+def arch(work: Work, target: Path) -> str:
+    """An arch at rest with its thrust line, and how it falls under a push that slowly rises."""
+    from benchmarks.gallery.arch import arch as draw
+
+    return draw(work.folder / "arch", ROOT / "meshes" / "arch.toml", target)
+
+
 #: Figures by name: place in the repository and the function that makes them, of (Work, target),
 #: which says from what.
 FIGURES = {
@@ -134,6 +141,7 @@ FIGURES = {
     "rolling": ("fecolumn/case/manual/rolling.png", rim),
     "two-sides": ("fecolumn/case/manual/two-sides.png", two_sides),
     "collapse": ("fecolumn/case/manual/collapse.png", collapse),
+    "arch": ("fecolumn/case/manual/arch.png", arch),
 }
 
 
