@@ -1,0 +1,276 @@
+"""Places at which two convex bodies touch or nearly do, for an axis of `contact.separation`.
+
+Along the normal of a face, the body of the face is the master. Of the other body, the slave, that
+face which faces it most among those at its nearest corner is clipped to the prism over the master's
+face (Sutherland and Hodgman 1974): each corner of what is left is a place of contact. Of two edges
+it is the place where they cross, and the first body is the master. Of a body over a plane ground
+all its corners are.
+
+A place has a name, by which it is known again in the next step, whichever body is the master then:
+a corner of the first body, one of the second, or an edge of each.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn.contact.convex import Hulls
+from fecolumn.contact.separation import perpendicular
+from fecolumn.contact.tolerances import SAME_OUTLINE
+from fecolumn.foundation._compiled import njit
+
+#: Kinds of names: see `name_of`
+NO_NAME, CORNER_OF_FIRST, CORNER_OF_SECOND, CROSSING = range(4)
+
+_BESIDE = ("convex.py", "separation.py", "tolerances.py")
+
+
+class Places(NamedTuple):
+    """Room for places: arms (M, 3) from the slave's centre of mass in its frame and seats (M, 3)
+    from the master's in its own [m], of a ground from its place; gaps (M,) along the normal [m],
+    names (M,). plane: (2, M, 3) corners of a face along the master's tangents and normal [m], tags:
+    (2, M) their names, source: (2, M) what the edge from each to the next one is: an edge of the
+    slave, or -1 - k where it lies over edge k of the master's face. kept: (M,) mask, slot: (M,),
+    for `contact.meetings`.
+    """
+
+    arms: np.ndarray
+    seats: np.ndarray
+    gaps: np.ndarray
+    names: np.ndarray
+    plane: np.ndarray
+    tags: np.ndarray
+    source: np.ndarray
+    kept: np.ndarray
+    slot: np.ndarray
+
+
+def places_for(hulls: Hulls) -> Places:
+    """Room for the places of any pair."""
+    longest = int(np.diff(hulls.loop_first).max(initial=1))
+    most = max(2 * longest + 2, int(np.diff(hulls.first[:, 0]).max(initial=1)))
+    return Places(
+        np.zeros((most, 3)),
+        np.zeros((most, 3)),
+        np.zeros(most),
+        np.zeros(most, np.int64),
+        np.zeros((2, most, 3)),
+        np.zeros((2, most), np.int64),
+        np.zeros((2, most), np.int64),
+        np.zeros(most, bool),
+        np.zeros(most, np.int64),
+    )
+
+
+@njit(alone=_BESIDE)
+def name_of(kind, first, second):
+    """Name of a place: of its kind, and of the corner, or of an edge of the first body and one of
+    the second.
+    """
+    return (kind << 48) + (first << 24) + second
+
+
+@njit(alone=_BESIDE)
+def _crossing(exchanged, of_slave, of_master):
+    return (
+        name_of(CROSSING, of_slave, of_master)
+        if exchanged
+        else name_of(CROSSING, of_master, of_slave)
+    )
+
+
+@njit(alone=_BESIDE)
+def facing(hulls, slave, x, y, z, least, before):
+    """Face of the slave that faces a normal x, y, z in its frame most, among those at its nearest
+    corner, which is at `least` [m] along the normal; that of the step before where it does as well.
+    """
+    chosen, most, within = -1, np.inf, 1e-9 * hulls.thickness[slave]
+    for f in range(hulls.first[slave, 1], hulls.first[slave + 1, 1]):
+        n = hulls.normals[f]
+        along = n[0] * x + n[1] * y + n[2] * z
+        face = f - hulls.first[slave, 1]
+        if face == before:
+            along -= 1e-6
+        if along >= most:
+            continue
+        for k in range(hulls.loop_first[f], hulls.loop_first[f + 1]):
+            p = hulls.corners[hulls.first[slave, 0] + hulls.loop[k]]
+            if p[0] * x + p[1] * y + p[2] * z <= least + within:
+                chosen, most = face, along
+                break
+    return chosen
+
+
+@njit(alone=_BESIDE)
+def _lay_face(hulls, slave, face, f, relation, exchanged, places):
+    """Put a face of the slave into the frame of face f of the master; how many corners it has."""
+    T, s, axes, middle = relation.turn, relation.shift, hulls.axes[f], hulls.middles[f]
+    row = hulls.first[slave, 1] + face
+    start, kind = hulls.loop_first[row], CORNER_OF_FIRST if exchanged else CORNER_OF_SECOND
+    count = hulls.loop_first[row + 1] - start
+    for k in range(count):
+        corner = hulls.loop[start + k]
+        p = hulls.corners[hulls.first[slave, 0] + corner]
+        u = v = w = 0.0
+        for i in range(3):
+            away = T[i, 0] * p[0] + T[i, 1] * p[1] + T[i, 2] * p[2] + s[i] - middle[i]
+            u, v, w = u + axes[i, 0] * away, v + axes[i, 1] * away, w + axes[i, 2] * away
+        places.plane[0, k, 0], places.plane[0, k, 1], places.plane[0, k, 2] = u, v, w
+        places.tags[0, k] = name_of(kind, corner, 0)
+        places.source[0, k] = hulls.loop_edge[start + k]
+    return count
+
+
+@njit(alone=_BESIDE)
+def _name_at_side(hulls, master, f, k, source, exchanged):
+    """Name of the place where an edge of what is left comes to side k of face f of the master."""
+    start = hulls.loop_first[f]
+    if source >= 0:
+        return _crossing(exchanged, source, hulls.loop_edge[start + k])
+    # both sides meet in a corner of the master, but where the next sides cut it off
+    last = -1 - source
+    corner = hulls.loop[start + k]
+    if last == (k + 1) % (hulls.loop_first[f + 1] - start):
+        corner = hulls.loop[start + last]
+    return name_of(CORNER_OF_SECOND if exchanged else CORNER_OF_FIRST, corner, 0)
+
+
+@njit(alone=_BESIDE)
+def _clip(hulls, master, f, slave, count, exchanged, places):
+    """Clip to face f of the master; how many corners are left, and in which half of the room.
+
+    A corner on the outline belongs to the face: of two equal faces the corners are the slave's.
+    """
+    now, start = 0, hulls.loop_first[f]
+    sides, slack = hulls.loop_first[f + 1] - start, SAME_OUTLINE * hulls.thickness[master]
+    slack += 1e-9 * hulls.thickness[slave]
+    axes, middle = hulls.axes[f], hulls.middles[f]
+    for k in range(sides):
+        p = hulls.corners[hulls.first[master, 0] + hulls.loop[start + k]]
+        q = hulls.corners[hulls.first[master, 0] + hulls.loop[start + (k + 1) % sides]]
+        u = v = du = dv = 0.0
+        for i in range(3):
+            u, v = u + axes[i, 0] * (p[i] - middle[i]), v + axes[i, 1] * (p[i] - middle[i])
+            du, dv = du + axes[i, 0] * (q[i] - p[i]), dv + axes[i, 1] * (q[i] - p[i])
+        length = np.hypot(du, dv)
+        du, dv = du / length, dv / length
+        old, new, left = places.plane[now], places.plane[1 - now], 0
+        tags, new_tags = places.tags[now], places.tags[1 - now]
+        source, new_source = places.source[now], places.source[1 - now]
+        for c in range(count):
+            n = c + 1 if c + 1 < count else 0
+            # how far both ends of an edge are beyond the side
+            here = (old[c, 0] - u) * dv - (old[c, 1] - v) * du - slack
+            there = (old[n, 0] - u) * dv - (old[n, 1] - v) * du - slack
+            if here <= 0.0:
+                for i in range(3):
+                    new[left, i] = old[c, i]
+                new_tags[left], new_source[left] = tags[c], source[c]
+                left += 1
+            if (here <= 0.0) != (there <= 0.0):
+                share = here / (here - there)
+                for i in range(3):
+                    new[left, i] = old[c, i] + share * (old[n, i] - old[c, i])
+                new_tags[left] = _name_at_side(hulls, master, f, k, source[c], exchanged)
+                new_source[left] = -1 - k if here <= 0.0 else source[c]
+                left += 1
+        now, count = 1 - now, left
+        if count == 0:
+            break
+    return count, now
+
+
+@njit(alone=_BESIDE)
+def places_on_face(hulls, master, face, slave, facing_face, relation, exchanged, reach, places):
+    """Find the places at which the slave's face is less than `reach` [m] over a face of the master;
+    how many they are.
+
+    Parameters
+    ----------
+    relation
+        of the slave as seen from the master.
+    exchanged
+        whether the master is the second body of the pair.
+    """
+    f, T, s = hulls.first[master, 1] + face, relation.turn, relation.shift
+    count = _lay_face(hulls, slave, facing_face, f, relation, exchanged, places)
+    count, now = _clip(hulls, master, f, slave, count, exchanged, places)
+    axes, middle, found = hulls.axes[f], hulls.middles[f], 0
+    for c in range(count):
+        p = places.plane[now, c]
+        if p[2] > reach:
+            continue
+        for i in range(3):
+            places.seats[found, i] = middle[i] + axes[i, 0] * p[0] + axes[i, 1] * p[1]
+        for i in range(3):
+            places.arms[found, i] = 0.0
+            for k in range(3):
+                at = places.seats[found, k] + axes[k, 2] * p[2] - s[k]
+                places.arms[found, i] += T[k, i] * at
+        places.gaps[found], places.names[found] = p[2], places.tags[now, c]
+        found += 1
+    return found
+
+
+@njit(alone=_BESIDE)
+def place_of_edges(hulls, a, first, b, second, relation, reach, places, normal):
+    """Find the place where an edge of body a and one of body b cross, if they do and are less than
+    `reach` [m] apart; whether there is one. normal: (3,) is put, in the frame of body a.
+    """
+    T, s = relation.turn, relation.shift
+    i, j = hulls.first[a, 2] + first, hulls.first[b, 2] + second
+    p = hulls.corners[hulls.first[a, 0] + hulls.ends[i, 0]]
+    p_end = hulls.corners[hulls.first[a, 0] + hulls.ends[i, 1]]
+    q = hulls.corners[hulls.first[b, 0] + hulls.ends[j, 0]]
+    q_end = hulls.corners[hulls.first[b, 0] + hulls.ends[j, 1]]
+    normal[0], normal[1], normal[2], sine = perpendicular(hulls, a, b, relation, first, second)
+    if sine == 0.0:
+        return False
+    d, e, w = hulls.ways[i], hulls.ways[j], np.empty(3)
+    gap = cosine = on_d = on_w = length = other = 0.0
+    for k in range(3):
+        w[k] = T[k, 0] * e[0] + T[k, 1] * e[1] + T[k, 2] * e[2]
+        away = T[k, 0] * q[0] + T[k, 1] * q[1] + T[k, 2] * q[2] + s[k] - p[k]
+        gap, cosine = gap + normal[k] * away, cosine + d[k] * w[k]
+        on_d, on_w = on_d + d[k] * away, on_w + w[k] * away
+        length, other = length + d[k] * (p_end[k] - p[k]), other + e[k] * (q_end[k] - q[k])
+    at = (on_d - cosine * on_w) / (sine * sine)
+    there = (cosine * on_d - on_w) / (sine * sine)
+    slack = 1e-9 * (length + other)
+    if gap > reach or not (-slack <= at <= length + slack and -slack <= there <= other + slack):
+        return False
+    for k in range(3):
+        places.seats[0, k] = p[k] + at * d[k]
+        places.arms[0, k] = q[k] + there * e[k]
+    places.gaps[0], places.names[0] = gap, name_of(CROSSING, first, second)
+    return True
+
+
+@njit(alone=_BESIDE)
+def places_on_ground(hulls, body, centers, rotations, place, axes, reach, places):
+    """Find the corners of a body that are less than `reach` [m] over a plane ground; how many they
+    are.
+
+    Parameters
+    ----------
+    place, axes
+        (3,) a point of the ground's plane in the table frame [m] and (3, 3), whose columns are two
+        tangents and the normal.
+    """
+    R, found, start = rotations[body], 0, hulls.first[body, 0]
+    for v in range(hulls.first[body + 1, 0] - start):
+        p, gap = hulls.corners[start + v], 0.0
+        for i in range(3):
+            at = centers[body, i] + R[i, 0] * p[0] + R[i, 1] * p[1] + R[i, 2] * p[2] - place[i]
+            gap += axes[i, 2] * at
+            places.seats[found, i] = at
+        if gap > reach:
+            continue
+        for i in range(3):
+            places.arms[found, i] = p[i]
+            places.seats[found, i] -= gap * axes[i, 2]
+        places.gaps[found], places.names[found] = gap, name_of(CORNER_OF_SECOND, v, 0)
+        found += 1
+    return found

@@ -1,0 +1,363 @@
+"""The axis along which two convex bodies are farthest apart.
+
+Two convex bodies are apart exactly if they are along one of these axes: the normals of the faces of
+either, and the common perpendicular of an edge of each (the separating axis theorem). Of edges only
+those pairs count that make a face of the bodies' difference, where the arcs of both edges between
+the normals of their faces cross on the unit sphere (D. Gregorius, The separating axis test between
+convex polyhedra, Game Developers Conference 2013); of these only edges along whose arc the nearest
+corner of the other body is farther than along the best face.
+
+The largest separation of bodies that are in each other is the depth, exactly: the least way by
+which they come apart. Of bodies apart it is their distance where a face meets a corner or two edges
+cross; else, as between two corners, it is less than the distance, but above 0.
+
+Axes point from the first body to the second. Faces and edges are numbers in their own body.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn.contact.convex import Hulls
+from fecolumn.contact.tolerances import NEARLY_PARALLEL, OTHER_AXIS, PARALLEL
+from fecolumn.foundation._compiled import njit
+
+#: What an axis is: none, the normal of a face of the first body or of the second, which then points
+#: against the axis, or the perpendicular of an edge of each
+NO_AXIS, FACE_OF_FIRST, FACE_OF_SECOND, TWO_EDGES = range(4)
+
+_BESIDE = ("convex.py", "tolerances.py")
+
+
+class Relation(NamedTuple):
+    """Where the second body is, seen from the frame of the first: turn (3, 3) and shift (3,) [m];
+    room for its corners (V, 3), normals (F, 3) and edges (E, 3) there, for numbers of its faces
+    (F,), for edges (E,) and for a vector of each body (2, 3).
+    """
+
+    turn: np.ndarray
+    shift: np.ndarray
+    corners: np.ndarray
+    normals: np.ndarray
+    ways: np.ndarray
+    along: np.ndarray
+    near: np.ndarray
+    corner: np.ndarray
+
+
+def relation_for(hulls: Hulls) -> Relation:
+    """A relation with room for each of the bodies."""
+    corners, faces, edges = (max(int(n), 1) for n in np.diff(hulls.first, axis=0).max(axis=0))
+    return Relation(
+        np.eye(3),
+        np.zeros(3),
+        np.zeros((corners, 3)),
+        np.zeros((faces, 3)),
+        np.zeros((edges, 3)),
+        np.zeros(faces),
+        np.zeros(edges, np.int64),
+        np.zeros((2, 3)),
+    )
+
+
+@njit(alone=_BESIDE)
+def relate(centers, rotations, a, b, relation):
+    """Find where body b is seen from body a; centers: (N, 3) [m], rotations: (N, 3, 3)."""
+    A, B = rotations[a], rotations[b]
+    for i in range(3):
+        relation.shift[i] = 0.0
+        for k in range(3):
+            relation.shift[i] += A[k, i] * (centers[b, k] - centers[a, k])
+            relation.turn[i, k] = A[0, i] * B[0, k] + A[1, i] * B[1, k] + A[2, i] * B[2, k]
+
+
+@njit(alone=_BESIDE)
+def least_along(hulls, body, x, y, z):
+    """Least product [m] of a vector with the corners of a body, and the corner."""
+    first, least, where = hulls.first[body, 0], np.inf, -1
+    for v in range(first, hulls.first[body + 1, 0]):
+        product = x * hulls.corners[v, 0] + y * hulls.corners[v, 1] + z * hulls.corners[v, 2]
+        if product < least:
+            least, where = product, v - first
+    return least, where
+
+
+@njit(alone=_BESIDE)
+def _over_first(hulls, a, b, relation, face):
+    """How far [m] body b is over a face of body a."""
+    f, T, s = hulls.first[a, 1] + face, relation.turn, relation.shift
+    x, y, z = hulls.normals[f, 0], hulls.normals[f, 1], hulls.normals[f, 2]
+    least = least_along(
+        hulls,
+        b,
+        T[0, 0] * x + T[1, 0] * y + T[2, 0] * z,
+        T[0, 1] * x + T[1, 1] * y + T[2, 1] * z,
+        T[0, 2] * x + T[1, 2] * y + T[2, 2] * z,
+    )[0]
+    return least + x * s[0] + y * s[1] + z * s[2] - hulls.offsets[f]
+
+
+@njit(alone=_BESIDE)
+def _over_second(hulls, a, b, relation, face):
+    """How far [m] body a is over a face of body b."""
+    f, T, s = hulls.first[b, 1] + face, relation.turn, relation.shift
+    n = hulls.normals[f]
+    x = T[0, 0] * n[0] + T[0, 1] * n[1] + T[0, 2] * n[2]
+    y = T[1, 0] * n[0] + T[1, 1] * n[1] + T[1, 2] * n[2]
+    z = T[2, 0] * n[0] + T[2, 1] * n[1] + T[2, 2] * n[2]
+    least = least_along(hulls, a, x, y, z)[0]
+    return least - x * s[0] - y * s[1] - z * s[2] - hulls.offsets[f]
+
+
+@njit(alone=_BESIDE)
+def perpendicular(hulls, a, b, relation, first, second):
+    """Unit vector x, y, z in the frame of body a along the perpendicular of an edge of each, out of
+    body a, and the sine of the angle between the edges; 0 of parallel ones.
+    """
+    i, T = hulls.first[a, 2] + first, relation.turn
+    e, w = hulls.ways[i], hulls.ways[hulls.first[b, 2] + second]
+    u = T[0, 0] * w[0] + T[0, 1] * w[1] + T[0, 2] * w[2]
+    v = T[1, 0] * w[0] + T[1, 1] * w[1] + T[1, 2] * w[2]
+    t = T[2, 0] * w[0] + T[2, 1] * w[1] + T[2, 2] * w[2]
+    x, y, z = e[1] * t - e[2] * v, e[2] * u - e[0] * t, e[0] * v - e[1] * u
+    sine = np.sqrt(x * x + y * y + z * z)
+    if sine < PARALLEL:
+        return 0.0, 0.0, 0.0, 0.0
+    left, right = hulls.first[a, 1] + hulls.sides[i, 0], hulls.first[a, 1] + hulls.sides[i, 1]
+    out = (
+        x * (hulls.normals[left, 0] + hulls.normals[right, 0])
+        + y * (hulls.normals[left, 1] + hulls.normals[right, 1])
+        + z * (hulls.normals[left, 2] + hulls.normals[right, 2])
+    )
+    over = 1 / sine if out > 0 else -1 / sine
+    return x * over, y * over, z * over, sine
+
+
+@njit(alone=_BESIDE)
+def _along(hulls, a, b, relation, x, y, z):
+    """Separation [m] along a unit vector in the frame of body a."""
+    T, s = relation.turn, relation.shift
+    least = least_along(
+        hulls,
+        b,
+        T[0, 0] * x + T[1, 0] * y + T[2, 0] * z,
+        T[0, 1] * x + T[1, 1] * y + T[2, 1] * z,
+        T[0, 2] * x + T[1, 2] * y + T[2, 2] * z,
+    )[0]
+    return least + x * s[0] + y * s[1] + z * s[2] + least_along(hulls, a, -x, -y, -z)[0]
+
+
+@njit(alone=_BESIDE)
+def separation_along(hulls, a, b, relation, kind, first, second):
+    """Separation [m] of bodies a and b along an axis of a kind: below 0 where they overlap.
+
+    Bodies are at least as far apart, whether or not the axis is still one of the bodies'
+    difference.
+    """
+    if kind == FACE_OF_FIRST:
+        return _over_first(hulls, a, b, relation, first)
+    if kind == FACE_OF_SECOND:
+        return _over_second(hulls, a, b, relation, second)
+    x, y, z, sine = perpendicular(hulls, a, b, relation, first, second)
+    return _along(hulls, a, b, relation, x, y, z) if sine > 0.0 else -np.inf
+
+
+@njit(alone=_BESIDE)
+def _over_faces(hulls, a, b, relation, enough):
+    """Largest separation over the faces of a and of b [m] and these faces; that of a face at which
+    it is above `enough` ends the search.
+    """
+    most_a, face_a, most_b, face_b = -np.inf, -1, -np.inf, -1
+    for f in range(hulls.first[a + 1, 1] - hulls.first[a, 1]):
+        over = _over_first(hulls, a, b, relation, f)
+        if over > most_a:
+            most_a, face_a = over, f
+            if over > enough:
+                return most_a, face_a, most_b, face_b
+    for f in range(hulls.first[b + 1, 1] - hulls.first[b, 1]):
+        over = _over_second(hulls, a, b, relation, f)
+        if over > most_b:
+            most_b, face_b = over, f
+            if over > enough:
+                break
+    return most_a, face_a, most_b, face_b
+
+
+@njit(alone=_BESIDE)
+def _lay_out(hulls, b, relation):
+    """Put corners, normals and edges of body b into the frame of the first body."""
+    T, s = relation.turn, relation.shift
+    for v in range(hulls.first[b + 1, 0] - hulls.first[b, 0]):
+        p = hulls.corners[hulls.first[b, 0] + v]
+        for k in range(3):
+            relation.corners[v, k] = T[k, 0] * p[0] + T[k, 1] * p[1] + T[k, 2] * p[2] + s[k]
+    for f in range(hulls.first[b + 1, 1] - hulls.first[b, 1]):
+        p = hulls.normals[hulls.first[b, 1] + f]
+        for k in range(3):
+            relation.normals[f, k] = T[k, 0] * p[0] + T[k, 1] * p[1] + T[k, 2] * p[2]
+    for j in range(hulls.first[b + 1, 2] - hulls.first[b, 2]):
+        p = hulls.ways[hulls.first[b, 2] + j]
+        for k in range(3):
+            relation.ways[j, k] = T[k, 0] * p[0] + T[k, 1] * p[1] + T[k, 2] * p[2]
+
+
+@njit(alone=_BESIDE)
+def _nearest_corners(hulls, a, b, relation, most_a, face_a, most_b, face_b):
+    """Put the corner of each body nearest to the other along the better face, in the frame of body
+    a.
+    """
+    T, s = relation.turn, relation.shift
+    if most_a >= most_b:
+        n = hulls.normals[hulls.first[a, 1] + face_a]
+        x, y, z = n[0], n[1], n[2]
+    else:
+        n = hulls.normals[hulls.first[b, 1] + face_b]
+        x = -T[0, 0] * n[0] - T[0, 1] * n[1] - T[0, 2] * n[2]
+        y = -T[1, 0] * n[0] - T[1, 1] * n[1] - T[1, 2] * n[2]
+        z = -T[2, 0] * n[0] - T[2, 1] * n[1] - T[2, 2] * n[2]
+    where = hulls.first[a, 0] + least_along(hulls, a, -x, -y, -z)[1]
+    least = (
+        hulls.first[b, 0]
+        + least_along(
+            hulls,
+            b,
+            T[0, 0] * x + T[1, 0] * y + T[2, 0] * z,
+            T[0, 1] * x + T[1, 1] * y + T[2, 1] * z,
+            T[0, 2] * x + T[1, 2] * y + T[2, 2] * z,
+        )[1]
+    )
+    p = hulls.corners[least]
+    for k in range(3):
+        relation.corner[0, k] = hulls.corners[where, k]
+        relation.corner[1, k] = T[k, 0] * p[0] + T[k, 1] * p[1] + T[k, 2] * p[2] + s[k]
+
+
+@njit(alone=_BESIDE)
+def _most_over(place, start, left, right):
+    """How far [m] a place (3,) is at most over an edge from `start`, along any direction between
+    the normals left and right (3,) of its faces.
+    """
+    over_left = over_right = cosine = 0.0
+    for k in range(3):
+        away = place[k] - start[k]
+        over_left, over_right = over_left + left[k] * away, over_right + right[k] * away
+        cosine += left[k] * right[k]
+    u, v = over_left - cosine * over_right, over_right - cosine * over_left
+    if u <= 0.0 or v <= 0.0:
+        return max(over_left, over_right)
+    sine = 1.0 - cosine * cosine
+    # the place is between both normals, which may be too near each other to say where
+    return np.sqrt((u * over_left + v * over_right) / sine) if sine > 1e-8 else np.inf
+
+
+@njit(alone=_BESIDE)
+def _over_edges(hulls, a, b, relation, enough):
+    """Largest separation above `enough` along perpendiculars of two edges [m], and the edges; -1
+    where there is none. The corners of `_nearest_corners` are in relation.
+    """
+    _lay_out(hulls, b, relation)
+    most, edge_a, edge_b, count = enough, -1, -1, 0
+    faces, start = hulls.first[b + 1, 1] - hulls.first[b, 1], hulls.first[a, 0]
+    ways, normals, along, near = relation.ways, relation.normals, relation.along, relation.near
+    for j in range(hulls.first[b + 1, 2] - hulls.first[b, 2]):
+        other = hulls.first[b, 2] + j
+        over = _most_over(
+            relation.corner[0],
+            relation.corners[hulls.ends[other, 0]],
+            normals[hulls.sides[other, 0]],
+            normals[hulls.sides[other, 1]],
+        )
+        if over > enough:
+            near[count] = j
+            count += 1
+    for i in range(hulls.first[a + 1, 2] - hulls.first[a, 2] if count > 0 else 0):
+        row = hulls.first[a, 2] + i
+        e = hulls.ways[row]
+        left = hulls.normals[hulls.first[a, 1] + hulls.sides[row, 0]]
+        right = hulls.normals[hulls.first[a, 1] + hulls.sides[row, 1]]
+        p = hulls.corners[start + hulls.ends[row, 0]]
+        if _most_over(relation.corner[1], p, left, right) <= most:
+            continue
+        for f in range(faces):
+            along[f] = e[0] * normals[f, 0] + e[1] * normals[f, 1] + e[2] * normals[f, 2]
+        for c in range(count):
+            j = near[c]
+            other = hulls.first[b, 2] + j
+            # the arcs between the normals cross, those of b turned round
+            right_b = along[hulls.sides[other, 1]]
+            if along[hulls.sides[other, 0]] * right_b >= 0.0:
+                continue
+            w0, w1, w2 = ways[j, 0], ways[j, 1], ways[j, 2]
+            left_a = left[0] * w0 + left[1] * w1 + left[2] * w2
+            if right_b * left_a >= 0.0:
+                continue
+            if left_a * (right[0] * w0 + right[1] * w1 + right[2] * w2) >= 0.0:
+                continue
+            x, y, z, sine = perpendicular(hulls, a, b, relation, i, j)
+            if sine == 0.0:
+                continue
+            if sine < NEARLY_PARALLEL:
+                over = _along(hulls, a, b, relation, x, y, z)
+            else:
+                q = relation.corners[hulls.ends[other, 0]]
+                over = x * (q[0] - p[0]) + y * (q[1] - p[1]) + z * (q[2] - p[2])
+            if over > most:
+                most, edge_a, edge_b = over, i, j
+    return most, edge_a, edge_b
+
+
+@njit(alone=_BESIDE)
+def largest_separation(hulls, a, b, relation):
+    """Largest separation of bodies a and b [m], the kind of its axis and its face or edges, -1
+    where there is none; relation: of `relate`.
+    """
+    most_a, face_a, most_b, face_b = _over_faces(hulls, a, b, relation, np.inf)
+    _nearest_corners(hulls, a, b, relation, most_a, face_a, most_b, face_b)
+    most, edge_a, edge_b = _over_edges(hulls, a, b, relation, max(most_a, most_b))
+    if edge_a >= 0:
+        return most, TWO_EDGES, edge_a, edge_b
+    if most_b > most_a:
+        return most_b, FACE_OF_SECOND, -1, face_b
+    return most_a, FACE_OF_FIRST, face_a, -1
+
+
+@njit(alone=_BESIDE)
+def choose_axis(hulls, a, b, relation, enough, kind, first, second):
+    """Axis of contact of bodies a and b: separation along it [m], its kind and its face or edges.
+
+    It is that of the largest separation, with a preference of OTHER_AXIS for the one of the step
+    before and for faces over two edges, so that bodies at rest keep theirs. An axis along which
+    they are farther apart than `enough` [m] is taken at once: that of the step before is looked at
+    first, so that a pair that stays apart costs one axis.
+
+    Parameters
+    ----------
+    kind, first, second
+        of the step before; NO_AXIS where there is none.
+    """
+    before = -np.inf
+    if kind != NO_AXIS:
+        before = separation_along(hulls, a, b, relation, kind, first, second)
+        if before > enough:
+            return before, kind, first, second
+    most_a, face_a, most_b, face_b = _over_faces(hulls, a, b, relation, enough)
+    most = max(most_a, most_b)
+    if most > enough:
+        if most_a >= most_b:
+            return most_a, FACE_OF_FIRST, face_a, -1
+        return most_b, FACE_OF_SECOND, -1, face_b
+    band = OTHER_AXIS * min(hulls.thickness[a], hulls.thickness[b])
+    _nearest_corners(hulls, a, b, relation, most_a, face_a, most_b, face_b)
+    edges, edge_a, edge_b = _over_edges(hulls, a, b, relation, most + band)
+    # one pair of edges stays until a face is nearly as good
+    if kind == TWO_EDGES and before > most + band / 2 and (edge_a < 0 or before > edges - band):
+        return before, kind, first, second
+    if edge_a >= 0:
+        return edges, TWO_EDGES, edge_a, edge_b
+    if (kind == FACE_OF_FIRST or kind == FACE_OF_SECOND) and before > most - band:
+        return before, kind, first, second
+    if most_b > most_a + band:
+        return most_b, FACE_OF_SECOND, -1, face_b
+    return most_a, FACE_OF_FIRST, face_a, -1
