@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.convex import Hulls
+from fecolumn.contact.record import record
 from fecolumn.contact.separation import perpendicular
 from fecolumn.contact.tolerances import SAME_OUTLINE
 from fecolumn.foundation._compiled import njit
@@ -24,44 +25,40 @@ from fecolumn.foundation._compiled import njit
 #: Kinds of names: see `name_of`
 NO_NAME, CORNER_OF_FIRST, CORNER_OF_SECOND, CROSSING = range(4)
 
-_BESIDE = ("convex.py", "separation.py", "tolerances.py")
+_BESIDE = ("convex.py", "record.py", "separation.py", "tolerances.py")
+
+
+#: A place. arm: (3,) from the slave's centre of mass in its frame, seat: (3,) from the master's in
+#: its own [m], of a ground from its place in the table frame; gap along the normal [m]; name. slot,
+#: kept, away [m]: for `contact.meetings`.
+PLACE_FOUND = record(
+    ("arm", "f8", 3),
+    ("seat", "f8", 3),
+    ("gap", "f8"),
+    ("name", "i8"),
+    ("slot", "i8"),
+    ("kept", "?"),
+    ("away", "f8"),
+)
+
+#: A corner of what is left of a face. at: (3,) along the tangents and the normal of the master's
+#: face [m]; name; source: what the edge from it to the next one is: an edge of the slave, or -1 - k
+#: where it lies over side k of the master's face.
+CLIPPED = record(("at", "f8", 3), ("name", "i8"), ("source", "i8"))
 
 
 class Places(NamedTuple):
-    """Room for places: arms (M, 3) from the slave's centre of mass in its frame and seats (M, 3)
-    from the master's in its own [m], of a ground from its place; gaps (M,) along the normal [m],
-    names (M,). plane: (2, M, 3) corners of a face along the master's tangents and normal [m], tags:
-    (2, M) their names, source: (2, M) what the edge from each to the next one is: an edge of the
-    slave, or -1 - k where it lies over edge k of the master's face. kept: (M,) mask, slot: (M,),
-    for `contact.meetings`.
-    """
+    """Room for places: (M,) of PLACE_FOUND, and (2, M) of CLIPPED."""
 
-    arms: np.ndarray
-    seats: np.ndarray
-    gaps: np.ndarray
-    names: np.ndarray
-    plane: np.ndarray
-    tags: np.ndarray
-    source: np.ndarray
-    kept: np.ndarray
-    slot: np.ndarray
+    found: np.ndarray
+    clipped: np.ndarray
 
 
 def places_for(hulls: Hulls) -> Places:
     """Room for the places of any pair."""
     longest = int(np.diff(hulls.loop_first).max(initial=1))
     most = max(2 * longest + 2, int(np.diff(hulls.first[:, 0]).max(initial=1)))
-    return Places(
-        np.zeros((most, 3)),
-        np.zeros((most, 3)),
-        np.zeros(most),
-        np.zeros(most, np.int64),
-        np.zeros((2, most, 3)),
-        np.zeros((2, most), np.int64),
-        np.zeros((2, most), np.int64),
-        np.zeros(most, bool),
-        np.zeros(most, np.int64),
-    )
+    return Places(np.zeros(most, PLACE_FOUND), np.zeros((2, most), CLIPPED))
 
 
 @njit(alone=_BESIDE)
@@ -117,9 +114,10 @@ def _lay_face(hulls, slave, face, f, relation, exchanged, places):
         for i in range(3):
             away = T[i, 0] * p[0] + T[i, 1] * p[1] + T[i, 2] * p[2] + s[i] - middle[i]
             u, v, w = u + axes[i, 0] * away, v + axes[i, 1] * away, w + axes[i, 2] * away
-        places.plane[0, k, 0], places.plane[0, k, 1], places.plane[0, k, 2] = u, v, w
-        places.tags[0, k] = name_of(kind, corner, 0)
-        places.source[0, k] = hulls.loop_edge[start + k]
+        corner_left = places.clipped[0, k]
+        corner_left.at[0], corner_left.at[1], corner_left.at[2] = u, v, w
+        corner_left.name = name_of(kind, corner, 0)
+        corner_left.source = hulls.loop_edge[start + k]
     return count
 
 
@@ -156,25 +154,21 @@ def _clip(hulls, master, f, slave, count, exchanged, places):
             du, dv = du + axes[i, 0] * (q[i] - p[i]), dv + axes[i, 1] * (q[i] - p[i])
         length = np.hypot(du, dv)
         du, dv = du / length, dv / length
-        old, new, left = places.plane[now], places.plane[1 - now], 0
-        tags, new_tags = places.tags[now], places.tags[1 - now]
-        source, new_source = places.source[now], places.source[1 - now]
+        old, new, left = places.clipped[now], places.clipped[1 - now], 0
         for c in range(count):
-            n = c + 1 if c + 1 < count else 0
+            one, other = old[c], old[c + 1 if c + 1 < count else 0]
             # how far both ends of an edge are beyond the side
-            here = (old[c, 0] - u) * dv - (old[c, 1] - v) * du - slack
-            there = (old[n, 0] - u) * dv - (old[n, 1] - v) * du - slack
+            here = (one.at[0] - u) * dv - (one.at[1] - v) * du - slack
+            there = (other.at[0] - u) * dv - (other.at[1] - v) * du - slack
             if here <= 0.0:
-                for i in range(3):
-                    new[left, i] = old[c, i]
-                new_tags[left], new_source[left] = tags[c], source[c]
+                new[left] = one
                 left += 1
             if (here <= 0.0) != (there <= 0.0):
                 share = here / (here - there)
                 for i in range(3):
-                    new[left, i] = old[c, i] + share * (old[n, i] - old[c, i])
-                new_tags[left] = _name_at_side(hulls, master, f, k, source[c], exchanged)
-                new_source[left] = -1 - k if here <= 0.0 else source[c]
+                    new[left].at[i] = one.at[i] + share * (other.at[i] - one.at[i])
+                new[left].name = _name_at_side(hulls, master, f, k, one.source, exchanged)
+                new[left].source = -1 - k if here <= 0.0 else one.source
                 left += 1
         now, count = 1 - now, left
         if count == 0:
@@ -199,17 +193,17 @@ def places_on_face(hulls, master, face, slave, facing_face, relation, exchanged,
     count, now = _clip(hulls, master, f, slave, count, exchanged, places)
     axes, middle, found = hulls.axes[f], hulls.middles[f], 0
     for c in range(count):
-        p = places.plane[now, c]
+        corner, place = places.clipped[now, c], places.found[found]
+        p = corner.at
         if p[2] > reach:
             continue
         for i in range(3):
-            places.seats[found, i] = middle[i] + axes[i, 0] * p[0] + axes[i, 1] * p[1]
+            place.seat[i] = middle[i] + axes[i, 0] * p[0] + axes[i, 1] * p[1]
         for i in range(3):
-            places.arms[found, i] = 0.0
+            place.arm[i] = 0.0
             for k in range(3):
-                at = places.seats[found, k] + axes[k, 2] * p[2] - s[k]
-                places.arms[found, i] += T[k, i] * at
-        places.gaps[found], places.names[found] = p[2], places.tags[now, c]
+                place.arm[i] += T[k, i] * (place.seat[k] + axes[k, 2] * p[2] - s[k])
+        place.gap, place.name = p[2], corner.name
         found += 1
     return found
 
@@ -241,10 +235,10 @@ def place_of_edges(hulls, a, first, b, second, relation, reach, places, normal):
     slack = 1e-9 * (length + other)
     if gap > reach or not (-slack <= at <= length + slack and -slack <= there <= other + slack):
         return False
+    place = places.found[0]
     for k in range(3):
-        places.seats[0, k] = p[k] + at * d[k]
-        places.arms[0, k] = q[k] + there * e[k]
-    places.gaps[0], places.names[0] = gap, name_of(CROSSING, first, second)
+        place.seat[k], place.arm[k] = p[k] + at * d[k], q[k] + there * e[k]
+    place.gap, place.name = gap, name_of(CROSSING, first, second)
     return True
 
 
@@ -261,16 +255,16 @@ def places_on_ground(hulls, body, centers, rotations, place, axes, reach, places
     """
     R, found, start = rotations[body], 0, hulls.first[body, 0]
     for v in range(hulls.first[body + 1, 0] - start):
-        p, gap = hulls.corners[start + v], 0.0
+        p, on_ground, gap = hulls.corners[start + v], places.found[found], 0.0
         for i in range(3):
             at = centers[body, i] + R[i, 0] * p[0] + R[i, 1] * p[1] + R[i, 2] * p[2] - place[i]
             gap += axes[i, 2] * at
-            places.seats[found, i] = at
+            on_ground.seat[i] = at
         if gap > reach:
             continue
         for i in range(3):
-            places.arms[found, i] = p[i]
-            places.seats[found, i] -= gap * axes[i, 2]
-        places.gaps[found], places.names[found] = gap, name_of(CORNER_OF_SECOND, v, 0)
+            on_ground.arm[i] = p[i]
+            on_ground.seat[i] -= gap * axes[i, 2]
+        on_ground.gap, on_ground.name = gap, name_of(CORNER_OF_SECOND, v, 0)
         found += 1
     return found

@@ -42,6 +42,7 @@ from fecolumn.contact.manifold import (
     places_on_face,
     places_on_ground,
 )
+from fecolumn.contact.record import record
 from fecolumn.contact.separation import (
     FACE_OF_FIRST,
     FACE_OF_SECOND,
@@ -54,52 +55,57 @@ from fecolumn.contact.separation import (
     separation_along,
 )
 from fecolumn.contact.tolerances import OTHER_AXIS, SAME_POINT_BY_PLACE
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import interpreted, njit
 
 #: Kind of axis of a body over a plane ground, beside those of `contact.separation`
 GROUND_NORMAL = 4
 #: First number of a row without a pair; that of ground g is -1 - g
 NO_PAIR = -(2**62)
 
-_BESIDE = ("convex.py", "manifold.py", "separation.py", "tolerances.py")
+_BESIDE = ("convex.py", "manifold.py", "record.py", "separation.py", "tolerances.py")
+
+
+#: A pair. pair: (2,) bodies, the first -1 - g of ground g, NO_PAIR of an unused row; kind of the
+#: axis, feature: (2,) its face or edges, facing: face of the slave; separation along the axis [m].
+#: master: -1 of a ground, slave. origin: (3,) [m], axes: (3, 3) in the master's frame, frame: (3,
+#: 3) in the table frame; exchanged: whether the axis is another than before, frame_before and
+#: master_before: of the step before. turn_then: (3, 3), shift_then: (3,) [m] how the bodies were to
+#: each other when all axes were looked at; seen: own to `keep_rows`.
+MEETING = record(
+    ("pair", "i8", 2),
+    ("kind", "i8"),
+    ("feature", "i8", 2),
+    ("facing", "i8"),
+    ("separation", "f8"),
+    ("master", "i8"),
+    ("slave", "i8"),
+    ("origin", "f8", 3),
+    ("axes", "f8", (3, 3)),
+    ("frame", "f8", (3, 3)),
+    ("exchanged", "?"),
+    ("frame_before", "f8", (3, 3)),
+    ("master_before", "i8"),
+    ("turn_then", "f8", (3, 3)),
+    ("shift_then", "f8", 3),
+    ("seen", "?"),
+)
+
+#: A place in a slot. name: 0 of an unused one; arm: (3,) from the slave's centre of mass in its
+#: frame, seat: (3,) from the master's in its own [m], of a ground from its place in the table
+#: frame; gap along the normal [m]; fresh: whether the slot was unused before.
+PLACE_MET = record(
+    ("name", "i8"), ("arm", "f8", 3), ("seat", "f8", 3), ("gap", "f8"), ("fresh", "?")
+)
 
 
 class Meetings(NamedTuple):
-    """Pairs in P rows and their places in S slots of each.
-
-    pair: (P, 2) bodies, the first -1 - g of ground g, NO_PAIR of an unused row. kind: (P,) of the
-    axis, feature: (P, 2) its face or edges, facing: (P,) face of the slave, separation: (P,) along
-    the axis [m]. master: (P,), -1 of a ground, slave: (P,). origin: (P, 3) [m], axes: (P, 3, 3) in
-    the master's frame, frame: (P, 3, 3) in the table frame; exchanged: (P,), and frame_before,
-    master_before of the step before. turn_then: (P, 3, 3), shift_then: (P, 3) [m] how the bodies
-    were to each other when all axes were looked at. names: (P, S), 0 of an unused slot, arms: (P,
-    S, 3) from the slave's centre of mass in its frame, seats: (P, S, 3) from the master's in its
-    own [m], of a ground from its place in the table frame; gaps: (P, S) [m]; fresh: (P, S) whether
-    it was unused before. buckets: (2^n,) rows by their pair, seen: (P,), own to `keep_rows`.
+    """Pairs and their places: (P,) of MEETING and (P, S) of PLACE_MET; buckets: (2^n,) rows by
+    their pair, own to `keep_rows`.
     """
 
-    pair: np.ndarray
-    kind: np.ndarray
-    feature: np.ndarray
-    facing: np.ndarray
-    separation: np.ndarray
-    master: np.ndarray
-    slave: np.ndarray
-    origin: np.ndarray
-    axes: np.ndarray
-    frame: np.ndarray
-    frame_before: np.ndarray
-    exchanged: np.ndarray
-    master_before: np.ndarray
-    turn_then: np.ndarray
-    shift_then: np.ndarray
-    names: np.ndarray
-    arms: np.ndarray
-    seats: np.ndarray
-    gaps: np.ndarray
-    fresh: np.ndarray
+    rows: np.ndarray
+    places: np.ndarray
     buckets: np.ndarray
-    seen: np.ndarray
 
 
 class Room(NamedTuple):
@@ -118,39 +124,18 @@ def room_for(hulls: Hulls) -> Room:
 
 def meetings_for(rows: int, slots: int = 8) -> Meetings:
     """Rows without a pair."""
-    whole, eye = np.int64, np.broadcast_to(np.eye(3), (rows, 3, 3))
-    return Meetings(
-        np.full((rows, 2), NO_PAIR),
-        np.full(rows, NO_AXIS),
-        np.full((rows, 2), -1),
-        np.full(rows, -1),
-        np.full(rows, np.inf),
-        np.full(rows, -1),
-        np.full(rows, -1),
-        np.zeros((rows, 3)),
-        eye.copy(),
-        eye.copy(),
-        eye.copy(),
-        np.zeros(rows, bool),
-        np.full(rows, -1),
-        np.zeros((rows, 3, 3)),
-        np.zeros((rows, 3)),
-        np.zeros((rows, slots), whole),
-        np.zeros((rows, slots, 3)),
-        np.zeros((rows, slots, 3)),
-        np.zeros((rows, slots)),
-        np.zeros((rows, slots), bool),
-        np.full(2 ** int(np.ceil(np.log2(2 * rows + 2))), -1),
-        np.zeros(rows, bool),
-    )
+    buckets = np.full(2 ** int(np.ceil(np.log2(2 * rows + 2))), -1)
+    meetings = Meetings(np.zeros(rows, MEETING), np.zeros((rows, slots), PLACE_MET), buckets)
+    for row, places in zip(meetings.rows, meetings.places):
+        interpreted(_free)(row, places)
+    return meetings
 
 
 def more_rows(meetings: Meetings, rows: int) -> Meetings:
     """The same pairs with `rows` rows."""
-    result = meetings_for(rows, meetings.names.shape[1])
-    for name in Meetings._fields:
-        if name not in ("buckets", "seen"):
-            getattr(result, name)[: len(meetings.pair)] = getattr(meetings, name)
+    result = meetings_for(rows, meetings.places.shape[1])
+    result.rows[: len(meetings.rows)] = meetings.rows
+    result.places[: len(meetings.rows)] = meetings.places
     return result
 
 
@@ -185,11 +170,11 @@ def add_grounds(hulls, boxes, ground_places, ground_axes, pairs, found):
 @njit(alone=_BESIDE)
 def _bucket(meetings, first, second):
     """The bucket in which the row of a pair is or would be."""
-    mask = len(meetings.buckets) - 1
+    buckets, mask = meetings.buckets, len(meetings.buckets) - 1
     k = (first * 73856093 ^ second * 19349663) & mask
-    while meetings.buckets[k] >= 0:
-        row = meetings.buckets[k]
-        if meetings.pair[row, 0] == first and meetings.pair[row, 1] == second:
+    while buckets[k] >= 0:
+        pair = meetings.rows[buckets[k]].pair
+        if pair[0] == first and pair[1] == second:
             break
         k = (k + 1) & mask
     return k
@@ -200,47 +185,44 @@ def keep_rows(meetings, pairs):
     """Give each of pairs (k, 2) a row, the one it has where it has one, and free all others; how
     many pairs found no row.
     """
-    buckets, seen, missing = meetings.buckets, meetings.seen, 0
+    buckets, rows, missing, free = meetings.buckets, meetings.rows, 0, 0
     for k in range(len(buckets)):
         buckets[k] = -1
-    for row in range(len(seen)):
-        seen[row] = False
-        if meetings.pair[row, 0] != NO_PAIR:
-            buckets[_bucket(meetings, meetings.pair[row, 0], meetings.pair[row, 1])] = row
+    for r in range(len(rows)):
+        rows[r].seen = False
+        if rows[r].pair[0] != NO_PAIR:
+            buckets[_bucket(meetings, rows[r].pair[0], rows[r].pair[1])] = r
     for k in range(len(pairs)):
-        row = buckets[_bucket(meetings, pairs[k, 0], pairs[k, 1])]
-        if row >= 0:
-            seen[row] = True
-    for row in range(len(seen)):
-        if not seen[row]:
-            _free(meetings, row)
-    free = 0
+        r = buckets[_bucket(meetings, pairs[k, 0], pairs[k, 1])]
+        if r >= 0:
+            rows[r].seen = True
+    for r in range(len(rows)):
+        if not rows[r].seen and rows[r].pair[0] != NO_PAIR:
+            _free(rows[r], meetings.places[r])
     for k in range(len(pairs)):
         # a row freed above is in its bucket still, but has lost its pair
         bucket = _bucket(meetings, pairs[k, 0], pairs[k, 1])
         if buckets[bucket] >= 0:
             continue
-        while free < len(seen) and seen[free]:
+        while free < len(rows) and rows[free].seen:
             free += 1
-        if free == len(seen):
+        if free == len(rows):
             missing += 1
             continue
-        meetings.pair[free, 0], meetings.pair[free, 1] = pairs[k, 0], pairs[k, 1]
-        seen[free] = True
+        rows[free].pair[0], rows[free].pair[1], rows[free].seen = pairs[k, 0], pairs[k, 1], True
         buckets[bucket] = free
     return missing
 
 
 @njit(alone=_BESIDE)
-def _free(meetings, row):
-    meetings.pair[row, 0] = meetings.pair[row, 1] = NO_PAIR
-    meetings.kind[row], meetings.separation[row], meetings.facing[row] = NO_AXIS, np.inf, -1
-    meetings.turn_then[row, 0, 0] = np.inf
-    meetings.master[row] = meetings.slave[row] = -1
-    meetings.exchanged[row] = False
-    for slot in range(meetings.names.shape[1]):
-        meetings.names[row, slot] = 0
-        meetings.fresh[row, slot] = False
+def _free(row, places):
+    """Take the pair from a row."""
+    row.pair[0] = row.pair[1] = NO_PAIR
+    row.kind, row.separation, row.facing = NO_AXIS, np.inf, -1
+    row.master = row.slave = row.master_before = row.feature[0] = row.feature[1] = -1
+    row.exchanged, row.turn_then[0, 0] = False, np.inf
+    for slot in range(len(places)):
+        places[slot].name, places[slot].fresh = 0, False
 
 
 @njit(alone=_BESIDE)
@@ -254,163 +236,152 @@ def find_places(hulls, centers, rotations, ground_places, ground_axes, reach, me
         (N, 3) centres of mass [m] and (N, 3, 3) of all bodies.
     """
     changed = False
-    for row in range(len(meetings.pair)):
-        if meetings.pair[row, 0] == NO_PAIR:
+    for r in range(len(meetings.rows)):
+        row, places = meetings.rows[r], meetings.places[r]
+        if row.pair[0] == NO_PAIR:
             continue
-        if meetings.pair[row, 0] < 0:
+        if row.pair[0] < 0:
+            place, axes = ground_places[-1 - row.pair[0]], ground_axes[-1 - row.pair[0]]
             changed |= _meet_ground(
-                hulls, centers, rotations, ground_places, ground_axes, reach, meetings, row, room
+                hulls, centers, rotations, place, axes, reach, row, places, room.places
             )
         else:
-            changed |= _meet(hulls, centers, rotations, reach, meetings, row, room)
+            changed |= _meet(hulls, centers, rotations, reach, row, places, room)
     return changed
 
 
 @njit(alone=_BESIDE)
-def _meet_ground(hulls, centers, rotations, ground_places, ground_axes, reach, meetings, row, room):
+def _meet_ground(hulls, centers, rotations, place, axes, reach, row, places, room):
     """`find_places` of a row of a body and a ground."""
-    body, ground = meetings.pair[row, 1], -1 - meetings.pair[row, 0]
-    axes, place = ground_axes[ground], ground_places[ground]
-    count = places_on_ground(hulls, body, centers, rotations, place, axes, reach, room.places)
-    meetings.separation[row] = np.inf
+    body = row.pair[1]
+    count = places_on_ground(hulls, body, centers, rotations, place, axes, reach, room)
+    row.separation, known = np.inf, row.kind == GROUND_NORMAL
     for q in range(count):
-        meetings.separation[row] = min(meetings.separation[row], room.places.gaps[q])
-    known = meetings.kind[row] == GROUND_NORMAL
-    meetings.kind[row], meetings.master[row], meetings.slave[row] = GROUND_NORMAL, -1, body
+        row.separation = min(row.separation, room.found[q].gap)
+    row.kind, row.master, row.slave, row.master_before = GROUND_NORMAL, -1, body, -1
     for i in range(3):
-        meetings.origin[row, i] = 0.0
+        row.origin[i] = 0.0
         for k in range(3):
-            meetings.frame_before[row, i, k] = meetings.frame[row, i, k] if known else axes[i, k]
-            meetings.frame[row, i, k] = meetings.axes[row, i, k] = axes[i, k]
-    return _settle(meetings, row, -1, count, hulls.thickness[body], room.places)
+            row.frame_before[i, k] = row.frame[i, k] if known else axes[i, k]
+            row.frame[i, k] = row.axes[i, k] = axes[i, k]
+    return _settle(row, places, room.found, count, hulls.thickness[body])
 
 
 @njit(alone=_BESIDE)
-def _meet(hulls, centers, rotations, reach, meetings, row, room):
+def _meet(hulls, centers, rotations, reach, row, places, room):
     """`find_places` of a row of two bodies."""
-    a, b = meetings.pair[row, 0], meetings.pair[row, 1]
-    relation, reverse, places = room.relation, room.reverse, room.places
+    a, b, relation, was, count = row.pair[0], row.pair[1], room.relation, row.kind, 0
+    first, second = row.feature[0], row.feature[1]
     relate(centers, rotations, a, b, relation)
-    was, first_was, second_was = (
-        meetings.kind[row],
-        meetings.feature[row, 0],
-        meetings.feature[row, 1],
-    )
-    separation, kind, first, second = -np.inf, was, first_was, second_was
-    rests = was != NO_AXIS and _is_same(hulls, a, b, relation, meetings, row)
-    if rests:
-        separation = separation_along(hulls, a, b, relation, kind, first, second)
-    if not rests or separation == -np.inf:
+    separation = -np.inf
+    if was != NO_AXIS:
+        separation = separation_along(hulls, a, b, relation, was, first, second)
+    if separation > reach and _is_idle(places):
+        row.separation, row.exchanged = separation, False
+        return False
+    kind, size = was, min(hulls.thickness[a], hulls.thickness[b])
+    if separation <= reach and (
+        separation == -np.inf or not _is_same(hulls, b, relation, row, OTHER_AXIS / 4 * size)
+    ):
         separation, kind, first, second = choose_axis(
-            hulls, a, b, relation, reach, was, first_was, second_was
+            hulls, a, b, relation, reach, was, first, second, separation
         )
-        if separation <= reach:
-            _remember(relation, meetings, row)
-        else:
-            meetings.turn_then[row, 0, 0] = np.inf
-    same = kind == was and first == first_was and second == second_was
-    master_was = meetings.master_before[row] = meetings.master[row]
-    meetings.separation[row], meetings.kind[row] = separation, kind
-    meetings.feature[row, 0], meetings.feature[row, 1] = first, second
-    size, count = min(hulls.thickness[a], hulls.thickness[b]), 0
-    master, slave = (b, a) if kind == FACE_OF_SECOND else (a, b)
-    meetings.master[row], meetings.slave[row] = master, slave
-    meetings.exchanged[row] = not same and was != NO_AXIS
+        _remember(relation, row, separation <= reach)
+    same = kind == was and first == row.feature[0] and second == row.feature[1]
+    row.exchanged, row.master_before = not same and was != NO_AXIS, row.master
+    row.separation, row.kind, row.feature[0], row.feature[1] = separation, kind, first, second
+    row.master, row.slave = (b, a) if kind == FACE_OF_SECOND else (a, b)
     if separation <= reach:
+        before = row.facing if same else -1
         if kind == FACE_OF_FIRST:
-            count = _meet_face(
-                hulls, a, first, b, relation, False, reach, meetings, row, same, places
-            )
+            count = _meet_face(hulls, a, first, b, relation, False, reach, row, before, room.places)
         elif kind == FACE_OF_SECOND:
-            relate(centers, rotations, b, a, reverse)
+            relate(centers, rotations, b, a, room.reverse)
             count = _meet_face(
-                hulls, b, second, a, reverse, True, reach, meetings, row, same, places
+                hulls, b, second, a, room.reverse, True, reach, row, before, room.places
             )
         else:
             crosses = place_of_edges(
-                hulls, a, first, b, second, relation, reach, places, room.normal
+                hulls, a, first, b, second, relation, reach, room.places, room.normal
             )
             count = 1 if crosses else 0
-            _set_axes_of_edge(hulls, a, first, meetings, row, room.normal)
-        _set_frame(meetings, row, rotations[master], was != NO_AXIS)
-    return _settle(meetings, row, master_was, count, size, places)
+            _set_axes_of_edge(hulls, a, first, row, room.normal)
+        _set_frame(row, rotations[row.master], was != NO_AXIS)
+    return _settle(row, places, room.places.found, count, size)
 
 
 @njit(alone=_BESIDE)
-def _is_same(hulls, a, b, relation, meetings, row):
-    """Whether no place of body b has moved much as seen from body a since all axes were looked
-    at.
+def _is_idle(places):
+    for slot in range(len(places)):
+        if places[slot].name != 0:
+            return False
+    return True
+
+
+@njit(alone=_BESIDE)
+def _is_same(hulls, b, relation, row, most):
+    """Whether no place of body b has moved by `most` [m] as seen from the other body since all axes
+    were looked at.
     """
-    turned = moved = reach = 0.0
+    turned = moved = radius = 0.0
     for i in range(3):
-        moved += (relation.shift[i] - meetings.shift_then[row, i]) ** 2
-        reach += (abs(hulls.middle[b, i]) + hulls.half[b, i]) ** 2
+        moved += (relation.shift[i] - row.shift_then[i]) ** 2
+        radius += (abs(hulls.middle[b, i]) + hulls.half[b, i]) ** 2
         for k in range(3):
-            turned += (relation.turn[i, k] - meetings.turn_then[row, i, k]) ** 2
-    most = OTHER_AXIS / 4 * min(hulls.thickness[a], hulls.thickness[b])
-    return np.sqrt(moved) + np.sqrt(turned * reach) < most
+            turned += (relation.turn[i, k] - row.turn_then[i, k]) ** 2
+    return np.sqrt(moved) + np.sqrt(turned * radius) < most
 
 
 @njit(alone=_BESIDE)
-def _remember(relation, meetings, row):
+def _remember(relation, row, near):
+    """Keep how the bodies are to each other, where all axes were looked at."""
     for i in range(3):
-        meetings.shift_then[row, i] = relation.shift[i]
+        row.shift_then[i] = relation.shift[i]
         for k in range(3):
-            meetings.turn_then[row, i, k] = relation.turn[i, k]
+            row.turn_then[i, k] = relation.turn[i, k] if near else np.inf
 
 
 @njit(alone=_BESIDE)
-def _meet_face(hulls, master, face, slave, relation, exchanged, reach, meetings, row, same, places):
+def _meet_face(hulls, master, face, slave, relation, exchanged, reach, row, before, places):
     """Find the places over a face of the master and set the axes of a row; how many they are."""
-    f, T = hulls.first[master, 1] + face, relation.turn
+    f, T, first = hulls.first[master, 1] + face, relation.turn, hulls.first
     n = hulls.normals[f]
     x = T[0, 0] * n[0] + T[1, 0] * n[1] + T[2, 0] * n[2]
     y = T[0, 1] * n[0] + T[1, 1] * n[1] + T[2, 1] * n[2]
     z = T[0, 2] * n[0] + T[1, 2] * n[1] + T[2, 2] * n[2]
-    least = least_along(hulls, slave, x, y, z)[0]
-    before = meetings.facing[row] if same else -1
-    meetings.facing[row] = facing(hulls, slave, x, y, z, least, before)
+    least = least_along(hulls.corners, first[slave, 0], first[slave + 1, 0], x, y, z)[0]
+    row.facing = facing(hulls, slave, x, y, z, least, before)
     for i in range(3):
-        meetings.origin[row, i] = hulls.middles[f, i]
+        row.origin[i] = hulls.middles[f, i]
         for k in range(3):
-            meetings.axes[row, i, k] = hulls.axes[f, i, k]
+            row.axes[i, k] = hulls.axes[f, i, k]
     return places_on_face(
-        hulls, master, face, slave, meetings.facing[row], relation, exchanged, reach, places
+        hulls, master, face, slave, row.facing, relation, exchanged, reach, places
     )
 
 
 @njit(alone=_BESIDE)
-def _set_axes_of_edge(hulls, a, edge, meetings, row, normal):
+def _set_axes_of_edge(hulls, a, edge, row, normal):
     """Axes of a row: an edge of body a, across it, and the normal (3,) in its frame."""
     d = hulls.ways[hulls.first[a, 2] + edge]
     start = hulls.corners[hulls.first[a, 0] + hulls.ends[hulls.first[a, 2] + edge, 0]]
     for i in range(3):
         one, two = (i + 1) % 3, (i + 2) % 3
-        meetings.origin[row, i] = start[i]
-        meetings.axes[row, i, 0], meetings.axes[row, i, 2] = d[i], normal[i]
-        meetings.axes[row, i, 1] = normal[one] * d[two] - normal[two] * d[one]
+        row.origin[i] = start[i]
+        row.axes[i, 0], row.axes[i, 2] = d[i], normal[i]
+        row.axes[i, 1] = normal[one] * d[two] - normal[two] * d[one]
 
 
 @njit(alone=_BESIDE)
-def _set_frame(meetings, row, rotation, known):
+def _set_frame(row, rotation, known):
+    """Turn a row's axes into the table frame."""
     for i in range(3):
         for k in range(3):
-            before, axes = meetings.frame[row, i, k], meetings.axes[row]
-            meetings.frame[row, i, k] = (
-                rotation[i, 0] * axes[0, k]
-                + rotation[i, 1] * axes[1, k]
-                + rotation[i, 2] * axes[2, k]
-            )
-            meetings.frame_before[row, i, k] = before if known else meetings.frame[row, i, k]
-
-
-@njit(alone=_BESIDE)
-def _has(meetings, row, name):
-    """Slot of a row that has a name, -1 of none."""
-    for slot in range(meetings.names.shape[1]):
-        if meetings.names[row, slot] == name:
-            return slot
-    return -1
+            before, along = row.frame[i, k], 0.0
+            for c in range(3):
+                along += rotation[i, c] * row.axes[c, k]
+            row.frame[i, k] = along
+            row.frame_before[i, k] = before if known else along
 
 
 @njit(alone=_BESIDE)
@@ -420,94 +391,85 @@ def _apart(one, other):
 
 
 @njit(alone=_BESIDE)
-def _keep_spanning(meetings, row, count, size, places):
-    """Mark the places, as many as there are slots, that stand for all: the lowest, and each further
-    one the farthest from those; one of the step before is preferred by OTHER_AXIS.
+def _keep_spanning(places, found, count, size):
+    """Mark the places found, as many as there are slots, that stand for all: the lowest, and each
+    further one the farthest from those; one of the step before is preferred by OTHER_AXIS.
     """
-    slots, lowest, least = meetings.names.shape[1], 0, np.inf
+    slots, chosen, least, preferred = len(places), 0, np.inf, OTHER_AXIS * size
     for q in range(count):
-        places.kept[q] = count <= slots
-        places.slot[q] = _has(meetings, row, places.names[q])
-        gap = places.gaps[q] - (OTHER_AXIS * size if places.slot[q] >= 0 else 0.0)
+        found[q].kept, found[q].slot, found[q].away = count <= slots, -1, np.inf
+        for slot in range(slots):
+            if places[slot].name == found[q].name:
+                found[q].slot = slot
+                break
+        gap = found[q].gap - (preferred if found[q].slot >= 0 else 0.0)
         if gap < least:
-            least, lowest = gap, q
+            least, chosen = gap, q
     if count <= slots:
         return
-    places.kept[lowest] = True
-    for _ in range(slots - 1):
-        chosen, most = -1, -np.inf
-        for q in range(count):
-            if places.kept[q]:
+    for left in range(slots - 1, -1, -1):
+        found[chosen].kept = True
+        last, most = chosen, -np.inf
+        for q in range(count if left > 0 else 0):
+            if found[q].kept:
                 continue
-            away = np.inf
-            for p in range(count):
-                if places.kept[p]:
-                    away = min(away, _apart(places.seats[p], places.seats[q]))
-            if places.slot[q] >= 0:
-                away += OTHER_AXIS * size
+            found[q].away = min(found[q].away, _apart(found[last].seat, found[q].seat))
+            away = found[q].away + (preferred if found[q].slot >= 0 else 0.0)
             if away > most:
                 chosen, most = q, away
-        places.kept[chosen] = True
 
 
 @njit(alone=_BESIDE)
-def _settle(meetings, row, master_was, count, size, places):
-    """Put places into the slots of a row: each into its own, where its name is known, or else into
-    that of the nearest place that has gone; whether others take part than before.
-
-    Parameters
-    ----------
-    master_was
-        the row's master in the step before, -1 of a ground or none
-    size
-        thickness of the thinner body [m].
-    """
-    names, slots, changed = meetings.names, meetings.names.shape[1], False
-    _keep_spanning(meetings, row, count, size, places)
-    first = meetings.pair[row, 0]
-    # on the body, where the first one is a ground
-    was, now = first >= 0 and master_was == first, first >= 0 and meetings.master[row] == first
+def _is_taken(found, count, slot):
     for q in range(count):
-        if not places.kept[q] or places.slot[q] >= 0:
-            continue
-        nearest = SAME_POINT_BY_PLACE * size
-        here = places.seats[q] if now else places.arms[q]
-        for slot in range(slots):
-            if names[row, slot] == 0 or _is_taken(places, count, slot):
-                continue
-            there = meetings.seats[row, slot] if was else meetings.arms[row, slot]
-            away = _apart(here, there)
-            if away < nearest:
-                nearest, places.slot[q] = away, slot
-    for q in range(count):
-        if not places.kept[q] or places.slot[q] >= 0:
-            continue
-        for slot in range(slots):
-            # a slot of one that has gone is as good as an unused one
-            if not _is_taken(places, count, slot):
-                places.slot[q] = slot
-                changed = True
-                names[row, slot] = 0
-                break
-    for slot in range(slots):
-        if not _is_taken(places, count, slot):
-            changed |= names[row, slot] != 0
-            names[row, slot], meetings.fresh[row, slot] = 0, False
-    for q in range(count):
-        if not places.kept[q]:
-            continue
-        slot = places.slot[q]
-        meetings.fresh[row, slot] = names[row, slot] == 0
-        names[row, slot], meetings.gaps[row, slot] = places.names[q], places.gaps[q]
-        for i in range(3):
-            meetings.arms[row, slot, i] = places.arms[q, i]
-            meetings.seats[row, slot, i] = places.seats[q, i]
-    return changed
-
-
-@njit(alone=_BESIDE)
-def _is_taken(places, count, slot):
-    for q in range(count):
-        if places.kept[q] and places.slot[q] == slot:
+        if found[q].kept and found[q].slot == slot:
             return True
     return False
+
+
+@njit(alone=_BESIDE)
+def _settle(row, places, found, count, size):
+    """Put the places found into the slots of a row: each into its own, where its name is known, or
+    else into that of the nearest place that has gone; whether others take part than before.
+
+    size: thickness of the thinner body [m].
+    """
+    changed = False
+    _keep_spanning(places, found, count, size)
+    # places on the first body; on the other one, where the first is a ground
+    first = row.pair[0]
+    was, now = first >= 0 and row.master_before == first, first >= 0 and row.master == first
+    for q in range(count):
+        if not found[q].kept or found[q].slot >= 0:
+            continue
+        nearest = SAME_POINT_BY_PLACE * size
+        for slot in range(len(places)):
+            if places[slot].name == 0 or _is_taken(found, count, slot):
+                continue
+            away = _apart(
+                found[q].seat if now else found[q].arm,
+                places[slot].seat if was else places[slot].arm,
+            )
+            if away < nearest:
+                nearest, found[q].slot = away, slot
+    for q in range(count):
+        if not found[q].kept or found[q].slot >= 0:
+            continue
+        for slot in range(len(places)):
+            # a slot of one that has gone is as good as an unused one
+            if not _is_taken(found, count, slot):
+                found[q].slot, places[slot].name, changed = slot, 0, True
+                break
+    for slot in range(len(places)):
+        if not _is_taken(found, count, slot):
+            changed |= places[slot].name != 0
+            places[slot].name, places[slot].fresh = 0, False
+    for q in range(count):
+        if not found[q].kept:
+            continue
+        place = places[found[q].slot]
+        place.fresh = place.name == 0
+        place.name, place.gap = found[q].name, found[q].gap
+        for i in range(3):
+            place.arm[i], place.seat[i] = found[q].arm[i], found[q].seat[i]
+    return changed

@@ -33,8 +33,8 @@ _BESIDE = ("convex.py", "tolerances.py")
 
 class Relation(NamedTuple):
     """Where the second body is, seen from the frame of the first: turn (3, 3) and shift (3,) [m];
-    room for its corners (V, 3), normals (F, 3) and edges (E, 3) there, for numbers of its faces
-    (F,), for edges (E,) and for a vector of each body (2, 3).
+    room for its corners (V, 3) and normals (F, 3) there, for edges near the first body, ways (E,
+    3) and near (E,), for numbers of its faces (F,) and for a corner of each body (2, 3).
     """
 
     turn: np.ndarray
@@ -74,13 +74,13 @@ def relate(centers, rotations, a, b, relation):
 
 
 @njit(alone=_BESIDE)
-def least_along(hulls, body, x, y, z):
-    """Least product [m] of a vector with the corners of a body, and the corner."""
-    first, least, where = hulls.first[body, 0], np.inf, -1
-    for v in range(first, hulls.first[body + 1, 0]):
-        product = x * hulls.corners[v, 0] + y * hulls.corners[v, 1] + z * hulls.corners[v, 2]
+def least_along(corners, first, last, x, y, z):
+    """Least product [m] of a vector with corners `first` to before `last`, and the row of it."""
+    least, where = np.inf, -1
+    for v in range(first, last):
+        product = x * corners[v, 0] + y * corners[v, 1] + z * corners[v, 2]
         if product < least:
-            least, where = product, v - first
+            least, where = product, v
     return least, where
 
 
@@ -90,8 +90,9 @@ def _over_first(hulls, a, b, relation, face):
     f, T, s = hulls.first[a, 1] + face, relation.turn, relation.shift
     x, y, z = hulls.normals[f, 0], hulls.normals[f, 1], hulls.normals[f, 2]
     least = least_along(
-        hulls,
-        b,
+        hulls.corners,
+        hulls.first[b, 0],
+        hulls.first[b + 1, 0],
         T[0, 0] * x + T[1, 0] * y + T[2, 0] * z,
         T[0, 1] * x + T[1, 1] * y + T[2, 1] * z,
         T[0, 2] * x + T[1, 2] * y + T[2, 2] * z,
@@ -107,7 +108,7 @@ def _over_second(hulls, a, b, relation, face):
     x = T[0, 0] * n[0] + T[0, 1] * n[1] + T[0, 2] * n[2]
     y = T[1, 0] * n[0] + T[1, 1] * n[1] + T[1, 2] * n[2]
     z = T[2, 0] * n[0] + T[2, 1] * n[1] + T[2, 2] * n[2]
-    least = least_along(hulls, a, x, y, z)[0]
+    least = least_along(hulls.corners, hulls.first[a, 0], hulls.first[a + 1, 0], x, y, z)[0]
     return least - x * s[0] - y * s[1] - z * s[2] - hulls.offsets[f]
 
 
@@ -140,13 +141,20 @@ def _along(hulls, a, b, relation, x, y, z):
     """Separation [m] along a unit vector in the frame of body a."""
     T, s = relation.turn, relation.shift
     least = least_along(
-        hulls,
-        b,
+        hulls.corners,
+        hulls.first[b, 0],
+        hulls.first[b + 1, 0],
         T[0, 0] * x + T[1, 0] * y + T[2, 0] * z,
         T[0, 1] * x + T[1, 1] * y + T[2, 1] * z,
         T[0, 2] * x + T[1, 2] * y + T[2, 2] * z,
     )[0]
-    return least + x * s[0] + y * s[1] + z * s[2] + least_along(hulls, a, -x, -y, -z)[0]
+    return (
+        least
+        + x * s[0]
+        + y * s[1]
+        + z * s[2]
+        + least_along(hulls.corners, hulls.first[a, 0], hulls.first[a + 1, 0], -x, -y, -z)[0]
+    )
 
 
 @njit(alone=_BESIDE)
@@ -187,7 +195,7 @@ def _over_faces(hulls, a, b, relation, enough):
 
 @njit(alone=_BESIDE)
 def _lay_out(hulls, b, relation):
-    """Put corners, normals and edges of body b into the frame of the first body."""
+    """Put corners and normals of body b into the frame of the first body."""
     T, s = relation.turn, relation.shift
     for v in range(hulls.first[b + 1, 0] - hulls.first[b, 0]):
         p = hulls.corners[hulls.first[b, 0] + v]
@@ -197,10 +205,6 @@ def _lay_out(hulls, b, relation):
         p = hulls.normals[hulls.first[b, 1] + f]
         for k in range(3):
             relation.normals[f, k] = T[k, 0] * p[0] + T[k, 1] * p[1] + T[k, 2] * p[2]
-    for j in range(hulls.first[b + 1, 2] - hulls.first[b, 2]):
-        p = hulls.ways[hulls.first[b, 2] + j]
-        for k in range(3):
-            relation.ways[j, k] = T[k, 0] * p[0] + T[k, 1] * p[1] + T[k, 2] * p[2]
 
 
 @njit(alone=_BESIDE)
@@ -217,12 +221,13 @@ def _nearest_corners(hulls, a, b, relation, most_a, face_a, most_b, face_b):
         x = -T[0, 0] * n[0] - T[0, 1] * n[1] - T[0, 2] * n[2]
         y = -T[1, 0] * n[0] - T[1, 1] * n[1] - T[1, 2] * n[2]
         z = -T[2, 0] * n[0] - T[2, 1] * n[1] - T[2, 2] * n[2]
-    where = hulls.first[a, 0] + least_along(hulls, a, -x, -y, -z)[1]
+    where = least_along(hulls.corners, hulls.first[a, 0], hulls.first[a + 1, 0], -x, -y, -z)[1]
     least = (
         hulls.first[b, 0]
         + least_along(
-            hulls,
-            b,
+            hulls.corners,
+            hulls.first[b, 0],
+            hulls.first[b + 1, 0],
             T[0, 0] * x + T[1, 0] * y + T[2, 0] * z,
             T[0, 1] * x + T[1, 1] * y + T[2, 1] * z,
             T[0, 2] * x + T[1, 2] * y + T[2, 2] * z,
@@ -271,6 +276,12 @@ def _over_edges(hulls, a, b, relation, enough):
         )
         if over > enough:
             near[count] = j
+            for k in range(3):
+                ways[count, k] = (
+                    relation.turn[k, 0] * hulls.ways[other, 0]
+                    + relation.turn[k, 1] * hulls.ways[other, 1]
+                    + relation.turn[k, 2] * hulls.ways[other, 2]
+                )
             count += 1
     for i in range(hulls.first[a + 1, 2] - hulls.first[a, 2] if count > 0 else 0):
         row = hulls.first[a, 2] + i
@@ -289,7 +300,7 @@ def _over_edges(hulls, a, b, relation, enough):
             right_b = along[hulls.sides[other, 1]]
             if along[hulls.sides[other, 0]] * right_b >= 0.0:
                 continue
-            w0, w1, w2 = ways[j, 0], ways[j, 1], ways[j, 2]
+            w0, w1, w2 = ways[c, 0], ways[c, 1], ways[c, 2]
             left_a = left[0] * w0 + left[1] * w1 + left[2] * w2
             if right_b * left_a >= 0.0:
                 continue
@@ -324,24 +335,18 @@ def largest_separation(hulls, a, b, relation):
 
 
 @njit(alone=_BESIDE)
-def choose_axis(hulls, a, b, relation, enough, kind, first, second):
+def choose_axis(hulls, a, b, relation, enough, kind, first, second, before):
     """Axis of contact of bodies a and b: separation along it [m], its kind and its face or edges.
 
     It is that of the largest separation, with a preference of OTHER_AXIS for the one of the step
-    before and for faces over two edges, so that bodies at rest keep theirs. An axis along which
-    they are farther apart than `enough` [m] is taken at once: that of the step before is looked at
-    first, so that a pair that stays apart costs one axis.
+    before and for faces over two edges, so that bodies at rest keep theirs. A face over which they
+    are farther apart than `enough` [m] is taken at once.
 
     Parameters
     ----------
-    kind, first, second
-        of the step before; NO_AXIS where there is none.
+    kind, first, second, before
+        axis of the step before and the separation along it now; NO_AXIS where there is none.
     """
-    before = -np.inf
-    if kind != NO_AXIS:
-        before = separation_along(hulls, a, b, relation, kind, first, second)
-        if before > enough:
-            return before, kind, first, second
     most_a, face_a, most_b, face_b = _over_faces(hulls, a, b, relation, enough)
     most = max(most_a, most_b)
     if most > enough:
