@@ -154,7 +154,11 @@ def _clip(hulls, master, f, slave, count, exchanged, places):
             du, dv = du + axes[i, 0] * (q[i] - p[i]), dv + axes[i, 1] * (q[i] - p[i])
         length = np.hypot(du, dv)
         du, dv = du / length, dv / length
-        old, new, left = places.clipped[now], places.clipped[1 - now], 0
+        old, new, left, beyond = places.clipped[now], places.clipped[1 - now], 0, False
+        for c in range(count):
+            beyond |= (old[c].at[0] - u) * dv - (old[c].at[1] - v) * du > slack
+        if not beyond:
+            continue
         for c in range(count):
             one, other = old[c], old[c + 1 if c + 1 < count else 0]
             # how far both ends of an edge are beyond the side

@@ -434,6 +434,8 @@ def _settle(row, places, found, count, size):
 
     size: thickness of the thinner body [m].
     """
+    if count == 0 and _is_idle(places):
+        return False
     changed = False
     _keep_spanning(places, found, count, size)
     # places on the first body; on the other one, where the first is a ground

@@ -86,30 +86,30 @@ def least_along(corners, first, last, x, y, z):
 
 @njit(alone=_BESIDE)
 def _over_first(hulls, a, b, relation, face):
-    """How far [m] body b is over a face of body a."""
+    """How far [m] body b is over a face of body a, and its row of corners that is nearest."""
     f, T, s = hulls.first[a, 1] + face, relation.turn, relation.shift
     x, y, z = hulls.normals[f, 0], hulls.normals[f, 1], hulls.normals[f, 2]
-    least = least_along(
+    least, where = least_along(
         hulls.corners,
         hulls.first[b, 0],
         hulls.first[b + 1, 0],
         T[0, 0] * x + T[1, 0] * y + T[2, 0] * z,
         T[0, 1] * x + T[1, 1] * y + T[2, 1] * z,
         T[0, 2] * x + T[1, 2] * y + T[2, 2] * z,
-    )[0]
-    return least + x * s[0] + y * s[1] + z * s[2] - hulls.offsets[f]
+    )
+    return least + x * s[0] + y * s[1] + z * s[2] - hulls.offsets[f], where
 
 
 @njit(alone=_BESIDE)
 def _over_second(hulls, a, b, relation, face):
-    """How far [m] body a is over a face of body b."""
+    """How far [m] body a is over a face of body b, and its row of corners that is nearest."""
     f, T, s = hulls.first[b, 1] + face, relation.turn, relation.shift
     n = hulls.normals[f]
     x = T[0, 0] * n[0] + T[0, 1] * n[1] + T[0, 2] * n[2]
     y = T[1, 0] * n[0] + T[1, 1] * n[1] + T[1, 2] * n[2]
     z = T[2, 0] * n[0] + T[2, 1] * n[1] + T[2, 2] * n[2]
-    least = least_along(hulls.corners, hulls.first[a, 0], hulls.first[a + 1, 0], x, y, z)[0]
-    return least - x * s[0] - y * s[1] - z * s[2] - hulls.offsets[f]
+    least, where = least_along(hulls.corners, hulls.first[a, 0], hulls.first[a + 1, 0], x, y, z)
+    return least - x * s[0] - y * s[1] - z * s[2] - hulls.offsets[f], where
 
 
 @njit(alone=_BESIDE)
@@ -165,32 +165,70 @@ def separation_along(hulls, a, b, relation, kind, first, second):
     difference.
     """
     if kind == FACE_OF_FIRST:
-        return _over_first(hulls, a, b, relation, first)
+        return _over_first(hulls, a, b, relation, first)[0]
     if kind == FACE_OF_SECOND:
-        return _over_second(hulls, a, b, relation, second)
+        return _over_second(hulls, a, b, relation, second)[0]
     x, y, z, sine = perpendicular(hulls, a, b, relation, first, second)
     return _along(hulls, a, b, relation, x, y, z) if sine > 0.0 else -np.inf
 
 
 @njit(alone=_BESIDE)
-def _over_faces(hulls, a, b, relation, enough):
-    """Largest separation over the faces of a and of b [m] and these faces; that of a face at which
-    it is above `enough` ends the search.
+def _over_faces(hulls, a, b, relation, enough, band):
+    """Largest separation over the faces of a and of b [m], the face of a, and that of b or -1 where
+    it is not larger by `band` [m]; a face at which it is above `enough` ends the search. The
+    corners of the other body that are nearest there are put into relation.
+
+    A face is passed over which that corner is not farther than the other body is over another one.
     """
-    most_a, face_a, most_b, face_b = -np.inf, -1, -np.inf, -1
+    T, s, corner = relation.turn, relation.shift, relation.corner
+    most, face_a, face_b = -np.inf, -1, -1
+    # any place of a body will do to begin with: its centre of mass
+    for k in range(3):
+        corner[0, k], corner[1, k] = 0.0, s[k]
     for f in range(hulls.first[a + 1, 1] - hulls.first[a, 1]):
-        over = _over_first(hulls, a, b, relation, f)
-        if over > most_a:
-            most_a, face_a = over, f
+        row, bound = hulls.first[a, 1] + f, 0.0
+        for k in range(3):
+            bound += hulls.normals[row, k] * corner[1, k]
+        if bound - hulls.offsets[row] <= most:
+            continue
+        over, where = _over_first(hulls, a, b, relation, f)
+        if over > most:
+            most, face_a = over, f
             if over > enough:
-                return most_a, face_a, most_b, face_b
+                return most, face_a, -1
+            for k in range(3):
+                corner[1, k] = s[k]
+                for c in range(3):
+                    corner[1, k] += T[k, c] * hulls.corners[where, c]
+    # of body a, a corner of its face
+    row = hulls.loop_first[hulls.first[a, 1] + face_a]
+    for k in range(3):
+        corner[0, k] = hulls.corners[hulls.first[a, 0] + hulls.loop[row], k]
+    most += band
     for f in range(hulls.first[b + 1, 1] - hulls.first[b, 1]):
-        over = _over_second(hulls, a, b, relation, f)
-        if over > most_b:
-            most_b, face_b = over, f
+        row, bound = hulls.first[b, 1] + f, 0.0
+        for k in range(3):
+            at = 0.0
+            for c in range(3):
+                at += T[c, k] * (corner[0, c] - s[c])
+            bound += hulls.normals[row, k] * at
+        if bound - hulls.offsets[row] <= most:
+            continue
+        over, where = _over_second(hulls, a, b, relation, f)
+        if over > most:
+            most, face_b = over, f
             if over > enough:
                 break
-    return most_a, face_a, most_b, face_b
+            for k in range(3):
+                corner[0, k] = hulls.corners[where, k]
+    if face_b < 0:
+        return most - band, face_a, face_b
+    row = hulls.loop_first[hulls.first[b, 1] + face_b]
+    for k in range(3):
+        corner[1, k] = s[k]
+        for c in range(3):
+            corner[1, k] += T[k, c] * hulls.corners[hulls.first[b, 0] + hulls.loop[row], c]
+    return most, face_a, face_b
 
 
 @njit(alone=_BESIDE)
@@ -208,71 +246,48 @@ def _lay_out(hulls, b, relation):
 
 
 @njit(alone=_BESIDE)
-def _nearest_corners(hulls, a, b, relation, most_a, face_a, most_b, face_b):
-    """Put the corner of each body nearest to the other along the better face, in the frame of body
-    a.
+def _most_over(x, y, z, corners, start, normals, left, right):
+    """How far [m] a place is at most over an edge from corner `start`, along any direction between
+    the normals `left` and `right` of its faces.
     """
-    T, s = relation.turn, relation.shift
-    if most_a >= most_b:
-        n = hulls.normals[hulls.first[a, 1] + face_a]
-        x, y, z = n[0], n[1], n[2]
-    else:
-        n = hulls.normals[hulls.first[b, 1] + face_b]
-        x = -T[0, 0] * n[0] - T[0, 1] * n[1] - T[0, 2] * n[2]
-        y = -T[1, 0] * n[0] - T[1, 1] * n[1] - T[1, 2] * n[2]
-        z = -T[2, 0] * n[0] - T[2, 1] * n[1] - T[2, 2] * n[2]
-    where = least_along(hulls.corners, hulls.first[a, 0], hulls.first[a + 1, 0], -x, -y, -z)[1]
-    least = (
-        hulls.first[b, 0]
-        + least_along(
-            hulls.corners,
-            hulls.first[b, 0],
-            hulls.first[b + 1, 0],
-            T[0, 0] * x + T[1, 0] * y + T[2, 0] * z,
-            T[0, 1] * x + T[1, 1] * y + T[2, 1] * z,
-            T[0, 2] * x + T[1, 2] * y + T[2, 2] * z,
-        )[1]
-    )
-    p = hulls.corners[least]
-    for k in range(3):
-        relation.corner[0, k] = hulls.corners[where, k]
-        relation.corner[1, k] = T[k, 0] * p[0] + T[k, 1] * p[1] + T[k, 2] * p[2] + s[k]
-
-
-@njit(alone=_BESIDE)
-def _most_over(place, start, left, right):
-    """How far [m] a place (3,) is at most over an edge from `start`, along any direction between
-    the normals left and right (3,) of its faces.
-    """
-    over_left = over_right = cosine = 0.0
-    for k in range(3):
-        away = place[k] - start[k]
-        over_left, over_right = over_left + left[k] * away, over_right + right[k] * away
-        cosine += left[k] * right[k]
-    u, v = over_left - cosine * over_right, over_right - cosine * over_left
-    if u <= 0.0 or v <= 0.0:
+    x, y, z = x - corners[start, 0], y - corners[start, 1], z - corners[start, 2]
+    u, v, w = normals[left, 0], normals[left, 1], normals[left, 2]
+    p, q, r = normals[right, 0], normals[right, 1], normals[right, 2]
+    over_left, over_right = u * x + v * y + w * z, p * x + q * y + r * z
+    cosine = u * p + v * q + w * r
+    share_left, share_right = over_left - cosine * over_right, over_right - cosine * over_left
+    if share_left <= 0.0 or share_right <= 0.0:
         return max(over_left, over_right)
     sine = 1.0 - cosine * cosine
     # the place is between both normals, which may be too near each other to say where
-    return np.sqrt((u * over_left + v * over_right) / sine) if sine > 1e-8 else np.inf
+    return (
+        np.sqrt((share_left * over_left + share_right * over_right) / sine)
+        if sine > 1e-8
+        else np.inf
+    )
 
 
 @njit(alone=_BESIDE)
 def _over_edges(hulls, a, b, relation, enough):
     """Largest separation above `enough` along perpendiculars of two edges [m], and the edges; -1
-    where there is none. The corners of `_nearest_corners` are in relation.
+    where there is none. The corners of `_over_faces` are in relation.
     """
     _lay_out(hulls, b, relation)
     most, edge_a, edge_b, count = enough, -1, -1, 0
     faces, start = hulls.first[b + 1, 1] - hulls.first[b, 1], hulls.first[a, 0]
     ways, normals, along, near = relation.ways, relation.normals, relation.along, relation.near
+    corner = relation.corner
     for j in range(hulls.first[b + 1, 2] - hulls.first[b, 2]):
         other = hulls.first[b, 2] + j
         over = _most_over(
-            relation.corner[0],
-            relation.corners[hulls.ends[other, 0]],
-            normals[hulls.sides[other, 0]],
-            normals[hulls.sides[other, 1]],
+            corner[0, 0],
+            corner[0, 1],
+            corner[0, 2],
+            relation.corners,
+            hulls.ends[other, 0],
+            normals,
+            hulls.sides[other, 0],
+            hulls.sides[other, 1],
         )
         if over > enough:
             near[count] = j
@@ -285,12 +300,24 @@ def _over_edges(hulls, a, b, relation, enough):
             count += 1
     for i in range(hulls.first[a + 1, 2] - hulls.first[a, 2] if count > 0 else 0):
         row = hulls.first[a, 2] + i
-        e = hulls.ways[row]
-        left = hulls.normals[hulls.first[a, 1] + hulls.sides[row, 0]]
-        right = hulls.normals[hulls.first[a, 1] + hulls.sides[row, 1]]
-        p = hulls.corners[start + hulls.ends[row, 0]]
-        if _most_over(relation.corner[1], p, left, right) <= most:
+        left_row, right_row = (
+            hulls.first[a, 1] + hulls.sides[row, 0],
+            hulls.first[a, 1] + hulls.sides[row, 1],
+        )
+        over = _most_over(
+            corner[1, 0],
+            corner[1, 1],
+            corner[1, 2],
+            hulls.corners,
+            start + hulls.ends[row, 0],
+            hulls.normals,
+            left_row,
+            right_row,
+        )
+        if over <= most:
             continue
+        e, p = hulls.ways[row], hulls.corners[start + hulls.ends[row, 0]]
+        left, right = hulls.normals[left_row], hulls.normals[right_row]
         for f in range(faces):
             along[f] = e[0] * normals[f, 0] + e[1] * normals[f, 1] + e[2] * normals[f, 2]
         for c in range(count):
@@ -324,14 +351,13 @@ def largest_separation(hulls, a, b, relation):
     """Largest separation of bodies a and b [m], the kind of its axis and its face or edges, -1
     where there is none; relation: of `relate`.
     """
-    most_a, face_a, most_b, face_b = _over_faces(hulls, a, b, relation, np.inf)
-    _nearest_corners(hulls, a, b, relation, most_a, face_a, most_b, face_b)
-    most, edge_a, edge_b = _over_edges(hulls, a, b, relation, max(most_a, most_b))
+    faces, face_a, face_b = _over_faces(hulls, a, b, relation, np.inf, 0.0)
+    most, edge_a, edge_b = _over_edges(hulls, a, b, relation, faces)
     if edge_a >= 0:
         return most, TWO_EDGES, edge_a, edge_b
-    if most_b > most_a:
-        return most_b, FACE_OF_SECOND, -1, face_b
-    return most_a, FACE_OF_FIRST, face_a, -1
+    if face_b >= 0:
+        return faces, FACE_OF_SECOND, -1, face_b
+    return faces, FACE_OF_FIRST, face_a, -1
 
 
 @njit(alone=_BESIDE)
@@ -347,22 +373,17 @@ def choose_axis(hulls, a, b, relation, enough, kind, first, second, before):
     kind, first, second, before
         axis of the step before and the separation along it now; NO_AXIS where there is none.
     """
-    most_a, face_a, most_b, face_b = _over_faces(hulls, a, b, relation, enough)
-    most = max(most_a, most_b)
-    if most > enough:
-        if most_a >= most_b:
-            return most_a, FACE_OF_FIRST, face_a, -1
-        return most_b, FACE_OF_SECOND, -1, face_b
     band = OTHER_AXIS * min(hulls.thickness[a], hulls.thickness[b])
-    _nearest_corners(hulls, a, b, relation, most_a, face_a, most_b, face_b)
-    edges, edge_a, edge_b = _over_edges(hulls, a, b, relation, most + band)
-    # one pair of edges stays until a face is nearly as good
-    if kind == TWO_EDGES and before > most + band / 2 and (edge_a < 0 or before > edges - band):
-        return before, kind, first, second
-    if edge_a >= 0:
-        return edges, TWO_EDGES, edge_a, edge_b
-    if (kind == FACE_OF_FIRST or kind == FACE_OF_SECOND) and before > most - band:
-        return before, kind, first, second
-    if most_b > most_a + band:
-        return most_b, FACE_OF_SECOND, -1, face_b
-    return most_a, FACE_OF_FIRST, face_a, -1
+    most, face_a, face_b = _over_faces(hulls, a, b, relation, enough, band)
+    if most <= enough:
+        edges, edge_a, edge_b = _over_edges(hulls, a, b, relation, most + band)
+        # one pair of edges stays until a face is nearly as good
+        if kind == TWO_EDGES and before > most + band / 2 and (edge_a < 0 or before > edges - band):
+            return before, kind, first, second
+        if edge_a >= 0:
+            return edges, TWO_EDGES, edge_a, edge_b
+        if (kind == FACE_OF_FIRST or kind == FACE_OF_SECOND) and before > most - band:
+            return before, kind, first, second
+    if face_b >= 0:
+        return most, FACE_OF_SECOND, -1, face_b
+    return most, FACE_OF_FIRST, face_a, -1
