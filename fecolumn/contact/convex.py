@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, QhullError
 
 from fecolumn.contact.tolerances import SAME_FACE, SAME_HULL
 
@@ -60,7 +60,10 @@ def hull_of(points: np.ndarray, volume: float | None = None) -> Hulls:
     None of one that is known to be convex.
     """
     points = np.asarray(points, float)
-    found = ConvexHull(points)
+    try:
+        found = ConvexHull(points)
+    except QhullError as error:
+        raise ValueError("a convex body has four points that do not lie in one plane") from error
     on, outward = _planes(points, found)
     # a node inside an edge lies on two planes, one inside a face on one
     at_corner = on.sum(axis=0) >= 3

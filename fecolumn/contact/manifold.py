@@ -139,11 +139,12 @@ def _name_at_side(hulls, master, f, k, source, exchanged):
 def _clip(hulls, master, f, slave, count, exchanged, places):
     """Clip to face f of the master; how many corners are left, and in which half of the room.
 
-    A corner on the outline belongs to the face: of two equal faces the corners are the slave's.
+    A corner on the outline, or beyond it by no more than rounding, belongs to the face: of two
+    equal faces the corners are the slave's.
     """
     now, start = 0, hulls.loop_first[f]
-    sides, slack = hulls.loop_first[f + 1] - start, SAME_OUTLINE * hulls.thickness[master]
-    slack += 1e-9 * hulls.thickness[slave]
+    sides = hulls.loop_first[f + 1] - start
+    slack = SAME_OUTLINE * (hulls.thickness[master] + hulls.thickness[slave])
     axes, middle = hulls.axes[f], hulls.middles[f]
     for k in range(sides):
         p = hulls.corners[hulls.first[master, 0] + hulls.loop[start + k]]
@@ -162,17 +163,22 @@ def _clip(hulls, master, f, slave, count, exchanged, places):
         for c in range(count):
             one, other = old[c], old[c + 1 if c + 1 < count else 0]
             # how far both ends of an edge are beyond the side
-            here = (one.at[0] - u) * dv - (one.at[1] - v) * du - slack
-            there = (other.at[0] - u) * dv - (other.at[1] - v) * du - slack
-            if here <= 0.0:
+            here = (one.at[0] - u) * dv - (one.at[1] - v) * du
+            there = (other.at[0] - u) * dv - (other.at[1] - v) * du
+            if here <= slack:
                 new[left] = one
                 left += 1
-            if (here <= 0.0) != (there <= 0.0):
+            if (here <= slack) == (there <= slack):
+                continue
+            # the end that is on the side is the corner itself
+            if here <= slack and here >= -slack:
+                new[left - 1].source = -1 - k
+            elif not (there <= slack and there >= -slack):
                 share = here / (here - there)
                 for i in range(3):
                     new[left].at[i] = one.at[i] + share * (other.at[i] - one.at[i])
                 new[left].name = _name_at_side(hulls, master, f, k, one.source, exchanged)
-                new[left].source = -1 - k if here <= 0.0 else one.source
+                new[left].source = -1 - k if here <= slack else one.source
                 left += 1
         now, count = 1 - now, left
         if count == 0:
