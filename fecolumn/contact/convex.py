@@ -2,7 +2,7 @@
 
 Contact that no joint declares is found between such bodies: pairs that are near in
 `contact.nearby`, the axis along which two of them are farthest apart in `contact.separation`, the
-points at which they may touch in `contact.manifold`, and all of it for each step, with what was
+places at which they may touch in `contact.manifold`, and all of it for each step, with what was
 found in the step before, in `contact.meetings`. A body that is not convex is larger in its hull
 than it is: its `share` says so, and the caller refuses it or cuts it into convex parts.
 """
@@ -16,8 +16,20 @@ from scipy.spatial import ConvexHull, QhullError
 
 from fecolumn.contact.tolerances import SAME_FACE, SAME_HULL
 
-#: Columns of `Hulls.first`
-CORNERS, FACES, EDGES = range(3)
+#: Files beside each other from which the compiled functions of any of them take code
+TOGETHER = (
+    "best_axis.py",
+    "convex.py",
+    "manifold.py",
+    "meet.py",
+    "meetings.py",
+    "nearby.py",
+    "record.py",
+    "separation.py",
+    "slots.py",
+    "through.py",
+    "tolerances.py",
+)
 
 
 class Hulls(NamedTuple):

@@ -1,4 +1,4 @@
-"""Places at which two convex bodies touch or nearly do, for an axis of `contact.separation`.
+"""PlaceRoom at which two convex bodies touch or nearly do, for an axis of `contact.separation`.
 
 Along the normal of a face, the body of the face is the master. Of the other body, the slave, that
 face which faces it most among those at its nearest corner is clipped to the prism over the master's
@@ -16,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.convex import Hulls
+from fecolumn.contact.convex import TOGETHER, Hulls
 from fecolumn.contact.record import record
 from fecolumn.contact.separation import perpendicular
 from fecolumn.contact.tolerances import SAME_OUTLINE
@@ -25,12 +25,10 @@ from fecolumn.foundation._compiled import njit
 #: Kinds of names: see `name_of`
 NO_NAME, CORNER_OF_FIRST, CORNER_OF_SECOND, CROSSING = range(4)
 
-_BESIDE = ("convex.py", "record.py", "separation.py", "tolerances.py")
-
 
 #: A place. arm: (3,) from the slave's centre of mass in its frame, seat: (3,) from the master's in
 #: its own [m], of a ground from its place in the table frame; gap along the normal [m]; name. slot,
-#: kept, away [m]: for `contact.meetings`.
+#: kept, away [m]: for `contact.slots`.
 PLACE_FOUND = record(
     ("arm", "f8", 3),
     ("seat", "f8", 3),
@@ -47,21 +45,21 @@ PLACE_FOUND = record(
 CLIPPED = record(("at", "f8", 3), ("name", "i8"), ("source", "i8"))
 
 
-class Places(NamedTuple):
+class PlaceRoom(NamedTuple):
     """Room for places: (M,) of PLACE_FOUND, and (2, M) of CLIPPED."""
 
     found: np.ndarray
     clipped: np.ndarray
 
 
-def places_for(hulls: Hulls) -> Places:
+def place_room_for(hulls: Hulls) -> PlaceRoom:
     """Room for the places of any pair."""
     longest = int(np.diff(hulls.loop_first).max(initial=1))
     most = max(2 * longest + 2, int(np.diff(hulls.first[:, 0]).max(initial=1)))
-    return Places(np.zeros(most, PLACE_FOUND), np.zeros((2, most), CLIPPED))
+    return PlaceRoom(np.zeros(most, PLACE_FOUND), np.zeros((2, most), CLIPPED))
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def name_of(kind, first, second):
     """Name of a place: of its kind, and of the corner, or of an edge of the first body and one of
     the second.
@@ -69,7 +67,7 @@ def name_of(kind, first, second):
     return (kind << 48) + (first << 24) + second
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def _crossing(exchanged, of_slave, of_master):
     return (
         name_of(CROSSING, of_slave, of_master)
@@ -78,7 +76,7 @@ def _crossing(exchanged, of_slave, of_master):
     )
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def facing(hulls, slave, x, y, z, least, before):
     """Face of the slave that faces a normal x, y, z in its frame most, among those at its nearest
     corner, which is at `least` [m] along the normal; that of the step before where it does as well.
@@ -100,7 +98,7 @@ def facing(hulls, slave, x, y, z, least, before):
     return chosen
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def _lay_face(hulls, slave, face, f, relation, exchanged, places):
     """Put a face of the slave into the frame of face f of the master; how many corners it has."""
     T, s, axes, middle = relation.turn, relation.shift, hulls.axes[f], hulls.middles[f]
@@ -121,7 +119,7 @@ def _lay_face(hulls, slave, face, f, relation, exchanged, places):
     return count
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def _name_at_side(hulls, master, f, k, source, exchanged):
     """Name of the place where an edge of what is left comes to side k of face f of the master."""
     start = hulls.loop_first[f]
@@ -135,7 +133,7 @@ def _name_at_side(hulls, master, f, k, source, exchanged):
     return name_of(CORNER_OF_SECOND if exchanged else CORNER_OF_FIRST, corner, 0)
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def _clip(hulls, master, f, slave, count, exchanged, places):
     """Clip to face f of the master; how many corners are left, and in which half of the room.
 
@@ -186,7 +184,7 @@ def _clip(hulls, master, f, slave, count, exchanged, places):
     return count, now
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def places_on_face(hulls, master, face, slave, facing_face, relation, exchanged, reach, places):
     """Find the places at which the slave's face is less than `reach` [m] over a face of the master;
     how many they are.
@@ -218,7 +216,7 @@ def places_on_face(hulls, master, face, slave, facing_face, relation, exchanged,
     return found
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def place_of_edges(hulls, a, first, b, second, relation, reach, places, normal):
     """Find the place where an edge of body a and one of body b cross, if they do and are less than
     `reach` [m] apart; whether there is one. normal: (3,) is put, in the frame of body a.
@@ -252,7 +250,7 @@ def place_of_edges(hulls, a, first, b, second, relation, reach, places, normal):
     return True
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def places_on_ground(hulls, body, centers, rotations, place, axes, reach, places):
     """Find the corners of a body that are less than `reach` [m] over a plane ground; how many they
     are.

@@ -8,7 +8,7 @@ In a step::
     found = add_grounds(hulls, boxes, ground_places, ground_axes, pairs, found)
     # where found > len(pairs), or a row is missing: make room with `more_rows` and look again
     missing = keep_rows(meetings, pairs[:found])
-    changed = find_places(
+    changed = find_meetings(
         hulls, centers, rotations, ground_places, ground_axes, reach, meetings, room
     )
 
@@ -33,36 +33,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.convex import Hulls
-from fecolumn.contact.manifold import (
-    Places,
-    facing,
-    place_of_edges,
-    places_for,
-    places_on_face,
-    places_on_ground,
-)
+from fecolumn.contact.convex import TOGETHER
 from fecolumn.contact.record import record
-from fecolumn.contact.separation import (
-    FACE_OF_FIRST,
-    FACE_OF_SECOND,
-    NO_AXIS,
-    Relation,
-    choose_axis,
-    least_along,
-    relate,
-    relation_for,
-    separation_along,
-)
-from fecolumn.contact.tolerances import OTHER_AXIS, SAME_POINT_BY_PLACE
+from fecolumn.contact.separation import NO_AXIS
 from fecolumn.foundation._compiled import interpreted, njit
 
 #: Kind of axis of a body over a plane ground, beside those of `contact.separation`
 GROUND_NORMAL = 4
 #: First number of a row without a pair; that of ground g is -1 - g
 NO_PAIR = -(2**62)
-
-_BESIDE = ("convex.py", "manifold.py", "record.py", "separation.py", "tolerances.py")
 
 
 #: A pair. pair: (2,) bodies, the first -1 - g of ground g, NO_PAIR of an unused row; kind of the
@@ -108,20 +87,6 @@ class Meetings(NamedTuple):
     buckets: np.ndarray
 
 
-class Room(NamedTuple):
-    """Room for the work of `find_places`: two relations, places, and a vector."""
-
-    relation: Relation
-    reverse: Relation
-    places: Places
-    normal: np.ndarray
-
-
-def room_for(hulls: Hulls) -> Room:
-    """Room for any pair of the bodies."""
-    return Room(relation_for(hulls), relation_for(hulls), places_for(hulls), np.zeros(3))
-
-
 def meetings_for(rows: int, slots: int = 8) -> Meetings:
     """Rows without a pair."""
     buckets = np.full(2 ** int(np.ceil(np.log2(2 * rows + 2))), -1)
@@ -139,7 +104,7 @@ def more_rows(meetings: Meetings, rows: int) -> Meetings:
     return result
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def add_grounds(hulls, boxes, ground_places, ground_axes, pairs, found):
     """Add to `found` pairs those of a body and a ground that are as near as boxes are grown; how
     many there are then.
@@ -167,7 +132,7 @@ def add_grounds(hulls, boxes, ground_places, ground_axes, pairs, found):
     return found
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def _bucket(meetings, first, second):
     """The bucket in which the row of a pair is or would be."""
     buckets, mask = meetings.buckets, len(meetings.buckets) - 1
@@ -180,7 +145,7 @@ def _bucket(meetings, first, second):
     return k
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def keep_rows(meetings, pairs):
     """Give each of pairs (k, 2) a row, the one it has where it has one, and free all others; how
     many pairs found no row.
@@ -214,7 +179,7 @@ def keep_rows(meetings, pairs):
     return missing
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def _free(row, places):
     """Take the pair from a row."""
     row.pair[0] = row.pair[1] = NO_PAIR
@@ -223,255 +188,3 @@ def _free(row, places):
     row.exchanged, row.turn_then[0, 0] = False, np.inf
     for slot in range(len(places)):
         places[slot].name, places[slot].fresh = 0, False
-
-
-@njit(alone=_BESIDE)
-def find_places(hulls, centers, rotations, ground_places, ground_axes, reach, meetings, room):
-    """Find the places of all rows at which bodies are less than `reach` [m] apart; whether others
-    take part than before.
-
-    Parameters
-    ----------
-    centers, rotations
-        (N, 3) centres of mass [m] and (N, 3, 3) of all bodies.
-    """
-    changed = False
-    for r in range(len(meetings.rows)):
-        row, places = meetings.rows[r], meetings.places[r]
-        if row.pair[0] == NO_PAIR:
-            continue
-        if row.pair[0] < 0:
-            place, axes = ground_places[-1 - row.pair[0]], ground_axes[-1 - row.pair[0]]
-            changed |= _meet_ground(
-                hulls, centers, rotations, place, axes, reach, row, places, room.places
-            )
-        else:
-            changed |= _meet(hulls, centers, rotations, reach, row, places, room)
-    return changed
-
-
-@njit(alone=_BESIDE)
-def _meet_ground(hulls, centers, rotations, place, axes, reach, row, places, room):
-    """`find_places` of a row of a body and a ground."""
-    body = row.pair[1]
-    count = places_on_ground(hulls, body, centers, rotations, place, axes, reach, room)
-    row.separation, known = np.inf, row.kind == GROUND_NORMAL
-    for q in range(count):
-        row.separation = min(row.separation, room.found[q].gap)
-    row.kind, row.master, row.slave, row.master_before = GROUND_NORMAL, -1, body, -1
-    for i in range(3):
-        row.origin[i] = 0.0
-        for k in range(3):
-            row.frame_before[i, k] = row.frame[i, k] if known else axes[i, k]
-            row.frame[i, k] = row.axes[i, k] = axes[i, k]
-    return _settle(row, places, room.found, count, hulls.thickness[body])
-
-
-@njit(alone=_BESIDE)
-def _meet(hulls, centers, rotations, reach, row, places, room):
-    """`find_places` of a row of two bodies."""
-    a, b, relation, was, count = row.pair[0], row.pair[1], room.relation, row.kind, 0
-    first, second = row.feature[0], row.feature[1]
-    relate(centers, rotations, a, b, relation)
-    separation = -np.inf
-    if was != NO_AXIS:
-        separation = separation_along(hulls, a, b, relation, was, first, second)
-    if separation > reach and _is_idle(places):
-        row.separation, row.exchanged = separation, False
-        return False
-    kind, size = was, min(hulls.thickness[a], hulls.thickness[b])
-    if separation <= reach and (
-        separation == -np.inf or not _is_same(hulls, b, relation, row, OTHER_AXIS / 4 * size)
-    ):
-        separation, kind, first, second = choose_axis(
-            hulls, a, b, relation, reach, was, first, second, separation
-        )
-        _remember(relation, row, separation <= reach)
-    same = kind == was and first == row.feature[0] and second == row.feature[1]
-    row.exchanged, row.master_before = not same and was != NO_AXIS, row.master
-    row.separation, row.kind, row.feature[0], row.feature[1] = separation, kind, first, second
-    row.master, row.slave = (b, a) if kind == FACE_OF_SECOND else (a, b)
-    if separation <= reach:
-        before = row.facing if same else -1
-        if kind == FACE_OF_FIRST:
-            count = _meet_face(hulls, a, first, b, relation, False, reach, row, before, room.places)
-        elif kind == FACE_OF_SECOND:
-            relate(centers, rotations, b, a, room.reverse)
-            count = _meet_face(
-                hulls, b, second, a, room.reverse, True, reach, row, before, room.places
-            )
-        else:
-            crosses = place_of_edges(
-                hulls, a, first, b, second, relation, reach, room.places, room.normal
-            )
-            count = 1 if crosses else 0
-            _set_axes_of_edge(hulls, a, first, row, room.normal)
-        _set_frame(row, rotations[row.master], was != NO_AXIS)
-    return _settle(row, places, room.places.found, count, size)
-
-
-@njit(alone=_BESIDE)
-def _is_idle(places):
-    for slot in range(len(places)):
-        if places[slot].name != 0:
-            return False
-    return True
-
-
-@njit(alone=_BESIDE)
-def _is_same(hulls, b, relation, row, most):
-    """Whether no place of body b has moved by `most` [m] as seen from the other body since all axes
-    were looked at.
-    """
-    turned = moved = radius = 0.0
-    for i in range(3):
-        moved += (relation.shift[i] - row.shift_then[i]) ** 2
-        radius += (abs(hulls.middle[b, i]) + hulls.half[b, i]) ** 2
-        for k in range(3):
-            turned += (relation.turn[i, k] - row.turn_then[i, k]) ** 2
-    return np.sqrt(moved) + np.sqrt(turned * radius) < most
-
-
-@njit(alone=_BESIDE)
-def _remember(relation, row, near):
-    """Keep how the bodies are to each other, where all axes were looked at."""
-    for i in range(3):
-        row.shift_then[i] = relation.shift[i]
-        for k in range(3):
-            row.turn_then[i, k] = relation.turn[i, k] if near else np.inf
-
-
-@njit(alone=_BESIDE)
-def _meet_face(hulls, master, face, slave, relation, exchanged, reach, row, before, places):
-    """Find the places over a face of the master and set the axes of a row; how many they are."""
-    f, T, first = hulls.first[master, 1] + face, relation.turn, hulls.first
-    n = hulls.normals[f]
-    x = T[0, 0] * n[0] + T[1, 0] * n[1] + T[2, 0] * n[2]
-    y = T[0, 1] * n[0] + T[1, 1] * n[1] + T[2, 1] * n[2]
-    z = T[0, 2] * n[0] + T[1, 2] * n[1] + T[2, 2] * n[2]
-    least = least_along(hulls.corners, first[slave, 0], first[slave + 1, 0], x, y, z)[0]
-    row.facing = facing(hulls, slave, x, y, z, least, before)
-    for i in range(3):
-        row.origin[i] = hulls.middles[f, i]
-        for k in range(3):
-            row.axes[i, k] = hulls.axes[f, i, k]
-    return places_on_face(
-        hulls, master, face, slave, row.facing, relation, exchanged, reach, places
-    )
-
-
-@njit(alone=_BESIDE)
-def _set_axes_of_edge(hulls, a, edge, row, normal):
-    """Axes of a row: an edge of body a, across it, and the normal (3,) in its frame."""
-    d = hulls.ways[hulls.first[a, 2] + edge]
-    start = hulls.corners[hulls.first[a, 0] + hulls.ends[hulls.first[a, 2] + edge, 0]]
-    for i in range(3):
-        one, two = (i + 1) % 3, (i + 2) % 3
-        row.origin[i] = start[i]
-        row.axes[i, 0], row.axes[i, 2] = d[i], normal[i]
-        row.axes[i, 1] = normal[one] * d[two] - normal[two] * d[one]
-
-
-@njit(alone=_BESIDE)
-def _set_frame(row, rotation, known):
-    """Turn a row's axes into the table frame."""
-    for i in range(3):
-        for k in range(3):
-            before, along = row.frame[i, k], 0.0
-            for c in range(3):
-                along += rotation[i, c] * row.axes[c, k]
-            row.frame[i, k] = along
-            row.frame_before[i, k] = before if known else along
-
-
-@njit(alone=_BESIDE)
-def _apart(one, other):
-    x, y, z = one[0] - other[0], one[1] - other[1], one[2] - other[2]
-    return np.sqrt(x * x + y * y + z * z)
-
-
-@njit(alone=_BESIDE)
-def _keep_spanning(places, found, count, size):
-    """Mark the places found, as many as there are slots, that stand for all: the lowest, and each
-    further one the farthest from those; one of the step before is preferred by OTHER_AXIS.
-    """
-    slots, chosen, least, preferred = len(places), 0, np.inf, OTHER_AXIS * size
-    for q in range(count):
-        found[q].kept, found[q].slot, found[q].away = count <= slots, -1, np.inf
-        for slot in range(slots):
-            if places[slot].name == found[q].name:
-                found[q].slot = slot
-                break
-        gap = found[q].gap - (preferred if found[q].slot >= 0 else 0.0)
-        if gap < least:
-            least, chosen = gap, q
-    if count <= slots:
-        return
-    for left in range(slots - 1, -1, -1):
-        found[chosen].kept = True
-        last, most = chosen, -np.inf
-        for q in range(count if left > 0 else 0):
-            if found[q].kept:
-                continue
-            found[q].away = min(found[q].away, _apart(found[last].seat, found[q].seat))
-            away = found[q].away + (preferred if found[q].slot >= 0 else 0.0)
-            if away > most:
-                chosen, most = q, away
-
-
-@njit(alone=_BESIDE)
-def _is_taken(found, count, slot):
-    for q in range(count):
-        if found[q].kept and found[q].slot == slot:
-            return True
-    return False
-
-
-@njit(alone=_BESIDE)
-def _settle(row, places, found, count, size):
-    """Put the places found into the slots of a row: each into its own, where its name is known, or
-    else into that of the nearest place that has gone; whether others take part than before.
-
-    size: thickness of the thinner body [m].
-    """
-    if count == 0 and _is_idle(places):
-        return False
-    changed = False
-    _keep_spanning(places, found, count, size)
-    # places on the first body; on the other one, where the first is a ground
-    first = row.pair[0]
-    was, now = first >= 0 and row.master_before == first, first >= 0 and row.master == first
-    for q in range(count):
-        if not found[q].kept or found[q].slot >= 0:
-            continue
-        nearest = SAME_POINT_BY_PLACE * size
-        for slot in range(len(places)):
-            if places[slot].name == 0 or _is_taken(found, count, slot):
-                continue
-            away = _apart(
-                found[q].seat if now else found[q].arm,
-                places[slot].seat if was else places[slot].arm,
-            )
-            if away < nearest:
-                nearest, found[q].slot = away, slot
-    for q in range(count):
-        if not found[q].kept or found[q].slot >= 0:
-            continue
-        for slot in range(len(places)):
-            # a slot of one that has gone is as good as an unused one
-            if not _is_taken(found, count, slot):
-                found[q].slot, places[slot].name, changed = slot, 0, True
-                break
-    for slot in range(len(places)):
-        if not _is_taken(found, count, slot):
-            changed |= places[slot].name != 0
-            places[slot].name, places[slot].fresh = 0, False
-    for q in range(count):
-        if not found[q].kept:
-            continue
-        place = places[found[q].slot]
-        place.fresh = place.name == 0
-        place.name, place.gap = found[q].name, found[q].gap
-        for i in range(3):
-            place.arm[i], place.seat[i] = found[q].arm[i], found[q].seat[i]
-    return changed

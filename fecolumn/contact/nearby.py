@@ -12,9 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fecolumn.contact.convex import TOGETHER
 from fecolumn.foundation._compiled import njit
-
-_BESIDE = ("convex.py", "tolerances.py")
 
 
 class Boxes(NamedTuple):
@@ -36,7 +35,7 @@ def pair_keys(pairs, count: int) -> np.ndarray:
     return np.unique(pairs[:, 0] * count + pairs[:, 1])
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def find_boxes(hulls, centers, rotations, margins, boxes):
     """Find the boxes of bodies with centres of mass (N, 3) [m], turned by (N, 3, 3), each grown by
     its margin (N,) [m].
@@ -50,7 +49,7 @@ def find_boxes(hulls, centers, rotations, margins, boxes):
             boxes.low[b, i], boxes.high[b, i] = at - half, at + half
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def _is_left_out(key, keys):
     first, last = 0, len(keys)
     while first < last:
@@ -62,7 +61,7 @@ def _is_left_out(key, keys):
     return first < len(keys) and keys[first] == key
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def _widest_axis(boxes):
     """Axis along which the boxes' middles vary most."""
     axis, most, n = 0, -1.0, max(len(boxes.low), 1)
@@ -77,7 +76,7 @@ def _widest_axis(boxes):
     return axis
 
 
-@njit(alone=_BESIDE)
+@njit(alone=TOGETHER)
 def find_pairs(hulls, boxes, left_out, pairs):
     """Find pairs whose boxes overlap, the lower number first; how many they are, of which no more
     than have room are put into pairs (P, 2).

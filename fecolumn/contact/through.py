@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.contact.convex import Hulls
+from fecolumn.contact.best_axis import largest_separation
+from fecolumn.contact.convex import TOGETHER, Hulls
 from fecolumn.contact.nearby import Boxes, boxes_for, find_boxes, find_pairs
-from fecolumn.contact.separation import Relation, largest_separation, relate, relation_for
+from fecolumn.contact.separation import Relation, relate, relation_for
 from fecolumn.contact.tolerances import THROUGH
 from fecolumn.foundation._compiled import njit
 
@@ -50,7 +51,7 @@ class ThroughCheck:
         return [(*map(int, self.pairs[k]), float(self.depths[k])) for k in rows]
 
 
-@njit(alone=("convex.py", "nearby.py", "separation.py", "tolerances.py"))
+@njit(alone=TOGETHER)
 def find_depths(hulls, centers, rotations, pairs, relation, depths):
     """Find the depth (k,) [m] of pairs (k, 2) of bodies in each other, below 0 of those apart."""
     for k in range(len(pairs)):

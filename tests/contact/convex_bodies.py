@@ -6,16 +6,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from fecolumn.contact.convex import Hulls, hull_of, hulls_of
-from fecolumn.contact.meetings import (
-    NO_PAIR,
-    Meetings,
-    Room,
-    add_grounds,
-    find_places,
-    keep_rows,
-    meetings_for,
-    room_for,
-)
+from fecolumn.contact.meet import Room, find_meetings, room_for
+from fecolumn.contact.meetings import NO_PAIR, Meetings, add_grounds, keep_rows, meetings_for
 from fecolumn.contact.nearby import Boxes, boxes_for, find_boxes, find_pairs
 
 
@@ -72,7 +64,7 @@ def step(w, centers, rotations, reach=0.01):
     found = find_pairs(w.hulls, w.boxes, no_pairs, pairs)
     found = add_grounds(w.hulls, w.boxes, w.ground_places, w.ground_axes, pairs, found)
     assert keep_rows(w.meetings, pairs[:found]) == 0
-    return find_places(
+    return find_meetings(
         w.hulls,
         centers,
         rotations,

@@ -7,14 +7,13 @@ from scipy.optimize import nnls
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
+from fecolumn.contact.best_axis import choose_axis, largest_separation
 from fecolumn.contact.convex import hull_of, hulls_of
 from fecolumn.contact.separation import (
     FACE_OF_FIRST,
     FACE_OF_SECOND,
     NO_AXIS,
     TWO_EDGES,
-    choose_axis,
-    largest_separation,
     relate,
     relation_for,
     separation_along,
