@@ -11,8 +11,16 @@ import pytest
 from convex_bodies import box, frustum, on_bodies, row_of, step, turned, used_rows, world
 from scipy.spatial.transform import Rotation
 
+from fecolumn.contact.best_axis import largest_separation
 from fecolumn.contact.meetings import GROUND_NORMAL, keep_rows, meetings_for, more_rows
-from fecolumn.contact.separation import FACE_OF_FIRST, FACE_OF_SECOND, TWO_EDGES
+from fecolumn.contact.separation import (
+    FACE_OF_FIRST,
+    FACE_OF_SECOND,
+    TWO_EDGES,
+    relate,
+    relation_for,
+)
+from fecolumn.contact.tolerances import OTHER_AXIS
 
 CUBE = box(1, 1, 1)
 FLAT = np.tile(np.eye(3), (2, 1, 1))
@@ -180,6 +188,23 @@ def test_a_place_keeps_its_name_and_slot_where_the_other_body_becomes_the_master
         slots.append([int(np.flatnonzero(all_slots == name)[0]) for name in names[-1]])
     assert masters[0] == 0 and masters[-1] == 1
     assert all(one == names[0] for one in names) and all(one == slots[0] for one in slots)
+
+
+def test_the_axis_stays_as_good_as_the_best_while_bodies_move_slowly():
+    """It is looked at again once they have moved by less than makes it worse by OTHER_AXIS."""
+    w, kept = world(box(0.5, 0.5, 0.5), box(2, 2, 0.5)), 0
+    relation = relation_for(w.hulls)
+    for k, tilt in enumerate(np.linspace(0, 0.02, 2000)):
+        rotation = turned(0, tilt, 0)
+        centers = np.array([[0, 0, 0], np.array([0.25, 0, 0.25]) + rotation @ [0, 0, 0.25]])
+        rotations = np.stack([np.eye(3), rotation])
+        step(w, centers, rotations)
+        relate(centers, rotations, 0, 1, relation)
+        best = largest_separation(w.hulls, 0, 1, relation)[0]
+        row = row_of(w, 0, 1)[0]
+        assert best - 1.6 * OTHER_AXIS * 0.5 <= row.separation <= best + 1e-12
+        kept += k > 0 and not row.exchanged
+    assert kept >= 1990
 
 
 def test_roles_and_frames_say_how_to_turn_forces():
