@@ -213,3 +213,22 @@ STICKS = 0.999
 #: Corners that stand for a round rim when overturning is judged; its radius comes out 1e-5 too
 #: small between them.
 ROUND_CORNERS = 720
+
+# --- Contact found between convex bodies, over the thickness of the thinner one
+# --------------------------------------------------------------------------------------------------
+#: Corners are on one plane of a hull up to this share of the body's size, as a mesh file that has
+#: six digits says them; share of its hull's volume that a body may lack and still be convex.
+SAME_FACE, SAME_HULL = 1e-6, 1e-5
+#: How much farther apart bodies must be along another axis than along that of the step before, or
+#: than along a face where it is one of two edges, for it to be the axis of contact: what changes by
+#: less would make the axis of bodies at rest on one another change in each step.
+OTHER_AXIS = 1e-4
+#: Sine of the angle between two edges below which no axis is taken from them, and below which the
+#: axis is so inexact that the distance along it is measured to all corners.
+PARALLEL, NEARLY_PARALLEL = 1e-10, 1e-4
+#: Way of a point of contact within a step in which it is still the same one though it has another
+#: name: a corner that comes to an edge, as SAME_CORNER.
+SAME_POINT_BY_PLACE = 0.02
+#: Depth at which bodies have come through each other: far above what contact leaves, far below
+#: what can be overlooked.
+THROUGH = 1e-3
