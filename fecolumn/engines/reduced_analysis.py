@@ -12,10 +12,11 @@ from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.gathered import base_to_resume, gather_again
 from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.problem import list_present
-from fecolumn.engines.analysis import CHECKPOINT, Analysis
+from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
+from fecolumn.engines.passing import Passing
 from fecolumn.engines.reduced.observe import column_index
 from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.engines.reduced.run import advance
@@ -102,17 +103,21 @@ class ReducedAnalysis(OfStructure, Analysis):
     def run(self, stop) -> dict:
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         cadence, engine = self.case.output, self.engine
-        progress = self.progress()
+        progress, passing = self.progress(), Passing(self.structure)
         saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
                 count = min(CHUNK, self.steps - self.step)
                 if self.step < self.motion_steps:
                     count = min(count, self.motion_steps - self.step)
+                count = passing.steps(engine.motion, self.case.integration.dt_s, count)
                 for every in (self.field_steps, self.states.every if self.states else 0):
                     if every:
                         count = min(count, every - self.step % every)
                 over = self._advance(count)
+                if told := passing.told(engine.motion):
+                    self._save()
+                    raise AnalysisFailed(f"{told}; state saved in {self.folder / CHECKPOINT}")
                 last = engine.made[-1]
                 progress.show(
                     self.step,

@@ -255,7 +255,9 @@ class StructureModel:
 
     parts, joints, links: in the order of the case; joints and links name parts by their places.
     base: what the ground is to those that stand on it, as `structures.ground.bases_of` makes it;
-    more: those of further grounds; levels: heights of all grounds [m]. observed: place of the part
+    more: those of further grounds; levels: heights of all grounds [m].
+    outlines: of each part the corners `points` of its convex hull from its centre of mass [m] and
+    its `volume` [m3], None of one without elements. observed: place of the part
     and name of its mark whose horizontal displacement is u_top.
     """
 
@@ -266,6 +268,7 @@ class StructureModel:
     observed: tuple[int, str]
     more: tuple = ()
     levels: tuple[float, ...] = (0.0,)
+    outlines: tuple[dict | None, ...] = ()
 
     @property
     def bases(self) -> tuple:

@@ -7,6 +7,7 @@ import math
 from dataclasses import replace
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from fecolumn.case.bodies import Matrices, Storeys
 from fecolumn.case.case import identity
@@ -15,6 +16,7 @@ from fecolumn.case.sections import Initial
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.rim import Rim
 from fecolumn.foundation.schema import InputError
+from fecolumn.mesh.quality import mass_properties
 from fecolumn.structures import model as models
 from fecolumn.structures.check import (
     check_joints,
@@ -152,7 +154,20 @@ def said_of(layout: Layout) -> dict:
     return {
         "sizes": sizes,
         "extents": _extents(layout),
+        "outlines": {name: _outline(one) for name, one in layout.drawings.items()},
         "contacts": [dataclasses.asdict(contact) for contact in layout.contacts],
+    }
+
+
+def _outline(drawing) -> dict | None:
+    """Corners (n, 3) [m] of the convex hull of a drawing, and its volume [m3]."""
+    if drawing.shape is None:
+        return None
+    points = drawing.shape.mesh.points
+    corners = points[ConvexHull(points).vertices]
+    return {
+        "points": corners.tolist(),
+        "volume": float(mass_properties(drawing.shape.mesh, 1.0).volume),
     }
 
 
@@ -201,6 +216,10 @@ def assembled(
         for (name, _), one, there in zip(copies, standing, placed(standing, joints, file))
     )
     links = tuple(link for name in case.links for link in _links(case, name, places, standing))
+    outlines = {
+        name: one and one | {"points": np.array(one["points"]) - bodies[name].center}
+        for name, one in layout["outlines"].items()
+    }
     airborne = _airborne(standing, joints, links)
     parts = tuple(replace(part, airborne=place in airborne) for place, part in enumerate(parts))
     extents = [
@@ -224,6 +243,7 @@ def assembled(
         _observed(case, parts, places, file),
         tuple(more),
         tuple(ground.level_m for ground in case.grounds.values()),
+        tuple(outlines[name] for name, _ in copies),
     )
     tell_of_gaps(joints, standing, file)
     check_rest(case, structure, standing, file)

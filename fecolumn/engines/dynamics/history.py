@@ -31,6 +31,8 @@ UNITS_OF_PARTS = {
     "rise": "m",
     "slide": "m",
     "force": "N",
+    "resultant": "N",
+    "center": "m",
     "drift": "m",
     "shear": "N",
     "tension": "N",

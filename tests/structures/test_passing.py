@@ -1,0 +1,34 @@
+"""Bodies that came through each other, with no joint that lets them meet, end the analysis."""
+
+import pytest
+from small_structures import STONE, structure
+
+from fecolumn.engines.analysis import AnalysisFailed
+from fecolumn.simulation import run
+
+BLOCK = dict(kind="block", length_m=0.3, width_m=0.4, height_m=0.8, element_size_m=0.2) | STONE
+
+
+def _pushed(folder, joints):
+    """A block that falls towards another one beside it."""
+    case = structure(
+        bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[0.35, 0.0, 0.0])),
+        joints=dict(feet=dict(between=["left", "ground"]), other=dict(between=["right", "ground"]))
+        | joints,
+        initial=dict(left=dict(spin_rad_s=[0.0, 1.5, 0.0])),
+        integration=dict(engine="rigid", dt_s=1e-3, duration_s=0.5),
+    )
+    return run(case, folder, quiet=True)
+
+
+def test_bodies_that_come_through_each_other_are_named(tmp_path):
+    with pytest.raises(AnalysisFailed, match='"left" and "right" came through each other'):
+        _pushed(tmp_path / "through", {})
+
+
+@pytest.mark.filterwarnings("ignore:.*begin 0.05 m apart")
+def test_a_joint_across_the_gap_lets_them_meet(tmp_path):
+    summary = _pushed(tmp_path / "meet", dict(side=dict(between=["left", "right"])))
+    assert summary["bodies"]["left"]["tilt_max_rad"] > 0.05
+    assert summary["energy_closure_rel"] < 1e-10
+    assert summary["interfaces"]["side: left on right"]["force_max_n"] > 0
