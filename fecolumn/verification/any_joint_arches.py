@@ -328,7 +328,9 @@ def _pushed_rows():
             limit,
             2e-5,
         )
-        yield Row(f"{told}: stands at 0.99 of it and falls at 1.01; outcomes that differ", 0, differ, 0.5)
+        yield Row(
+            f"{told}: stands at 0.99 of it and falls at 1.01; outcomes that differ", 0, differ, 0.5
+        )
         exact_hinges, found = hinges(blocks, turning), hinges(blocks, turns)
         sign = 1 if sum(one == found.get(k) for k, one in exact_hinges.items()) else -1
         yield Row(
@@ -364,7 +366,9 @@ def _shaken_rows():
 
 def draw_arches(figure) -> None:
     """Hinges of limit analysis on arches as they collapse."""
-    for axes, (thickness, pier, exact) in zip(figure.subplots(1, 3), (PUSHED[1], PUSHED[3], PUSHED[5])):
+    for axes, (thickness, pier, exact) in zip(
+        figure.subplots(1, 3), (PUSHED[1], PUSHED[3], PUSHED[5])
+    ):
         case = arch_case(thickness, 11, pier)
         model = structure_model(case)
         blocks = statics_of(model)
