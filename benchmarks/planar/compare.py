@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from benchmarks.planar.advance import History
+from benchmarks.planar.bodies import LEFT, RIGHT
 from benchmarks.planar.ensembles import Response
 from fecolumn.statistics.ecdf import censored
 from fecolumn.statistics.flips import contingency, flips, mcnemar
@@ -17,6 +18,8 @@ from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 #: A joint lands where its tilt comes back from the first to the second or below [rad]; landings
 #: within this time [s] are one impact
 _SWUNG, _FLAT, _TOGETHER = 1e-3, 1e-5, 0.01
+#: Sides that were farther apart meet where they are nearer than this [m]
+_MEET = 1e-6
 #: Histories agree whose tops are no farther apart than this share of the peak so far
 AGREE = 0.01
 
@@ -78,11 +81,15 @@ def compared(one: list[Response], other: list[Response]) -> Compared:
 
 
 def impacts(history: History) -> np.ndarray:
-    """Times [s] at which a joint that was open lies flat again, those of several joints that land
-    together as one.
+    """Times [s] at which a joint that was open lies flat again, or sides meet, those of several
+    joints that land together as one.
     """
     found = []
     for joint in history.structure.joints:
+        if joint.face == RIGHT:
+            gap = _apart(history, joint)
+            found += history.time[1:][(gap[1:] < _MEET) & (gap[:-1] >= _MEET)].tolist()
+            continue
         tilt = history.tilt[:, joint.body] - history.tilt[:, joint.other]
         side = 0.0
         for time, now in zip(history.time, tilt):
@@ -93,6 +100,18 @@ def impacts(history: History) -> np.ndarray:
                 side = np.sign(now) if abs(now) > _SWUNG else 0.0
     found = np.sort(found)
     return found[np.diff(found, prepend=-np.inf) > _TOGETHER]
+
+
+def _apart(history: History, joint) -> np.ndarray:
+    """Gap (n,) [m] along x between the right side of a body and the left one of another."""
+    sides = [
+        [
+            history.structure.point(body, corner, history.place)[:, 0]
+            for corner in history.structure.ends(body, face)
+        ]
+        for body, face in ((joint.body, RIGHT), (joint.other, LEFT))
+    ]
+    return np.min(sides[1], axis=0) - np.max(sides[0], axis=0)
 
 
 def apart(one: Response, other: Response, until: float) -> float:

@@ -89,6 +89,9 @@ def shaken() -> dict[str, Shaken]:
             3,
             closed=theory.equivalent_block(column, gamma),
         ),
+        "pair with a gap": Shaken(
+            structures.beside(**structures.PAIR), _slope(*structures.PAIR["first"]), 2.0, 1
+        ),
         "four blocks": Shaken(structures.courses(), _slope(course, 4 * thick), 2.0, 4, motions=20),
     }
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.planar.bodies import BOTTOM, TOP, Structure
+from benchmarks.planar.bodies import BOTTOM, LEFT, RIGHT, TOP, Structure
 from benchmarks.planar.ensembles import EVERY, Response, Shaken
 
 # Young's modulus by which contact points give [Pa]: nothing
@@ -17,12 +17,13 @@ _STIFF = 1e14
 
 
 def tables(structure: Structure, dt: float) -> dict:
-    """Tables of the case file of a structure of rectangles that stand on one another.
+    """Tables of the case file of a structure of rectangles that stand on one another or beside one
+    another.
 
     Raises
     ------
     ValueError
-        another outline, or faces that do not stand on one another.
+        another outline, or faces that neither stand on one another nor look at one another.
     """
     bodies, interfaces = {}, {}
     depth = min(float(np.ptp(body.outline[:, 0])) for body in structure.bodies if not body.fixed)
@@ -46,9 +47,9 @@ def tables(structure: Structure, dt: float) -> dict:
         )
     for joint in structure.joints:
         one, other = structure.bodies[joint.body], structure.bodies[joint.other]
-        if (joint.face, joint.other_face) != (BOTTOM, TOP):
+        if (joint.face, joint.other_face) not in ((BOTTOM, TOP), (RIGHT, LEFT)):
             raise ValueError(
-                f"{one.name} and {other.name}: the package's bodies stand on one another"
+                f"{one.name} and {other.name}: the package's bodies stand on or beside one another"
             )
         if not other.fixed and np.ptp(other.outline[:, 0]) < np.ptp(one.outline[:, 0]):
             one, other = other, one  # the narrower face has the points

@@ -15,6 +15,8 @@ BLOCK, DRUM, COURSE = (0.4, 0.8), (0.9, 0.6), (0.4, 0.4)
 #: Column of seven drums and a capital (benchmark of HybriDFEM): heights, widths at the ground and
 #: at the top, density [kg/m3]
 TAPERING = dict(heights=(0.82,) * 7 + (0.21,), widths=(1.11, 0.90), density=2620.0)
+#: Two blocks beside each other: width, height of each, gap
+PAIR = dict(first=(0.3, 1.0), second=(0.4, 1.0), gap=0.02)
 #: Columns and beam of the rocking frame and of the trilith: width, height
 FRAME, TRILITH = (
     dict(column=(0.3, 2.0), beam=(3.3, 0.3), span=3.0),

@@ -82,7 +82,7 @@ SWEEPS_FIRST, SWEEPS_MOST = 50, 800
 #: itself.
 STICK_TURN, STICK_WAY = 1e-4, 5e-5
 #: Cosine of the angle between the normal of a face and the vertical from which on it is level.
-LEVEL = 1 - 1e-9
+LEVEL = 0.999999999
 #: Rotation [rad] on a pad, whose springs are nearly all of the compliance and the same everywhere.
 PAD_TURN = 5e-3
 #: Compliance of a pad that yields over that of its springs in a step: what it bears then exceeds

@@ -22,6 +22,8 @@ DECIDING = (
     "case/model_names.py",
     "case/model_table.py",
     "case/sections.py",
+    "case/arch.py",
+    "case/polygon.py",
     "case/short_form.py",
     "case/sizes.py",
     "contact",

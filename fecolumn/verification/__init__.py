@@ -25,6 +25,7 @@ CASES = {
     "ledger": (*FULL, "reduced"),
     "several_bodies": ("rigid",),
     "joints": ("corotated", *REDUCED),
+    "any_joint": ("rigid",),
     "structures": ("reduced",),
     "structures_feet": REDUCED,
     "full_structures": ("corotated",),
