@@ -26,6 +26,7 @@ from fecolumn.case.bodies import (
     Placed,
     Storeys,
 )
+from fecolumn.case.check_found import check_found
 from fecolumn.case.check_grounds import check_grounds
 from fecolumn.case.sections import (
     DEFAULT,
@@ -156,6 +157,13 @@ class Case:
         """Elastic modes of a body that move with inertia."""
         own = self.bodies[body].modes
         return 0 if self.integration.engine == "rigid" else self.n_modes if own is None else own
+
+    @property
+    def found(self) -> tuple[tuple[str, int], ...]:
+        """Bodies, each with the number of its copy, whose contact is found while they move."""
+        chosen = self.contact.between
+        names = self.bodies if chosen == "all" else chosen
+        return tuple(dict.fromkeys(one for name in names for one in self.copies_of(name)))
 
     def names_of(self, name: str) -> tuple[str, ...]:
         """Names of the copies of a body, its own where it is one; or of the bodies that have this
@@ -693,6 +701,7 @@ def check(case: Case, file) -> None:
                 "are all",
             )
     check_grounds(case, refuse)
+    check_found(case, refuse, lambda key, name: _check_name(case, key, name, refuse, ground=False))
     _check_integration(case, refuse)
 
 

@@ -82,6 +82,13 @@ class Contact(Section):
     law: str = parameter(
         "augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty")
     )
+    between: tuple[str, ...] = parameter(
+        (),
+        doc='bodies of which any may come to meet any other, or a ground, while they move; "all" '
+        "of them; convex bodies alone. Others meet at their joints only",
+        words=("all",),
+        since="0.10",
+    )
     friction_coefficient: float = parameter(0.3, doc="Coulomb friction coefficient", low=0, high=10)
     penalty_factor: float = parameter(
         100.0, doc="penalty stiffness per area as a multiple of E / fine_size_m", above=0, high=1e9

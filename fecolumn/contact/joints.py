@@ -41,9 +41,12 @@ def left_faces(names, points: np.ndarray) -> str:
     return f"{', '.join(found)}; a larger joints.{key}.allowance_m prepares more of it"
 
 
-def joints_of(parts, joints) -> Joints:
+def joints_of(parts, joints, replaced=frozenset()) -> Joints:
     """Points and interfaces of the joints (`structures.model.Joint`) of parts
     (`structures.model.Part`), whose nodes come one after another.
+
+    replaced: numbers of joints whose points take no part, as contact between their bodies is found
+    anywhere.
     """
     first, facets, found = (
         np.cumsum([0] + [len(part.model.arms) for part in parts]),
@@ -55,7 +58,7 @@ def joints_of(parts, joints) -> Joints:
         slave = parts[joint.slave].model
         touching = slave.surfaces[joint.slave_surface]
         arms = slave.arms[touching.nodes]
-        rim = Rim.find(arms) if joint.round else None
+        rim = Rim.find(arms) if joint.round and k not in replaced else None
         interface = interface_of(
             arms, rim, joint.restitution, joint.rolling, joint.pad, joint.slave, joint.master
         )
@@ -96,7 +99,7 @@ def joints_of(parts, joints) -> Joints:
             master=joint.master,
             interface=k,
         )
-        own["ground"] = joint.ground
+        own["ground"], own["idle"] = joint.ground, k in replaced
         own["node"] = first[joint.slave] + touching.nodes
         own["carriers"] = own["node"][:, None]
         if joint.ball is not None:
@@ -104,7 +107,7 @@ def joints_of(parts, joints) -> Joints:
         points.append(own)
         interfaces.append(interface)
     for k, joint in enumerate(joints):
-        if joint.pair >= 0:
+        if joint.pair >= 0 and k not in replaced:
             points[joint.pair], points[k] = overlaps.add(
                 _side_of(parts, joints, joint.pair, joint.outlines[1], interfaces, points),
                 _side_of(parts, joints, k, joint.outlines[0], interfaces, points),

@@ -71,9 +71,15 @@ MEETING = record(
 
 #: A place in a slot. name: 0 of an unused one; arm: (3,) from the slave's centre of mass in its
 #: frame, seat: (3,) from the master's in its own [m], of a ground from its place in the table
-#: frame; gap along the normal [m]; fresh: whether the slot was unused before.
+#: frame; gap along the normal [m]; fresh: whether the slot was unused before; lift: height that a
+#: place which was found below the surface is given [m], see `reduced.found`.
 PLACE_MET = record(
-    ("name", "i8"), ("arm", "f8", 3), ("seat", "f8", 3), ("gap", "f8"), ("fresh", "?")
+    ("name", "i8"),
+    ("arm", "f8", 3),
+    ("seat", "f8", 3),
+    ("gap", "f8"),
+    ("fresh", "?"),
+    ("lift", "f8"),
 )
 
 

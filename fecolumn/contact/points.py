@@ -66,6 +66,8 @@ POINT = record(
 
 #: The master of a point that stands on the base.
 BASE = -1
+#: The facet of a point on a ground that is a plane without end and does not give.
+FLAT_GROUND = -1
 
 #: Where a point is on a moving master: over its surface, beyond an outline, where the surface goes
 #: on but its nodes are not among those of the contact, or below the surface, under which it came

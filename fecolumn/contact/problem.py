@@ -38,7 +38,7 @@ from fecolumn.foundation._compiled import njit
 
 # Ways a step can end; FAR_BASE asks for more of the base's compliance, ROLLS_FAST for shorter
 # steps, ENDED ends the analysis; OFF_PATCH: a point stands on a part of a moving master that has no
-# nodes in the contact
+# nodes in the contact; NO_ROOM: more pairs of bodies are near each other than there is room for
 (
     OK,
     FAR_BASE,
@@ -49,7 +49,8 @@ from fecolumn.foundation._compiled import njit
     ENDED,
     ROLLS_FAST,
     OFF_PATCH,
-) = range(9)
+    NO_ROOM,
+) = range(10)
 # Places in a record of counts
 N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_PARTS, N_ASSEMBLED = range(6)
 N_COUNTS = 6

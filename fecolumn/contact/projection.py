@@ -8,7 +8,15 @@ import numpy as np
 
 from fecolumn.contact.bodies import GOES_ON, node_matrix
 from fecolumn.contact.gathered import Gathered, none_gathered
-from fecolumn.contact.points import BASE, BEYOND, OVER, POINT, SUNK, UNPREPARED
+from fecolumn.contact.points import (
+    BASE,
+    BEYOND,
+    FLAT_GROUND,
+    OVER,
+    POINT,
+    SUNK,
+    UNPREPARED,
+)
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import CLOSE, EDGE
@@ -114,7 +122,7 @@ def project(base, positions, listed, points):
         if base.tops[g].square > 0:
             _follow(base.tops[g].square, g, positions, points, moved[g])
     for i in listed:
-        if points[i].master != BASE:
+        if points[i].master != BASE or points[i].facet == FLAT_GROUND:
             continue
         g = points[i].ground
         top = base.tops[g]
@@ -144,7 +152,8 @@ def _follow(square, ground, positions, points, moved):
     """Moved (2,): way [m] in whole squares to the middle of the points on a ground."""
     dx, dy, count = 0.0, 0.0, 0
     for i in range(len(positions)):
-        if points[i].master == BASE and points[i].ground == ground:
+        on_it = points[i].master == BASE and points[i].ground == ground
+        if on_it and points[i].facet != FLAT_GROUND:
             dx, dy, count = dx + positions[i, 0], dy + positions[i, 1], count + 1
     dx, dy = dx / max(count, 1), dy / max(count, 1)
     moved[0], moved[1] = square * np.rint(dx / square), square * np.rint(dy / square)
@@ -218,7 +227,8 @@ def side_of_outline(answer, was, height, width):
 @njit(inline="always")
 def find_seat(bodies, interface, point, pose, place):
     """Bring the place (3,) of a point [m] from the table frame into that of its interface, and find
-    its seat and the nodes below it on the moving master: as `project_on_body`.
+    its seat and the nodes below it on the moving master: as `project_on_body`. Of an interface
+    without facets the nodes are known, and the point is ON the surface.
     """
     axes, origin = interface.axes, interface.origin
     into_frame(pose, place)
@@ -226,6 +236,8 @@ def find_seat(bodies, interface, point, pose, place):
         point.seat[a] = (
             origin[a] + axes[a, 0] * place[0] + axes[a, 1] * place[1] + axes[a, 2] * place[2]
         )
+    if interface.facet_count == 0:
+        return ON
     return project_on_body(bodies, interface, point, place[0], place[1])
 
 

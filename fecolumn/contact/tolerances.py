@@ -232,3 +232,13 @@ SAME_POINT_BY_PLACE = 0.02
 #: Depth at which bodies have come through each other: far above what contact leaves, far below
 #: what can be overlooked.
 THROUGH = 1e-3
+#: Distance, over the thickness of the thinnest body and beside twice the longest way in the step,
+#: within which the places of a pair are found: those of bodies at rest stay the same from step to
+#: step.
+FOUND_NEAR = 1e-2
+#: Share of its lift that a place which was found below the surface keeps from step to step: it
+#: comes out within some hundred steps, at a hundredth of the depth in each.
+STAYS_DEEP = 0.99
+#: Places of a pair that take part, at most; rows of pairs for each body at first: a block in a wall
+#: is near to six others, one of a heap to some more.
+FOUND_SLOTS, FOUND_ROWS = 8, 8

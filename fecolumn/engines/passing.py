@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.contact.convex import hull_of, hulls_of, is_convex_body, no_hull
+from fecolumn.contact.convex import hulls_of
 from fecolumn.contact.nearby import pair_keys
 from fecolumn.contact.through import ThroughCheck
+from fecolumn.structures.hulls import hulls_of_parts
 from fecolumn.structures.model import GROUND, StructureModel
 
 # Way of a body between two looks, over the thickness of the thinnest one: none is passed unseen
@@ -21,21 +22,16 @@ class Passing:
     """
 
     def __init__(self, structure: StructureModel):
-        parts, made = structure.parts, {}
+        parts = structure.parts
         self._names = [part.name for part in parts]
         self._held = np.array([part.held >= 0 for part in parts])
-        hulls = []
-        for _part, outline in zip(parts, structure.outlines or [None] * len(parts)):
-            if id(outline) not in made:
-                made[id(outline)] = no_hull()
-                if outline is not None:
-                    hull = hull_of(np.array(outline["points"]), outline["volume"])
-                    made[id(outline)] = hull if is_convex_body(hull)[0] else no_hull()
-            hulls.append(made[id(outline)])
+        hulls = hulls_of_parts(structure.outlines or [None] * len(parts))
         together = [(joint.slave, joint.master) for joint in structure.joints]
         together = [pair for pair in together if pair[1] != GROUND]
         fixed = np.flatnonzero(self._held)
         together += [(a, b) for a in fixed for b in fixed if a < b]
+        meet = structure.found.parts if structure.found else ()
+        together += [(a, b) for a in meet for b in meet if a < b]
         self._check = ThroughCheck(hulls_of(hulls), pair_keys(together, len(parts)))
         thick = self._check.hulls.thickness
         self._thinnest = thick[thick > 0].min(initial=np.inf)

@@ -253,6 +253,9 @@ class ReducedAnalysis(OfStructure, Analysis):
         return arrays | dict(points=engine.work.points, ledger=engine.ledger, counts=engine.counts)
 
     def _take(self, saved: dict) -> None:
+        pairs = len(saved["motion.meetings.rows"])
+        if pairs > len(self.engine.motion.meetings.rows):
+            self.engine.make_room(pairs)
         targets = self._arrays()
         for name, values in targets.items():
             if saved[name].shape != values.shape or not np.can_cast(

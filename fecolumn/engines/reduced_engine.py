@@ -50,8 +50,9 @@ def engine_of(case, model: StructureModel, file, stands: bool | None = None) -> 
     stands = not begins_unstrained(case, model) if stands is None else stands
     standing, hht = upright(case, model), HHT(plan.dt_s, plan.alpha_hht)
 
-    def build(step):
-        return structure_of(standing, step, gravity, PARTS if plan.substeps == "impacts" else 1)
+    def build(step, meetings=None):
+        parts = PARTS if plan.substeps == "impacts" else 1
+        return structure_of(standing, step, gravity, parts, meetings)
 
     try:
         structure, _ = build(hht)

@@ -16,6 +16,7 @@ from fecolumn.structures.check import check_meetings
 from fecolumn.structures.edges import Edge, edge_patch, edges_of
 from fecolumn.structures.faces import Face
 from fecolumn.structures.feet import ball_of, lifted
+from fecolumn.structures.hulls import HULL, hull_patch
 from fecolumn.structures.meetings import Meeting, meetings_of, place_of, zones_of
 from fecolumn.structures.patches import Patch, master_patch, slave_patch
 from fecolumn.structures.size import refuse_too_large
@@ -95,6 +96,8 @@ def layout_of(case, file) -> Layout:
         patches[body] = _touching(case, body, drawings[body], meetings, edges)
     for body in case.bodies:
         patches[body] |= _touched(case, body, drawings, patches, meetings, edges)
+    for body in dict.fromkeys(name for name, _ in case.found):
+        patches[body][HULL] = hull_patch(drawings[body])
     for meeting in meetings:
         slave = _surface_name(drawings[meeting.slave[0]].faces, meeting.slave_face, "slave")
         master = meeting.master and _surface_name(

@@ -20,7 +20,8 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
     ground by no more than the ground still moves. So it is for one body on the ground, for each of
     a stack, and for equal columns below a slab, which lean as one of them would alone. What links
     or bodies beside it hold, or what rolls on a dome, is lost at 45 degrees or, wider than high,
-    where it leans by its critical tilt and the angle of friction.
+    where it leans by its critical tilt and the angle of friction. One whose contact is found goes
+    on until it lies.
     """
     joints = list(structure.joints)
     found, supports = stances(structure, standing), supports_of(standing, joints)
@@ -31,8 +32,12 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
         if joint.ball and joint.ball.is_dome:
             held.add(joint.slave)
     tilts, rows, _ = Limits.of_tilt(len(standing))
+    fall = set(structure.found.parts) if structure.found else set()
     corners = [np.zeros((0, 2))]
+    tilts[list(fall)] = np.inf
     for place, stance in found.items():
+        if place in fall:
+            continue
         if place in held:
             steepest = stance.critical + np.arctan(stance.friction)
             tilts[place] = max(FAR, min(steepest, np.pi / 2))

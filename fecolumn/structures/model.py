@@ -250,6 +250,24 @@ class Link:
 
 
 @dataclass(frozen=True)
+class FoundContact:
+    """Contact that is found while bodies move, with one another and with the grounds.
+
+    parts: their places. friction: Coulomb's coefficient, restitution: velocity after over before an
+    impact, both of pairs without a joint; a joint between two of them, or of one with a ground,
+    says its own.
+    """
+
+    parts: tuple[int, ...]
+    friction: float
+    restitution: float
+
+    def replaces(self, joint: Joint) -> bool:
+        """Whether what two bodies of a joint do to one another is found."""
+        return joint.slave in self.parts and joint.master in (GROUND, *self.parts)
+
+
+@dataclass(frozen=True)
 class StructureModel:
     """A structure at its start.
 
@@ -257,8 +275,9 @@ class StructureModel:
     base: what the ground is to those that stand on it, as `structures.ground.bases_of` makes it;
     more: those of further grounds; levels: heights of all grounds [m].
     outlines: of each part the corners `points` of its convex hull from its centre of mass [m] and
-    its `volume` [m3], None of one without elements. observed: place of the part
-    and name of its mark whose horizontal displacement is u_top.
+    its `volume` [m3], None of one without elements. found: contact that is found, None where bodies
+    meet at their joints alone. observed: place of the part and name of its mark whose horizontal
+    displacement is u_top.
     """
 
     parts: tuple[Part, ...]
@@ -269,6 +288,7 @@ class StructureModel:
     more: tuple = ()
     levels: tuple[float, ...] = (0.0,)
     outlines: tuple[dict | None, ...] = ()
+    found: FoundContact | None = None
 
     @property
     def bases(self) -> tuple:

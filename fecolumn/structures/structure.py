@@ -28,6 +28,7 @@ from fecolumn.structures.check import (
 )
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.ground import bases_of
+from fecolumn.structures.hulls import found_contact
 from fecolumn.structures.layout import Layout, layout_of
 from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
 from fecolumn.structures.pads import with_pads
@@ -96,7 +97,7 @@ def _geometry(case) -> dict:
             for name, one in case.joints.items()
         },
         "interior": case.contact.interior_points,
-    }
+    } | ({"found": sorted({name for name, _ in case.found})} if case.found else {})
 
 
 def _made_of(case, name: str) -> dict:
@@ -244,6 +245,7 @@ def assembled(
         tuple(more),
         tuple(ground.level_m for ground in case.grounds.values()),
         tuple(outlines[name] for name, _ in copies),
+        found_contact(case, places, outlines, file),
     )
     tell_of_gaps(joints, standing, file)
     check_rest(case, structure, standing, file)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.case.sections import SUBSTEPS
+from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.joints import left_faces
 from fecolumn.contact.overturning import STANDS, steepest_to_come
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import BASE, FLAT_GROUND
 from fecolumn.contact.pose import SLAVE, frames_at, grounds_at, poses_of
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
@@ -18,6 +19,7 @@ from fecolumn.contact.problem import (
     ITERATIONS_SPENT,
     N_COUNTS,
     N_CUTS,
+    NO_ROOM,
     OFF_BASE,
     OFF_PATCH,
     OK,
@@ -47,14 +49,18 @@ _STOPS = {
 }
 
 
+class _NoRoom(Exception):
+    """More pairs of bodies are near each other than there is room for."""
+
+
 class Engine:
     """Reduced bodies on their base, their motion and their ledger.
 
     Parameters
     ----------
     build
-        function of an HHT that returns Structure and points, see `model.structure_of` and
-        `structure.structure_of`.
+        function of an HHT that returns Structure and points, see `structure.structure_of`; where
+        contact is found, of the number of pairs for which there is room as well.
     bases
         of each ground a BasePlate, or another holder of its compliance with `grid`, `slot`,
         `compliance` and `need`.
@@ -89,6 +95,7 @@ class Engine:
             max_cuts,
             SUBSTEPS.index(substeps),
         )
+        self._build = build
         self.structure, self.points = build(hht)
         self.work, self.spare, self.kept = (
             work_of(self.structure, self.points),
@@ -114,6 +121,7 @@ class Engine:
             len(structure.interfaces),
             len(structure.links),
             self.eye.levels,
+            len(structure.interfaces) - structure.found.interface,
         )
 
     def _need_below(self, centers, rotations, grounds: np.ndarray, rows: int) -> None:
@@ -121,6 +129,7 @@ class Engine:
         with centres of mass (nb, 3) turned by (nb, 3, 3), and so many rows of nodes around.
         """
         standing = self.points[self.points["master"] == BASE]
+        standing = standing[standing["facet"] != FLAT_GROUND]
         for number, (base, ground) in enumerate(zip(self.bases, grounds)):
             points = standing[standing["ground"] == number]
             if len(points):
@@ -248,8 +257,9 @@ class Engine:
                 return rows[:done], True
             if answer == FAR_BASE:
                 self.extend_base(self.spare)
+            elif answer == NO_ROOM or answer != OK and not self._cut(grounds[done], answer):
+                self.make_room(2 * len(self.motion.meetings.rows))
             elif answer != OK:
-                self._cut(grounds[done], answer)
                 rows[done] = self.row()
                 done += 1
                 self.made = rows[:done]
@@ -277,9 +287,21 @@ class Engine:
             made += more
         return made, answer
 
-    def _cut(self, ground, answer) -> None:
+    def make_room(self, meetings: int) -> None:
+        """Let so many pairs of bodies whose contact is found be near each other."""
+        self.structure, self.points = self._build(self.hht, meetings)
+        self.work, self._schemes = work_of(self.structure, self.points), {}
+        self.spare, self.kept = self.motion_at_rest(), self.motion_at_rest()
+        if hasattr(self, "motion"):
+            before, self.motion = arrays_of(self.motion), self.motion_at_rest()
+            for name, values in arrays_of(self.motion).items():
+                if name != "meetings.buckets":
+                    values[: len(before[name])] = before[name]
+
+    def _cut(self, ground, answer) -> bool:
         """The step that failed with `answer`, in two halves and these in halves as far as it needs;
-        nothing has changed where it fails.
+        nothing has changed where it fails. False where more pairs of bodies are near each other
+        than there is room for.
         """
         saved, booked, row = (
             self.motion_at_rest(),
@@ -291,6 +313,8 @@ class Engine:
         def take(_, target, hht):
             while (answer := self._steps(hht, target[None], row, _NO_END, _NO_REST)[1]) == FAR_BASE:
                 self.extend_base(self.spare)
+            if answer == NO_ROOM:
+                raise _NoRoom
             if answer not in (OK, ENDED):
                 raise StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
 
@@ -301,9 +325,12 @@ class Engine:
         except BaseException as error:
             motions.copy(saved, self.motion)
             self.ledger[:] = booked
+            if isinstance(error, _NoRoom):
+                return False
             if isinstance(error, StepFailed):
                 raise StepFailed(error.stop, f"t = {self.motion.time:.6g} s: {error}") from None
             raise
+        return True
 
     def _accelerations(self) -> np.ndarray:
         """Accelerations (3 G,) of the grounds now [m/s2]."""

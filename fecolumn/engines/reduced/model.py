@@ -11,6 +11,7 @@ import numpy as np
 from fecolumn.contact.bodies import Bodies
 from fecolumn.contact.overlap import Overlaps
 from fecolumn.contact.pad import Springs, springs_of
+from fecolumn.engines.reduced.found import Found
 
 
 class Structure(NamedTuple):
@@ -23,7 +24,8 @@ class Structure(NamedTuple):
     m) [1/s] damping force on a mode over its rate, 2 zeta w. reach: (N,) [m/sqrt(J)] largest
     displacement of a node by modes that store the energy 1/2 J. interfaces: (ni,) of INTERFACE;
     rim: points on the circles of all of them; overlaps: joints of two sides; links: (nl,) of LINK;
-    gravity: (3,) [m/s2].
+    gravity: (3,) [m/s2]. found: contact that is found, whose interfaces and
+    points come after those of the joints.
     """
 
     bodies: Bodies
@@ -36,6 +38,7 @@ class Structure(NamedTuple):
     overlaps: Overlaps
     links: np.ndarray
     gravity: np.ndarray
+    found: Found
 
 
 class Scheme(NamedTuple):

@@ -8,9 +8,11 @@ import numpy as np
 
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.interface import rims_at_rest
+from fecolumn.contact.meetings import Meetings, meetings_for
 from fecolumn.contact.points import BASE, CONTACT
 from fecolumn.contact.pose import MASTER, SLAVE, grounds_at
 from fecolumn.contact.record import record
+from fecolumn.contact.tolerances import FOUND_SLOTS
 from fecolumn.engines.dynamics.links import TIE, pull_links
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START
 from fecolumn.engines.reduced.rotation import turn_by, turning
@@ -36,7 +38,7 @@ class MotionState(NamedTuple):
 
     frames: (nb,) of FRAME; rotation: (nb, 3, 3) body to table; modal: (nb, 3, m) of unit modal
     mass; contact: (P,) of CONTACT; rims: (ni,) of RIM; ties: (nl,) of TIE; whole: (1,) of WHOLE;
-    grounds: (G,) of GROUND.
+    grounds: (G,) of GROUND; meetings: bodies whose contact is found, see `reduced.found`.
     """
 
     frames: np.ndarray
@@ -47,6 +49,7 @@ class MotionState(NamedTuple):
     ties: np.ndarray
     whole: np.ndarray
     grounds: np.ndarray
+    meetings: Meetings
 
     @property
     def time(self) -> float:
@@ -66,8 +69,11 @@ def at_rest(
     interfaces: int = 1,
     links: int = 0,
     levels: tuple[float, ...] = (0.0,),
+    meetings: int = 0,
 ) -> MotionState:
-    """Zeros everywhere but for upright rotations, and the levels of the grounds [m]."""
+    """Zeros everywhere but for upright rotations, and the levels of the grounds [m]; so many rows
+    of meetings without a pair.
+    """
     return MotionState(
         np.zeros(bodies, FRAME),
         np.tile(np.eye(3), (bodies, 1, 1)),
@@ -77,6 +83,7 @@ def at_rest(
         np.zeros(links, TIE),
         np.zeros(1, WHOLE),
         grounds_at(levels),
+        meetings_for(meetings, FOUND_SLOTS),
     )
 
 
@@ -129,9 +136,19 @@ def copy(source, target):
         target.ties[n] = source.ties[n]
     target.whole[0] = source.whole[0]
     copy_grounds(source, target)
+    copy_meetings(source.meetings, target.meetings)
     for b in range(len(source.frames)):
         put_matrix(source.rotation[b], target.rotation[b])
         put_matrix(source.modal[b], target.modal[b])
+
+
+@njit
+def copy_meetings(source, target):
+    """Copy rows and places of Meetings."""
+    for r in range(len(source.rows)):
+        target.rows[r] = source.rows[r]
+        for s in range(source.places.shape[1]):
+            target.places[r, s] = source.places[r, s]
 
 
 @njit

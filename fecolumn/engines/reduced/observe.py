@@ -206,7 +206,7 @@ def _observe_all(structure, points, poses, eye, motion, row):
         place += PER_BODY
     find_poses(structure.interfaces, motion.grounds, motion.frames, motion.rotation, poses)
     first = place
-    for k in range(len(structure.interfaces)):
+    for k in range(len(eye.feet)):
         T, foot, normal = poses[k].turned[SLAVE], poses[k].foot, eye.normals[k]
         x, y, z = (
             T[2, 1] * normal[2] - T[2, 2] * normal[1],
@@ -221,7 +221,7 @@ def _observe_all(structure, points, poses, eye, motion, row):
         for a in range(2):
             row[place + _SHIFT + a] = foot[a] - eye.feet[k, a]
         place += _N_INTERFACE
-    _observe_forces(structure, points, poses, motion, row[first:place])
+    _observe_forces(structure, points, poses, motion, len(eye.feet), row[first:place])
     for n in range(len(eye.marks)):
         _displace(
             eye.marks[n].body, eye.marks[n].arm, eye.shapes[n], eye.center, motion, 3, row, place
@@ -239,23 +239,36 @@ def _observe_all(structure, points, poses, eye, motion, row):
 
 
 @njit
-def _observe_forces(structure, points, poses, motion, row):
-    """Add forces and centres of pressure to what a row has of interfaces."""
+def _observe_forces(structure, points, poses, motion, joints, row):
+    """Add forces and centres of pressure to what a row has of interfaces, those of the first
+    `joints` of them. Those of pairs that were found are of the joint in whose place they are.
+    """
     for i in range(len(points)):
         force, place = motion.contact[i].force, motion.contact[i].relative
         if not force[2] > 0:
             continue
-        k = points[i].interface
-        own, Q = row[_N_INTERFACE * k : _N_INTERFACE * (k + 1)], poses[k].frame
+        k, sign = points[i].interface, 1.0
+        Q, origin = poses[k].frame, poses[k].origin
+        if k >= joints:
+            other = points[i].master
+            if other == BASE:
+                other = len(motion.frames) + points[i].ground
+            k = structure.found.joint[other, points[i].slave]
+            if k < 0:
+                continue
+            if structure.interfaces[k].slave != points[i].slave:
+                sign = -1.0
+        own = row[_N_INTERFACE * k : _N_INTERFACE * (k + 1)]
         own[_NORMAL] += force[2]
         for a in range(3):
-            own[_RESULTANT + a] += Q[a, 0] * force[0] + Q[a, 1] * force[1] + Q[a, 2] * force[2]
-            own[_CENTER + a] += force[2] * (Q[a, 0] * place[0] + Q[a, 1] * place[1])
-    for k in range(len(structure.interfaces)):
+            along = Q[a, 0] * force[0] + Q[a, 1] * force[1] + Q[a, 2] * force[2]
+            own[_RESULTANT + a] += sign * along
+            own[_CENTER + a] += force[2] * (origin[a] + Q[a, 0] * place[0] + Q[a, 1] * place[1])
+    for k in range(joints):
         own = row[_N_INTERFACE * k : _N_INTERFACE * (k + 1)]
         if own[_NORMAL] > 0:
             for a in range(3):
-                own[_CENTER + a] = poses[k].origin[a] + own[_CENTER + a] / own[_NORMAL]
+                own[_CENTER + a] /= own[_NORMAL]
 
 
 @njit

@@ -13,7 +13,15 @@ from fecolumn.contact.ball import lay_down
 from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import find_poses
-from fecolumn.contact.problem import ENDED, N_IMPACTS, N_ITERATIONS, N_PARTS, OK, ROLLS_FAST
+from fecolumn.contact.problem import (
+    ENDED,
+    N_IMPACTS,
+    N_ITERATIONS,
+    N_PARTS,
+    NO_ROOM,
+    OK,
+    ROLLS_FAST,
+)
 from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import PARTS
 from fecolumn.contact.two_sided import mark_unused
@@ -23,6 +31,7 @@ from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.balls import roll_balls
 from fecolumn.engines.reduced.elastic import COORDINATE, END, START
 from fecolumn.engines.reduced.equilibrium import find_equilibrium
+from fecolumn.engines.reduced.found import lay_found
 from fecolumn.engines.reduced.observe import ENERGY, observe, outcome_of_row
 from fecolumn.engines.reduced.step import lay_points, step
 from fecolumn.foundation._borrowed import borrowed
@@ -254,6 +263,8 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
         if structure.interfaces[k].ball > 0.0:
             lay_down(work.points, k)
             roll_balls(structure, k, work, motion, spare)
+    if lay_found(structure, 0.0, work, motion, spare) != OK:
+        return NO_ROOM
     for joint in structure.overlaps.joints:
         if not spare.rims[joint.forward].placed:
             # once: the points stay while the bodies come to rest, by micrometres

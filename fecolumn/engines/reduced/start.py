@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.points import may_touch
-from fecolumn.contact.problem import FAR_BASE, OK, near_points
+from fecolumn.contact.problem import FAR_BASE, NO_ROOM, OK, near_points
 from fecolumn.contact.tolerances import FIRMER_TIMES, LINKS_FIRM, SLIDES_KEPT
 from fecolumn.contact.work import move_anchors
 from fecolumn.engines.dynamics.gravity import (
@@ -57,10 +57,23 @@ def gravity_equilibrium(engine) -> motions.MotionState:
     )
     for time in range(FIRMER_TIMES):
         try:
-            return _settled(engine, 10.0**time * firmness)
+            return _settled_with_room(engine, 10.0**time * firmness)
         except _Diverged:
             continue
-    return _settled(engine, 10.0**FIRMER_TIMES * firmness)
+    return _settled_with_room(engine, 10.0**FIRMER_TIMES * firmness)
+
+
+def _settled_with_room(engine, firmness: float) -> motions.MotionState:
+    """As `_settled`, with room for as many pairs of bodies as are near each other."""
+    while True:
+        try:
+            return _settled(engine, firmness)
+        except _Crowded:
+            engine.make_room(2 * len(engine.spare.meetings.rows))
+
+
+class _Crowded(Exception):
+    """More pairs of bodies are near each other than there is room for."""
 
 
 class _Diverged(NoEquilibrium):
@@ -83,6 +96,8 @@ def _settled(engine, firmness: float) -> motions.MotionState:
         nonlocal steps
         while (answer := engine.settle(resting, start, end)) == FAR_BASE:
             engine.extend_base(end)
+        if answer == NO_ROOM:
+            raise _Crowded
         if answer != OK:
             raise _Diverged("gravity equilibrium: contact does not converge")
         moved = max(

@@ -21,7 +21,7 @@ from fecolumn.contact.impact import (
 from fecolumn.contact.pad import without_pads
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE, find_poses, move_grounds
-from fecolumn.contact.problem import N_IMPACTS, OK, list_present, near_points
+from fecolumn.contact.problem import N_IMPACTS, NO_ROOM, OK, list_present, near_points
 from fecolumn.contact.rolling import (
     least_rim_width,
     mark_rolling,
@@ -45,6 +45,7 @@ from fecolumn.engines.reduced.elastic import (
     find_velocity,
 )
 from fecolumn.engines.reduced.equilibrium import find_equilibrium
+from fecolumn.engines.reduced.found import lay_found
 from fecolumn.engines.reduced.ledger import BASE as BASE_WORK
 from fecolumn.engines.reduced.ledger import CONTACT_WORK, FRICTION, HIT, book, kinetic
 from fecolumn.engines.reduced.motion import push_bodies
@@ -64,6 +65,8 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
     booked, interfaces, weight = ledger.copy(), structure.interfaces, 0.0
     move_grounds(start.grounds, ground, scheme.dt, end.grounds)
     rolled = place_points_of_step(structure, scheme.dt, work, start, end, True)
+    if lay_found(structure, scheme.dt, work, start, end) != OK:
+        return NO_ROOM
     answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
     for b in range(len(start.frames)):
         weight += structure.bodies.body[b].mass
@@ -75,6 +78,7 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
         # recursion: numba cannot load it from its cache
         put(booked, ledger)
         place_points_of_step(structure, scheme.dt, work, start, end, False)
+        lay_found(structure, scheme.dt, work, start, end)
         answer, contact_work = _carry(
             structure, base, scheme, work, start, ground, end, ledger, counts
         )

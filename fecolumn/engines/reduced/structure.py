@@ -9,15 +9,19 @@ import numpy as np
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.joints import joints_of
 from fecolumn.contact.overturning import Limits, never_alone
-from fecolumn.contact.points import BASE
+from fecolumn.contact.interface import INTERFACE
+from fecolumn.contact.points import BASE, POINT
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
-from fecolumn.contact.tolerances import RIGID_GIVE
+from fecolumn.contact.tolerances import FOUND_ROWS, RIGID_GIVE
 from fecolumn.engines.dynamics.links import links_of
+from fecolumn.engines.reduced.found_of_model import found_interfaces, found_of, found_points
 from fecolumn.engines.reduced.model import Structure, modal_sum
 from fecolumn.engines.reduced.observe import MARK, View
 
 
-def structure_of(model, hht, gravity, parts_of_step: int = 1) -> tuple[Structure, np.ndarray]:
+def structure_of(
+    model, hht, gravity, parts_of_step: int = 1, meetings: int | None = None
+) -> tuple[Structure, np.ndarray]:
     """Structure as steps of `hht` see it, and its points (P,) of POINT.
 
     Parameters
@@ -26,6 +30,9 @@ def structure_of(model, hht, gravity, parts_of_step: int = 1) -> tuple[Structure
         StructureModel, each part with the modes that are to move.
     parts_of_step
         in one of so many points land: what bodies that do not deform give in it is by its length.
+    meetings
+        pairs of bodies for which there is room where contact is found, FOUND_ROWS a body unless
+        given.
 
     Raises
     ------
@@ -69,25 +76,35 @@ def structure_of(model, hht, gravity, parts_of_step: int = 1) -> tuple[Structure
             for own, part in zip(pushes, parts)
         ]
     )
-    joints = joints_of(parts, model.joints)
+    replaces = model.found.replaces if model.found else lambda joint: False
+    replaced = {k for k, joint in enumerate(model.joints) if replaces(joint)}
+    joints = joints_of(parts, model.joints, replaced)
     for interface, joint in zip(joints.interfaces, model.joints):
         if joint.master != BASE:
             interface["reach"] = reach[
                 first[joint.master] + parts[joint.master].model.surfaces[joint.master_surface].nodes
             ].max()
+    rows = meetings if meetings is not None else FOUND_ROWS * len(parts) if model.found else 0
+    interfaces, points = joints.interfaces, joints.points
+    found = found_of(model, first, reach, len(interfaces), len(points), rows)
+    if rows:
+        more = found_interfaces(found, rows), found_points(found, rows)
+        interfaces = np.concatenate([interfaces, more[0]]).astype(INTERFACE)
+        points = np.concatenate([points, more[1]]).astype(POINT)
     structure = Structure(
         Bodies(*whole[:4], joints.facets),
         np.ascontiguousarray(np.concatenate(pushes)),
         squares,
         damping,
         reach,
-        joints.interfaces,
+        interfaces,
         joints.rim,
         joints.overlaps,
         links_of(model, hht),
         np.array(gravity, float),
+        found,
     )
-    return structure, joints.points
+    return structure, points
 
 
 def _least_give(body, dt: float, held: int) -> np.ndarray:
@@ -148,7 +165,8 @@ def view_of(model, structure, weight: float, limits: Limits, cap: float = 0.0) -
         )
         if feet[0].ball:
             foot += feet[0].ball.radius * surface.normal
-    reference = poses_of(structure.interfaces, centers, rotations, grounds_at(model.levels))
+    interfaces = structure.interfaces[: len(model.joints)]
+    reference = poses_of(interfaces, centers, rotations, grounds_at(model.levels))
     stance = never_alone(model.parts[body].model.inertia, weight, cap)
     return View(
         centers,

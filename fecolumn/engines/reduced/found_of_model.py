@@ -1,0 +1,88 @@
+"""Contact that is found, from a `structures.model.StructureModel` to the compiled engine."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from fecolumn.contact.convex import hull_of, hulls_of, no_hull
+from fecolumn.contact.interface import INTERFACE
+from fecolumn.contact.meet import room_for
+from fecolumn.contact.nearby import boxes_for, pair_keys
+from fecolumn.contact.points import BASE, FLAT_GROUND, POINT
+from fecolumn.contact.tolerances import FOUND_SLOTS
+from fecolumn.engines.reduced.found import Found
+from fecolumn.structures.hulls import HULL
+
+
+def found_of(model, first: np.ndarray, reach: np.ndarray, interface: int, point: int, rows: int):
+    """Found of a model, of no body where its contact is not found.
+
+    Parameters
+    ----------
+    first
+        (nb + 1,) rows of each body among the nodes of all.
+    reach
+        (N,) as of `model.Structure`.
+    interface, point
+        the first ones of its own.
+    rows
+        pairs for which there is room.
+    """
+    parts, grounds, meet = model.parts, len(model.levels), model.found.parts if model.found else ()
+    hulls, nodes, reaches = [no_hull()] * len(parts), [], np.zeros(len(parts))
+    for b in sorted(meet):
+        body = parts[b].model
+        own = body.surfaces[HULL].nodes
+        hulls[b] = hull_of(body.arms[own])
+        at = own[cKDTree(body.arms[own]).query(hulls[b].corners)[1]]
+        nodes.append(first[b] + at)
+        reaches[b] = reach[first[b] + own].max()
+    held = [b for b in meet if parts[b].held >= 0]
+    friction, restitution = np.zeros((2, len(parts) + grounds, len(parts)))
+    joint = np.full(friction.shape, -1)
+    if model.found:
+        friction[:], restitution[:] = model.found.friction, model.found.restitution
+    for number, one in enumerate(model.joints):
+        if not model.found or not model.found.replaces(one) or one.pair >= 0:
+            continue
+        other = len(parts) + one.ground if one.master == BASE else one.master
+        pairs = [(other, one.slave)] + [(one.slave, other)] * (one.master != BASE)
+        for pair in pairs:
+            friction[pair], restitution[pair], joint[pair] = one.friction, one.restitution, number
+    whole = hulls_of(hulls)
+    return Found(
+        whole,
+        np.concatenate(nodes) if nodes else np.zeros(0, np.int64),
+        interface,
+        point,
+        pair_keys([(a, b) for a in held for b in held if a < b], len(parts)),
+        friction,
+        restitution,
+        joint,
+        np.array([bool(model.found and model.found.replaces(one)) for one in model.joints], bool),
+        np.tile(np.eye(3), (grounds, 1, 1)),
+        reaches,
+        boxes_for(len(parts)),
+        np.zeros((rows, 2), np.int64),
+        room_for(whole),
+    )
+
+
+def found_interfaces(found: Found, rows: int) -> np.ndarray:
+    """Interfaces (rows,) of INTERFACE of which no pair has any."""
+    interfaces = np.zeros(rows, INTERFACE)
+    interfaces["master"], interfaces["axes"], interfaces["sector"] = BASE, np.eye(3), 1.0
+    thickness = found.hulls.thickness
+    interfaces["width"] = thickness[thickness > 0].min()
+    return interfaces
+
+
+def found_points(found: Found, rows: int) -> np.ndarray:
+    """Points (FOUND_SLOTS rows,) of POINT that take no part."""
+    points = np.zeros(FOUND_SLOTS * rows, POINT)
+    points["interface"] = found.interface + np.repeat(np.arange(rows), FOUND_SLOTS)
+    points["master"], points["facet"], points["idle"] = BASE, FLAT_GROUND, True
+    points["node"], points["count"], points["weights"][:, 0] = found.nodes[0], 1, 1.0
+    points["carriers"] = points["node"][:, None]
+    return points
