@@ -45,7 +45,7 @@ def joints_of(parts, joints, replaced=frozenset()) -> Joints:
     """Points and interfaces of the joints (`structures.model.Joint`) of parts
     (`structures.model.Part`), whose nodes come one after another.
 
-    replaced: numbers of joints whose points take no part, as contact between their bodies is found
+    replaced: numbers of joints that have no points, as contact between their bodies is found
     anywhere.
     """
     first, facets, found = (
@@ -99,12 +99,12 @@ def joints_of(parts, joints, replaced=frozenset()) -> Joints:
             master=joint.master,
             interface=k,
         )
-        own["ground"], own["idle"] = joint.ground, k in replaced
+        own["ground"] = joint.ground
         own["node"] = first[joint.slave] + touching.nodes
         own["carriers"] = own["node"][:, None]
         if joint.ball is not None:
             own["arm"] += joint.ball.radius * outward
-        points.append(own)
+        points.append(own[:0] if k in replaced else own)
         interfaces.append(interface)
     for k, joint in enumerate(joints):
         if joint.pair >= 0 and k not in replaced:

@@ -239,6 +239,6 @@ FOUND_NEAR = 1e-2
 #: Share of its lift that a place which was found below the surface keeps from step to step: it
 #: comes out within some hundred steps, at a hundredth of the depth in each.
 STAYS_DEEP = 0.99
-#: Places of a pair that take part, at most; rows of pairs for each body at first: a block in a wall
-#: is near to six others, one of a heap to some more.
-FOUND_SLOTS, FOUND_ROWS = 8, 8
+#: Places of a pair that take part, at most; pairs for which there is room at first, for each body:
+#: a block in a wall is near to six others. There is more room when it is wanted.
+FOUND_SLOTS, FOUND_ROWS = 8, 4

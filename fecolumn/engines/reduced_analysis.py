@@ -227,7 +227,7 @@ class ReducedAnalysis(OfStructure, Analysis):
         self.history.extend(columns_of(rows, self.structure))
 
     def _save(self) -> None:
-        arrays = self._arrays()
+        arrays = self._arrays(self.engine.work.stick.key[1] != 0.0)
         content = io.BytesIO()
         np.savez(
             content,
@@ -239,12 +239,15 @@ class ReducedAnalysis(OfStructure, Analysis):
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
-    def _arrays(self) -> dict[str, np.ndarray]:
-        """What a checkpoint keeps: with the points, the stick operator and what is learnt of it, so
-        that an analysis that was interrupted goes on to the last digit as if it had not been.
+    def _arrays(self, sticks: bool) -> dict[str, np.ndarray]:
+        """What a checkpoint keeps: with the points, the stick operator where there is one, and what
+        is learnt of it, so that an analysis that was interrupted goes on to the last digit as if it
+        had not been.
         """
         engine = self.engine
-        parts = {"motion": engine.motion, "stick": engine.work.stick, "secant": engine.work.secant}
+        parts = {"motion": engine.motion, "secant": engine.work.secant}
+        if sticks:
+            parts["stick"] = engine.work.stick
         arrays = {
             f"{part}.{name}": values
             for part, target in parts.items()
@@ -256,7 +259,7 @@ class ReducedAnalysis(OfStructure, Analysis):
         pairs = len(saved["motion.meetings.rows"])
         if pairs > len(self.engine.motion.meetings.rows):
             self.engine.make_room(pairs)
-        targets = self._arrays()
+        targets = self._arrays("stick.key" in saved)
         for name, values in targets.items():
             if saved[name].shape != values.shape or not np.can_cast(
                 saved[name].dtype, values.dtype, "equiv"

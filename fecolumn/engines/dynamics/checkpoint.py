@@ -16,9 +16,10 @@ from fecolumn.foundation.atomic import write_bytes
 from fecolumn.foundation.files import read_bytes
 
 _FIELDS = ("x", "v", "a", "contact_a", "internal", "surface_a")
-# arrays and fields with the angle of the rim's lowest point, nan while the foot touches with its
-# nodes only
-_WITH_RIM = {"angle", "stick.key", "stick.angles", "extra.stick.angles"}
+# arrays and fields that need not be finite: the angle of the rim's lowest point, nan while the foot
+# touches with its nodes only; of a pair of bodies whose contact is found what is not known yet
+_NOT_FINITE = {"angle", "stick.key", "stick.angles", "extra.stick.angles"}
+_NOT_FINITE |= {"separation", "turn_then"}
 # A file knows no records
 _RECORDS = {"contact": CONTACT, "rims": RIM, "ties": TIE, "grounds": GROUND}
 _SHARED = (
@@ -89,7 +90,7 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
             if (
                 numbers.dtype.kind == "f"
                 and not np.isfinite(numbers).all()
-                and part not in _WITH_RIM
+                and part not in _NOT_FINITE
             ):
                 raise ValueError(f"{name} is not finite")
     return arrays

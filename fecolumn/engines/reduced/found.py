@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.arrays import put
+from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.convex import Hulls
 from fecolumn.contact.manifold import CORNER_OF_FIRST, CORNER_OF_SECOND
 from fecolumn.contact.meet import Room, find_meetings
@@ -133,6 +133,9 @@ def _lay_row(structure, work, start, end, r):
     k, changed, any_place = found.interface + r, False, False
     if row.pair[0] != NO_PAIR:
         set_interface(structure, row, k)
+        if row.pair[0] < 0:
+            # of a body the frame is found along with its motion
+            put_matrix(found.axes[-1 - row.pair[0]], work.action.frames[k])
     for s in range(slots):
         i, place = found.point + slots * r + s, end.meetings.places[r, s]
         point, now = work.points[i], work.before[i]
