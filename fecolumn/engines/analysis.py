@@ -123,15 +123,17 @@ class Analysis:
         return float(barrier(self.stance))
 
     @property
+    def still_j(self) -> float:
+        """Energy left of what is at rest [J], at most."""
+        return REST_SHARE * self.barrier_j
+
+    @property
     def rest_j(self) -> float:
         """Energy left at which the analysis ends as the column is at rest [J]; -inf where it goes
         on.
         """
-        return (
-            REST_SHARE * self.barrier_j
-            if self.until_rest and self.step >= self.motion_steps
-            else -np.inf
-        )
+        goes_on = not self.until_rest or self.step < self.motion_steps
+        return -np.inf if goes_on else self.still_j
 
     @property
     def cpu_s(self) -> float | None:
@@ -280,7 +282,7 @@ class Analysis:
                 OVERTURNED,
                 f"point of no return: {self.no_return(last, rotation)}, at {last['time']:.3f} s",
             )
-        outcome = AT_REST if self.energy_left() <= REST_SHARE * self.barrier_j else STILL_ROCKING
+        outcome = AT_REST if self.energy_left() <= self.still_j else STILL_ROCKING
         if not self.until_rest:
             return Ending(outcome, f"end of the analysed time, {last['time']:.3f} s")
         if outcome == AT_REST:
@@ -350,6 +352,7 @@ class Analysis:
         slid_off, slide = ending.outcome == SLID_OFF, rows["slide"][-1]
         top = np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1])
         fall, end = rows["u_top"][-1], float(rows["time"][-1])
+        lost_at = end if ending.lost_at_s is None else ending.lost_at_s
         summary = dict(
             case_id=self.case.id,
             title=self.case.title,
@@ -370,7 +373,7 @@ class Analysis:
             u_max_m=float(top.max()),
             u_max_censored=overturned or slid_off,
             overturned=overturned,
-            overturn_time_s=end if overturned else None,
+            overturn_time_s=lost_at if overturned else None,
             overturn_direction_deg=float(np.degrees(np.arctan2(fall[1], fall[0])))
             if overturned
             else None,

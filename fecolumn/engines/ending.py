@@ -32,10 +32,13 @@ class Ending:
         one of the words above.
     ended_by
         what stopped the analysis, in words, with its time [s].
+    lost_at_s
+        when the first body was lost, None of one that ended the analysis.
     """
 
     outcome: str
     ended_by: str
+    lost_at_s: float | None = None
 
 
 def ending_text(summary: dict) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import math
 import time
 
 import numpy as np
@@ -114,7 +115,7 @@ class ReducedAnalysis(OfStructure, Analysis):
                 for every in (self.field_steps, self.states.every if self.states else 0):
                     if every:
                         count = min(count, every - self.step % every)
-                over = self._advance(count)
+                over = self._advance(count) and self._stays()
                 if told := passing.told(engine.motion):
                     self._save()
                     raise AnalysisFailed(f"{told}; state saved in {self.folder / CHECKPOINT}")
@@ -173,8 +174,22 @@ class ReducedAnalysis(OfStructure, Analysis):
         """Energy that impacts took over what rigid-body theory says."""
         return loss_share(self.engine.ledger, self.engine.structure.interfaces)
 
-    def _advance(self, count: int) -> bool:
-        """So many steps at most; whether the column is lost or at rest.
+    def _stays(self) -> bool:
+        """Whether what is lost or at rest stays so: bodies whose contact is found are at rest once
+        they have been still for a while.
+        """
+        if not self.collapse or self.engine.fallen(self.steepest(self.step)) != STANDS:
+            return True
+        steps = math.ceil(self.collapse.turn_s / self.case.integration.dt_s)
+        began = self.step
+        if self._advance(min(steps, self.steps - self.step), goes_on=True):
+            return True
+        kinetic = self.history.arrays()["energy/kinetic"][-(self.step - began) or None :]
+        return bool(kinetic.max(initial=0.0) <= self.still_j)
+
+    def _advance(self, count: int, goes_on: bool = False) -> bool:
+        """So many steps at most, also of what is at rest where it `goes_on`; whether the column is
+        lost or at rest.
 
         Whatever error stops them, those made are noted.
 
@@ -196,7 +211,9 @@ class ReducedAnalysis(OfStructure, Analysis):
         )
         failure, over = None, False
         try:
-            over = engine.advance(grounds, steepest, (self.standing_j, self.rest_j))[1]
+            standing = np.inf if self.collapse else self.standing_j
+            rest = standing, -np.inf if goes_on else self.rest_j
+            over = engine.advance(grounds, steepest, rest)[1]
         except Exception as error:  # of the disk, of memory, of the steps
             failure = error
         self._note(engine.made)

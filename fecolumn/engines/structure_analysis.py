@@ -9,7 +9,8 @@ import numpy as np
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import FELL, critical_displacement
 from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
-from fecolumn.engines.ending import SLID_OFF, Ending
+from fecolumn.engines.collapse import Collapse
+from fecolumn.engines.ending import OVERTURNED, SLID_OFF, Ending
 from fecolumn.engines.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import least_barrier, stances
@@ -31,7 +32,7 @@ class OfStructure:
     """
 
     structure: StructureModel
-    _barrier_j, _off = None, None
+    _barrier_j, _off, _collapse = None, None, None
 
     def expected(self) -> str:
         """What is analysed, in words."""
@@ -51,6 +52,26 @@ class OfStructure:
         if self._barrier_j is None:
             self._barrier_j = least_barrier(self.structure, standing_of(self.case, self.structure))
         return self._barrier_j
+
+    @property
+    def collapse(self) -> Collapse | None:
+        """What may fall, where contact is found."""
+        if self._collapse is None and self.structure.found:
+            self._collapse = Collapse(self.structure)
+        return self._collapse
+
+    @property
+    def still_j(self) -> float:
+        """As of Analysis; where contact is found, kinetic energy alone."""
+        return self.collapse.still_j if self.collapse else super().still_j
+
+    def energy_left(self) -> float:
+        """As of Analysis; kinetic energy alone [J] where contact is found, as bodies may come to
+        rest anywhere.
+        """
+        if self.collapse:
+            return float(self.history.last()["energy/kinetic"])
+        return super().energy_left()
 
     def energy_to_fall(self) -> float:
         """Energy [J] that bodies which nothing carries at the start have over what they fall on."""
@@ -159,7 +180,12 @@ class OfStructure:
     def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
         """How the analysis ends, from the answer of `reduced.observe.outcome_of_row`."""
         if fallen != FELL:
-            return super().ending(fallen, rotation)
+            found = super().ending(fallen, rotation)
+            lie = self.collapse.fallen(self.history.arrays()) if self.collapse else {}
+            if not lie or found.outcome == OVERTURNED:
+                return found
+            told = f"{self.collapse.told(lie)}; {found.outcome}: {found.ended_by}"
+            return Ending(OVERTURNED, told, next(iter(lie.values())))
         return Ending(
             SLID_OFF,
             f'"{self._lowest()}" has fallen past the ground, z = '
