@@ -199,14 +199,17 @@ def check_joints(joints, standing, file) -> None:
 
 
 def tell_of_gaps(joints, standing, file) -> None:
-    """Warn of joints that begin open."""
+    """Warn of joints that begin open, once for all pairs of a joint."""
+    pairs: dict[str, list] = {}
     for joint in joints:
         if joint.gap and joint.pair < 0:
-            name = joint.name.partition(":")[0]
-            warnings.warn(
-                f"{file}: joints.{name}: {_between(joint, standing)} begin {joint.gap:.4g} m apart",
-                stacklevel=2,
-            )
+            pairs.setdefault(joint.name.partition(":")[0], []).append(joint)
+    for name, apart in pairs.items():
+        widest = max(joint.gap for joint in apart)
+        told = f"{_between(apart[0], standing)} begin {apart[0].gap:.4g} m apart"
+        if len(apart) > 1:
+            told += f", and {len(apart) - 1} more pairs; {widest:.4g} m at most"
+        warnings.warn(f"{file}: joints.{name}: {told}", stacklevel=2)
 
 
 def _between(joint, standing) -> str:

@@ -247,7 +247,8 @@ def assembled(
         tuple(outlines[name] for name, _ in copies),
         found_contact(case, places, outlines, file),
     )
-    tell_of_gaps(joints, standing, file)
+    met = structure.found.replaces if structure.found else lambda joint: False
+    tell_of_gaps([joint for joint in joints if not met(joint)], standing, file)
     check_rest(case, structure, standing, file)
     return structure
 

@@ -7,9 +7,9 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
+from fecolumn.contact.interface import INTERFACE
 from fecolumn.contact.joints import joints_of
 from fecolumn.contact.overturning import Limits, never_alone
-from fecolumn.contact.interface import INTERFACE
 from fecolumn.contact.points import BASE, POINT
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.tolerances import FOUND_ROWS, RIGID_GIVE
