@@ -132,6 +132,14 @@ def arch(work: Work, target: Path) -> str:
     return draw(work.folder / "arch", ROOT / "meshes" / "arch.toml", target)
 
 
+def colonnade(work: Work, target: Path) -> str:
+    """A colonnade that collapses: contact found wherever stones come to meet."""
+    from benchmarks.gallery.colonnade import colonnade as film
+
+    file = ROOT / "meshes" / "colonnade_that_collapses.toml"
+    return film(work.folder / "colonnade", file, target)
+
+
 #: Figures by name: place in the repository and the function that makes them, of (Work, target),
 #: which says from what.
 FIGURES = {
@@ -142,12 +150,13 @@ FIGURES = {
     "two-sides": ("fecolumn/case/manual/two-sides.png", two_sides),
     "collapse": ("fecolumn/case/manual/collapse.png", collapse),
     "arch": ("fecolumn/case/manual/arch.png", arch),
+    "colonnade": ("fecolumn/case/manual/colonnade.gif", colonnade),
 }
 
 
 def make(name: str, work: Work, root: Path = ROOT) -> str:
-    """Make a figure anew in its place below `root`, with few colours; where it lies and what it is
-    from, in words.
+    """Make a figure anew in its place below `root`, a picture with few colours; where it lies and
+    what it is from, in words.
     """
     from PIL import Image
 
@@ -156,6 +165,9 @@ def make(name: str, work: Work, root: Path = ROOT) -> str:
         draft = Path(folder) / Path(place).name
         told = function(work, draft)
         (root / place).parent.mkdir(parents=True, exist_ok=True)
+        if draft.suffix == ".gif":
+            shutil.copy(draft, root / place)
+            return f"{place}: {told}"
         with Image.open(draft) as image:
             image.convert("RGB").quantize(_COLOURS).save(root / place, optimize=True)
     return f"{place}: {told}"

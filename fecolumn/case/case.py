@@ -629,7 +629,7 @@ def check(case: Case, file) -> None:
             refuse(f"bodies.{name}.moves_with", ground, f"no such ground; known: {known}")
     if case.bodies and all(getattr(body, "fixed", False) for body in case.bodies.values()):
         refuse(f"bodies.{name}.fixed", True, "must be false of one body at least: nothing moves")
-    if not case.joints:
+    if not case.joints and not case.contact.between:
         refuse(
             "joints",
             None,

@@ -18,6 +18,7 @@ from fecolumn.contact.problem import IMPACT_FAILED, N_CONTACT, OK
 from fecolumn.contact.restitution import returned_share
 from fecolumn.contact.tolerances import (
     FULL_FRICTION,
+    GOES_ON_BY,
     IMPACT_GIVES,
     IMPACT_LEAST,
     IMPACT_LEFT,
@@ -35,20 +36,23 @@ NOTHING, LANDS, TURNS = range(3)
 
 @njit
 def mark_landing(interfaces, points, listed, before, after, landing):
-    """Mark in `landing` (n,) those of the listed points (k,) that touch at the end of the step and
-    were open at its start: how many.
+    """Mark in `landing` (n,) those of the listed points (k,) that carry at the end of the step and
+    did not at its start, though some may have been at the surface all the time: how many.
     """
     count = 0
     for i in listed:
-        height = OPEN * interfaces[points[i].interface].width
-        landing[i] = (
-            not points[i].rolls
-            and before[i].force[2] <= 0
-            and before[i].relative[2] > height
-            and after[i].force[2] > 0
-        )
+        landing[i] = not points[i].rolls and before[i].force[2] <= 0 and after[i].force[2] > 0
         count += landing[i]
     return count
+
+
+@njit
+def _lands(interfaces, points, before, early, dt, i):
+    """Whether a point that carries from this step on was open at its start, or came to the surface
+    just then, with a velocity that would take it on.
+    """
+    width = interfaces[points[i].interface].width
+    return before[i].relative[2] > OPEN * width or -dt * early[i, 2] > GOES_ON_BY * width
 
 
 @njit
@@ -89,11 +93,12 @@ def what_happens(interfaces, points, listed, before, after, dt, early, late, lan
     listed
         (k,) the points that may carry.
     landing, turning
-        (n,) marked by the functions above; of `turning` those stay that do turn, of those of all
-        interfaces where any turns for most of its foot.
+        (n,) marked by the functions above; of `landing` those stay that do land, of `turning` those
+        that do turn, of those of all interfaces where any turns for most of its foot.
     """
     lands, turned, total = False, np.zeros(len(interfaces)), np.zeros(len(interfaces))
     for i in listed:
+        landing[i] = landing[i] and _lands(interfaces, points, before, early, dt, i)
         lands |= landing[i]
         k = points[i].interface
         total[k] += after[i].force[2]
@@ -446,7 +451,7 @@ def landing_moment(union, before, after, early, landing, dt):
     total = weights = 0.0
     for i in union:
         if landing[i]:
-            gap = before[i].relative[2]
+            gap = max(before[i].relative[2], 0.0)
             total += after[i].force[2] * gap / max(-dt * early[i, 2], gap)
             weights += after[i].force[2]
     return total / weights

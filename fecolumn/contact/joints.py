@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.bodies import FACET, GOES_ON
-from fecolumn.contact.interface import interface_of
+from fecolumn.contact.interface import INTERFACE, interface_of
 from fecolumn.contact.outlines import OverlapBuilder
 from fecolumn.contact.overlap import Overlaps, no_overlaps
-from fecolumn.contact.points import BASE, UNPREPARED, node_points
+from fecolumn.contact.points import BASE, POINT, UNPREPARED, node_points
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import SAME_PLACE
 
@@ -114,10 +114,10 @@ def joints_of(parts, joints, replaced=frozenset()) -> Joints:
                 [np.linalg.norm(ends, axis=2).max() for ends in joint.outlines[::-1]],
             )
     firsts = np.cumsum([0] + [len(own) for own in points])
-    rim = np.concatenate([own + start for own, start in zip(rims, firsts)])
+    rim = np.concatenate([np.zeros(0, np.int64), *(own + at for own, at in zip(rims, firsts))])
     return Joints(
-        np.concatenate(points),
-        np.concatenate(interfaces),
+        np.concatenate([np.zeros(0, POINT), *points]).astype(POINT),
+        np.concatenate([np.zeros(0, INTERFACE), *interfaces]).astype(INTERFACE),
         rim,
         facets,
         tuple(joint.name for joint in joints),

@@ -10,7 +10,7 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import FELL, critical_displacement
 from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
 from fecolumn.engines.collapse import Collapse
-from fecolumn.engines.ending import OVERTURNED, SLID_OFF, Ending
+from fecolumn.engines.ending import AT_REST, OVERTURNED, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.engines.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import least_barrier, stances
@@ -184,7 +184,7 @@ class OfStructure:
             lie = self.collapse.fallen(self.history.arrays()) if self.collapse else {}
             if not lie or found.outcome == OVERTURNED:
                 return found
-            told = f"{self.collapse.told(lie)}; {found.outcome}: {found.ended_by}"
+            told = f"{self.collapse.told(lie)}; {self._how_it_lies(found)}"
             return Ending(OVERTURNED, told, next(iter(lie.values())))
         return Ending(
             SLID_OFF,
@@ -192,6 +192,13 @@ class OfStructure:
             f"{min(self.structure.levels):g}, at "
             f"{self.history.last()['time']:.3f} s",
         )
+
+    @staticmethod
+    def _how_it_lies(found: Ending) -> str:
+        """Whether all lies still at the end, in words."""
+        if found.outcome == STILL_ROCKING:
+            return f"some still move, {found.ended_by}"
+        return found.ended_by if AT_REST in found.ended_by else f"all lie still, {found.ended_by}"
 
     def _lowest(self) -> str:
         """Name of the body whose centre of mass is lowest now."""

@@ -73,7 +73,7 @@ def check_layout(case, layout, file) -> None:
     """Refuse copies without a path to the ground, and those that overlap."""
     copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
     fixed = {copy for copy in copies if getattr(case.bodies[copy[0]], "fixed", False)}
-    held = {None} | fixed
+    held = {None, *fixed, *case.found}
     while more := [
         contact
         for contact in layout.contacts

@@ -315,6 +315,8 @@ def _allowed(metadata, kind) -> str:
         return _TABLES[kinds[0]]
     if kinds == [str] and not metadata["choices"]:
         return "text"
+    if typing.get_origin(kinds[0]) is tuple and typing.get_args(kinds[0])[0] is str:
+        return " or ".join(["list of texts", *(f'"{word}"' for word in metadata["words"])])
     words = allowed_range(metadata | {"unit": "-"})
     if kinds == [int]:  # as it is typed
         words = re.sub(r"[\d.]+e\+?\d+", lambda number: f"{float(number[0]):.0f}", words)

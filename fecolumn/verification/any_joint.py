@@ -12,6 +12,7 @@ import numpy as np
 from fecolumn.case.sections import GRAVITY
 from fecolumn.verification.any_joint_arches import arch_rows, draw_arches
 from fecolumn.verification.any_joint_drops import drop_rows
+from fecolumn.verification.any_joint_falls import fall_rows
 from fecolumn.verification.any_joint_gaps import gap_rows
 from fecolumn.verification.joint_bodies import engines
 from fecolumn.verification.result import CaseRows, Row
@@ -31,7 +32,7 @@ _JAMMED = 1e3
 
 def run(engine: str, long: bool = False) -> CaseRows:
     """Rows of one engine."""
-    rows = [*_slopes(engine), *_wedges(engine), *drop_rows(engine)]
+    rows = [*_slopes(engine), *_wedges(engine), *drop_rows(engine), *fall_rows(engine)]
     if engine == "reduced":
         return CaseRows(rows)
     rows += [*arch_rows(long), *gap_rows()]

@@ -104,6 +104,15 @@ def lay_found(structure, dt, work, start, end):
 
 
 @njit
+def has_pairs(meetings):
+    """Whether any two bodies are near each other."""
+    for row in meetings.rows:
+        if row.pair[0] != NO_PAIR:
+            return True
+    return False
+
+
+@njit
 def _ways(structure, dt, start, margins):
     """Find how far each body may go in a step, margins (nb,) [m] with half of the distance at
     which places are found; the longest way and the least thickness [m].

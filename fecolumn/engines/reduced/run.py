@@ -31,7 +31,7 @@ from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.balls import roll_balls
 from fecolumn.engines.reduced.elastic import COORDINATE, END, START
 from fecolumn.engines.reduced.equilibrium import find_equilibrium
-from fecolumn.engines.reduced.found import lay_found
+from fecolumn.engines.reduced.found import has_pairs, lay_found
 from fecolumn.engines.reduced.observe import ENERGY, observe, outcome_of_row
 from fecolumn.engines.reduced.step import lay_points, step
 from fecolumn.foundation._borrowed import borrowed
@@ -263,7 +263,10 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
         if structure.interfaces[k].ball > 0.0:
             lay_down(work.points, k)
             roll_balls(structure, k, work, motion, spare)
-    if lay_found(structure, 0.0, work, motion, spare) != OK:
+    # once, as those of joints below
+    if has_pairs(motion.meetings):
+        motions.copy_meetings(motion.meetings, spare.meetings)
+    elif lay_found(structure, 0.0, work, motion, spare) != OK:
         return NO_ROOM
     for joint in structure.overlaps.joints:
         if not spare.rims[joint.forward].placed:

@@ -7,6 +7,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib import rcParams
+from matplotlib.font_manager import FontProperties
 
 from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.figures.style import (
@@ -30,6 +32,9 @@ if TYPE_CHECKING:
 
 # Places of the parts in the picture, as shares of its width and height: left, bottom, width, height
 _SCENE = (0.005, 0.105, 0.40, 0.84)
+# Letters that title and legend of a strip have room for, at the size of letters of legends, and
+# those whose room the line beside a name takes
+_LETTERS, _HANDLE = 44, 4
 # What the legend of forces takes of the scene, from below [-]
 _LEGEND = 0.05
 _BAR = (0.07, 0.075, 0.26, 0.018)
@@ -212,6 +217,10 @@ def draw_strip(axes, strip: Strip, last: bool) -> None:
     axes.locator_params(axis="y", nbins=5)
     axes.set_title(strip.title, loc="left", pad=3)
     if len(strip.lines) > 1:
+        letters = len(strip.title) + sum(len(name) + _HANDLE for _, name in strip.lines)
+        size = FontProperties(size=rcParams["legend.fontsize"]).get_size_in_points() * min(
+            1.0, _LETTERS / letters
+        )
         axes.legend(
             loc="lower right",
             bbox_to_anchor=(1.01, 0.97),
@@ -219,6 +228,9 @@ def draw_strip(axes, strip: Strip, last: bool) -> None:
             borderaxespad=0,
             framealpha=0,
             columnspacing=0.9,
+            handlelength=1.4,
+            handletextpad=0.5,
+            fontsize=size,
         )
     if last:
         axes.set_xlabel("time [s]")
