@@ -9,8 +9,8 @@ import numpy as np
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import FELL, critical_displacement
 from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
-from fecolumn.engines.collapse import Collapse
 from fecolumn.engines.ending import AT_REST, OVERTURNED, SLID_OFF, STILL_ROCKING, Ending
+from fecolumn.engines.fallen_bodies import FallenBodies
 from fecolumn.engines.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import least_barrier, stances
@@ -54,10 +54,10 @@ class OfStructure:
         return self._barrier_j
 
     @property
-    def collapse(self) -> Collapse | None:
+    def collapse(self) -> FallenBodies | None:
         """What may fall, where contact is found."""
         if self._collapse is None and self.structure.found:
-            self._collapse = Collapse(self.structure)
+            self._collapse = FallenBodies(self.structure)
         return self._collapse
 
     @property

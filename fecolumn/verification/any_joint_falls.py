@@ -123,7 +123,8 @@ def _collision_rows():
             "velocities after over that before, largest error",
             0.0,
             float(off / 2.0),
-            1e-9,
+            # of what points give (RIGID_GIVE) that much is left
+            3e-3,
         )
 
 

@@ -145,7 +145,7 @@ def origin() -> dict:
 
 
 def rounding_environment() -> dict:
-    """Environment of the runs for rounding errors: two threads, other kernels, a cache of its own."""
+    """Environment of the runs for rounding errors: two threads, other kernels, a new cache."""
     own = {key: value for key, value in os.environ.items() if key != "FECOLUMN_CACHE"}
     return own | {"OMP_NUM_THREADS": "2", "OPENBLAS_CORETYPE": "Prescott"}
 

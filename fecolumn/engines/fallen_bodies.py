@@ -16,7 +16,7 @@ _STILL = 1e-6
 _DROP = 0.5
 
 
-class Collapse:
+class FallenBodies:
     """What of a structure whose contact is found lies still, and what has fallen.
 
     still_j: kinetic energy at which all lies still [J], at most; turn_s: time for which it must
