@@ -25,12 +25,20 @@ _OTHERS = {
 }
 
 
+class _Words(tuple):
+    """Words that completion offers; any other is taken, too: DIR, where KIND is left out."""
+
+    def __contains__(self, word) -> bool:
+        return True
+
+
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn new`."""
     kinds = "; ".join(f"{name}: {what}" for name, what in KINDS.items())
     parser.add_argument(
         "kind",
         nargs="?",
+        choices=_Words(KINDS),
         metavar="KIND",
         help=f"{kinds} (default: tube)",
     )
