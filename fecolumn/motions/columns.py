@@ -173,7 +173,8 @@ def _columns(header: str, comments: list[str], table: NDArray[Any]) -> tuple[lis
         return (["time", ""][-width:], [""] * width)
     if len(cells) != width:
         raise UnusableRecord(f"the header names {len(cells)} columns but {width} follow")
-    meanings, units = [], []
+    meanings: list[str] = []
+    units: list[str] = []
     cells = [_unit_apart(name, unit) for name, unit in cells]
     for column, (name, unit) in enumerate(cells):
         meaning = _MEANING.get(name)

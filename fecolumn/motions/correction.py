@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from scipy.signal import butter, sosfiltfilt
 
 from fecolumn.motions.processing import integrate
@@ -57,7 +56,9 @@ def corrected(
     moving = [axis for axis in range(3) if acceleration[:, axis].any()]
     for axis in moving:
         if degree >= 0:
-            acceleration[:, axis] -= Polynomial.fit(time, acceleration[:, axis], degree)(time)
+            powers = time[:, None] ** np.arange(degree + 1)
+            fitted = np.linalg.lstsq(powers, acceleration[:, axis], rcond=None)[0]
+            acceleration[:, axis] -= powers @ fitted
     count = int(_TAPER * len(acceleration))
     rise = 0.5 * (1 - np.cos(np.pi * np.arange(count) / max(count, 1)))[:, None]
     acceleration[:count] *= rise

@@ -19,7 +19,7 @@ _LEFT = 0.1
 _GAP_S, _CLIPPED = 0.5, 4
 
 
-def described(recording: Recording, dt: float) -> list[str]:
+def file_lines(recording: Recording, dt: float) -> list[str]:
     """Lines on a file: format, samples, components, unit; and, where it states none, the peak in
     each unit.
     """
@@ -50,7 +50,7 @@ def peaks_by_unit(recording: Recording) -> str:
     return f"peak: {peak:.4g} as it stands, that is {', '.join(told)}{what}"
 
 
-def measured(motion: GroundMotion) -> list[str]:
+def peak_lines(motion: GroundMotion) -> list[str]:
     """A line on the peaks of each component along which the ground moves."""
     velocity, displacement = integrate(motion)
     lines = []

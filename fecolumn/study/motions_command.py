@@ -432,13 +432,13 @@ def _info(args: argparse.Namespace) -> int:
 
 def _info_of_motion(args: argparse.Namespace) -> int:
     from fecolumn.case.sections import Motion
-    from fecolumn.motions.inspection import described, measured, oddities, peaks_by_unit
+    from fecolumn.motions.inspection import file_lines, oddities, peak_lines, peaks_by_unit
     from fecolumn.motions.load import recording_of
 
     with _told_by_flags():
         motion = Motion(args.ensemble, dt_s=args.dt)
         recording = recording_of(motion, "source", "fecolumn motions info")
-    print("\n".join(described(recording, recording.dt or args.dt)))
+    print("\n".join(file_lines(recording, recording.dt or args.dt)))
     if not (recording.dt or args.dt):
         print("its step is not stated: --dt says it")
     elif not (recording.units or args.units):
@@ -448,7 +448,7 @@ def _info_of_motion(args: argparse.Namespace) -> int:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # told below
             ground = _read(args.ensemble, args)
-        print("\n".join(measured(ground)))
+        print("\n".join(peak_lines(ground)))
         for odd in oddities(ground):
             print(f"warning: {odd}")
     return 0
