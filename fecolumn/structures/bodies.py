@@ -23,6 +23,9 @@ from fecolumn.structures.shapes import Shape, shape_of
 from fecolumn.structures.storeys import storeys_model
 from fecolumn.structures.weighed import weighed_shares
 
+# Density [kg/m3] of a body without mass: a millionth of the air's, far from where eigenvalues fail
+_LIGHTEST = 1e-6
+
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
@@ -114,6 +117,15 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
                 f"makes a density of {body.mass_kg / volume:.4g} kg/m3 in {volume:.4g} "
                 f"m3: {error.allowed}",
             ) from None
+    if material.density_kg_m3 < _LIGHTEST:
+        stated = "density_kg_m3" if body.mass_kg is None else "mass_kg"
+        raise InputError(
+            file,
+            f"{key}.{stated}",
+            getattr(body, stated),
+            f"makes a density of {material.density_kg_m3:.3g} kg/m3, must be at least "
+            f"{_LIGHTEST:g} kg/m3: lighter bodies are none",
+        )
     shares = weighed_shares(key, body, weighed_as, material.density_kg_m3, file)
     if shares is not None:
         shape = dataclasses.replace(
