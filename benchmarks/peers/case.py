@@ -12,7 +12,7 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.case.short_form import ShortForm, short_form
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation.schema import merge, read_toml
-from fecolumn.mesh.quality import MassProperties, mass_properties
+from fecolumn.mesh.mass import MassProperties, mass_properties
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 
 SPECIMEN = Path(__file__).parents[2] / "meshes" / "stout.toml"

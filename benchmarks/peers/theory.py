@@ -10,7 +10,7 @@ import numpy as np
 from scipy.integrate import quad
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.mesh.quality import MassProperties
+from fecolumn.mesh.mass import MassProperties
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from fecolumn.case.sections import Cap, Flange, Motion
 from fecolumn.foundation.schema import Section, parameter
+from fecolumn.mesh.mesh_file import MeshFile
 
 #: Name of the ground of a case that states none: a rigid flat at z = 0.
 GROUND = "ground"
@@ -107,6 +108,24 @@ class Solid(Stuff):
         unit="m",
         above=0,
         high=100,
+    )
+    centre_m: tuple[float, ...] = parameter(
+        (),
+        doc="centre of mass [x, y, z] where it was found by weighing, measured as point_m of a "
+        "link is; left out: that of its shape",
+        unit="m",
+        low=-1e4,
+        high=1e4,
+        since="0.10",
+    )
+    inertia_kg_m2: tuple[float, ...] = parameter(
+        (),
+        doc="inertia about the centre of mass, [xx, yy, zz] or [xx, yy, zz, xy, xz, yz] of the "
+        "tensor, before turned_deg; left out: that of its shape",
+        unit="kg m2",
+        low=-1e15,
+        high=1e15,
+        since="0.10",
     )
     element_order: int | None = parameter(
         None,
@@ -352,8 +371,34 @@ class Meshed(Solid):
         high=1e4,
     )
     mesh_file: str = parameter(
-        doc="mesh of 8-node bricks or of tetrahedra in any format meshio reads, lengths in "
-        "metres, z up"
+        doc="shape of the body, z up: elements, 8-node bricks or tetrahedra, in any format meshio "
+        "reads; a closed surface (.stl, .obj, .ply), a CAD body (.step, .iges) or a script of Gmsh "
+        "(.geo), in which elements are made"
+    )
+    mesh_unit: str | None = parameter(
+        None,
+        doc="unit of the lengths in mesh_file; left out: the metre, of STEP and IGES what the file "
+        "says",
+        choices=("m", "cm", "mm", "in", "ft"),
+        since="0.10",
+    )
+    mesh_size_m: float | None = parameter(
+        None,
+        doc="size of the elements made inside a surface, a CAD body or by a script; left out: an "
+        "eighth of the cube root of the volume, less of a thin body",
+        unit="m",
+        above=0,
+        high=100,
+        since="0.10",
+    )
+    cut_foot_m: float | None = parameter(
+        None,
+        doc="height above its lowest point at which a surface is cut off, so that it has a flat "
+        "foot; left out: not cut",
+        unit="m",
+        above=0,
+        high=1000,
+        since="0.10",
     )
     turned_deg: float = parameter(
         0.0,
@@ -373,6 +418,11 @@ class Meshed(Solid):
         since="0.8",
     )
     cap: Cap | None = None
+
+    @property
+    def drawn(self) -> MeshFile:
+        """What mesh_file is, and how it is made into elements."""
+        return MeshFile(self.mesh_file, self.mesh_unit or "", self.mesh_size_m, self.cut_foot_m)
 
     @property
     def places(self) -> tuple[tuple[float, ...], ...]:

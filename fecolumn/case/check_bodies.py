@@ -93,6 +93,10 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
             body.contact_stiffness_n_m3,
             "is of a body with rigid = true or fixed = true; this one deforms",
         )
+    if len(body.centre_m) not in (0, 3):
+        refuse(f"{key}.centre_m", list(body.centre_m), "must be three numbers: x, y, z")
+    if body.inertia_kg_m2:
+        _check_inertia(f"{key}.inertia_kg_m2", body.inertia_kg_m2, refuse)
     if isinstance(body, Meshed):
         if body.coarse_size_m is not None:
             refuse(
@@ -100,6 +104,8 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
                 body.coarse_size_m,
                 'says nothing of a body of kind = "mesh", whose elements are in its file',
             )
+        if unfit := body.drawn.unfit():
+            refuse(f"{key}.{unfit[0]}", *unfit[1:])
         return
     if isinstance(body, Prism):
         _check_prism(key, body, refuse)
@@ -144,6 +150,22 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
             f"must be at most {around / 12:.4g} m: fewer than 12 elements around do not "
             "make a round body",
         )
+
+
+def _check_inertia(key: str, values: tuple[float, ...], refuse) -> None:
+    """Refuse a tensor that is none of a body."""
+    told = list(values)
+    if len(values) not in (3, 6):
+        refuse(key, told, "must be three numbers, xx, yy, zz, or six with xy, xz, yz")
+    if min(values[:3]) <= 0:
+        refuse(key, told, "must have xx, yy and zz greater than 0 kg m2")
+    for axis in range(3):
+        if values[axis] >= sum(values[:3]) - values[axis]:
+            refuse(
+                key,
+                told,
+                f"is that of no body: {'xyz'[axis] * 2} must be less than the other two together",
+            )
 
 
 def _check_prism(key: str, body: Prism, refuse) -> None:
@@ -194,6 +216,9 @@ def check_arch(key: str, arch: Arch, refuse) -> None:
             [list(place) for place in arch.copies_m],
             "must be left out: give each arch a name of its own",
         )
+    for name in ("centre_m", "inertia_kg_m2"):
+        if value := getattr(arch, name):
+            refuse(f"{key}.{name}", list(value), "is of one body; an arch is several voussoirs")
     if arch.thickness_m >= 2 * arch.mean_radius_m:
         refuse(
             f"{key}.thickness_m",

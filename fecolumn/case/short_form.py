@@ -32,6 +32,7 @@ from fecolumn.case.sections import (
 )
 from fecolumn.foundation.paths import OF_SECTIONS as FILES
 from fecolumn.foundation.schema import InputError, Section, build, merge, nested, parameter, stated
+from fecolumn.mesh.mesh_file import MeshFile
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +67,34 @@ class Column(Section):
     )
     mesh_file: str = parameter(
         "",
-        doc="mesh of 8-node bricks or of tetrahedra in any format meshio reads, lengths in "
-        "metres; replaces the built column",
+        doc="shape of the body, z up: elements, 8-node bricks or tetrahedra, in any format meshio "
+        "reads; a closed surface (.stl, .obj, .ply), a CAD body (.step, .iges) or a script of Gmsh "
+        "(.geo), in which elements are made; replaces the built column",
+    )
+    mesh_unit: str | None = parameter(
+        None,
+        doc="unit of the lengths in mesh_file; left out: the metre, of STEP and IGES what the file "
+        "says",
+        choices=("m", "cm", "mm", "in", "ft"),
+        since="0.10",
+    )
+    mesh_size_m: float | None = parameter(
+        None,
+        doc="size of the elements made inside a surface, a CAD body or by a script; left out: an "
+        "eighth of the cube root of the volume, less of a thin body",
+        unit="m",
+        above=0,
+        high=100,
+        since="0.10",
+    )
+    cut_foot_m: float | None = parameter(
+        None,
+        doc="height above its lowest point at which a surface is cut off, so that it has a flat "
+        "foot; left out: not cut",
+        unit="m",
+        above=0,
+        high=1000,
+        since="0.10",
     )
     shape: str = parameter(
         "tube",
@@ -81,6 +108,11 @@ class Column(Section):
     width_m: float | None = parameter(
         None, doc="width along y, which a block needs", unit="m", above=0, high=100, since="0.2"
     )
+
+    @property
+    def drawn(self) -> MeshFile:
+        """What mesh_file is, and how it is made into elements."""
+        return MeshFile(self.mesh_file, self.mesh_unit or "", self.mesh_size_m, self.cut_foot_m)
 
 
 @dataclass(frozen=True, slots=True)
@@ -409,6 +441,9 @@ PLACES = {
     "column.wall_m": "bodies.column.wall_m",
     "column.fine_height_m": "bodies.column.fine_height_m",
     "column.mesh_file": "bodies.column.mesh_file",
+    "column.mesh_unit": "bodies.column.mesh_unit",
+    "column.mesh_size_m": "bodies.column.mesh_size_m",
+    "column.cut_foot_m": "bodies.column.cut_foot_m",
     "column.length_m": "bodies.column.length_m",
     "column.width_m": "bodies.column.width_m",
     "flange": "bodies.column.flange",

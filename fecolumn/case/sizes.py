@@ -69,7 +69,12 @@ def check_shape(case, file) -> None:
                     getattr(column, key),
                     "is read from column.mesh_file; leave it out",
                 )
+        if unfit := column.drawn.unfit():
+            refuse(f"column.{unfit[0]}", *unfit[1:])
         return
+    for key in ("mesh_unit", "mesh_size_m", "cut_foot_m"):
+        if (value := getattr(column, key)) is not None:
+            refuse(f"column.{key}", value, "says nothing without column.mesh_file")
     # a finished case states the wall of a solid cylinder, its radius
     implied = (
         {"wall_m": column.outer_diameter_m / 2}

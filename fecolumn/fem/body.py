@@ -54,7 +54,10 @@ class Body:
         stress = isotropic_stress(
             linear_strain(u), material.youngs_modulus_pa, material.poissons_ratio
         )
-        mass = _dolfinx.assemble_matrix(material.density_kg_m3 * ufl.inner(u, w) * ufl.dx)
+        density = material.density_kg_m3
+        if bricks.relative_density is not None:
+            density = density * _dolfinx.cellwise(self.mesh, bricks.relative_density)
+        mass = _dolfinx.assemble_matrix(density * ufl.inner(u, w) * ufl.dx)
         stiffness = _dolfinx.assemble_matrix(ufl.inner(stress, linear_strain(w)) * ufl.dx)
         self.work = mass.createVecs()
         self.constraint = Constraint(self, *(constrain(self) if constrain else ({}, ())))

@@ -79,6 +79,20 @@ def cellwise_space(msh, shape: tuple = ()):
     return fem.FunctionSpace(msh, ("DG", 0))
 
 
+def cellwise(msh, values):
+    """Function of one number a cell, from those of all cells (n_cells,) in the order in which they
+    were given to `create_brick_mesh`, known on every rank.
+    """
+    space = cellwise_space(msh)
+    function = fem.Function(space)
+    owned = msh.topology.index_map(msh.topology.dim).size_local
+    given = np.asarray(msh.topology.original_cell_index)[:owned]
+    places = [space.dofmap.cell_dofs(cell)[0] for cell in range(owned)]
+    function.x.array[places] = values[given]
+    function.x.scatter_forward()
+    return function
+
+
 def interpolation_points(space):
     """Reference points at which an expression for `space` is evaluated."""
     points = space.element.interpolation_points

@@ -34,11 +34,14 @@ class BrickMesh:
         (n_cells, 8) point numbers in VTK hexahedron order, or (n_cells, 4) of tetrahedra.
     part
         (n_cells,) part of each element: FLANGE, LOWER, UPPER, CAP or BASE.
+    relative_density
+        (n_cells,) density of each element over that of the body's material [-]; None: all alike.
     """
 
     points: np.ndarray
     cells: np.ndarray
     part: np.ndarray
+    relative_density: np.ndarray | None = None
 
     @property
     def is_tetrahedral(self) -> bool:
@@ -58,6 +61,16 @@ class BrickMesh:
     def shifted(self, z: float) -> BrickMesh:
         """The mesh moved up by `z` [m]."""
         return replace(self, points=self.points + [0.0, 0.0, z])
+
+    def only(self, kept: np.ndarray) -> BrickMesh:
+        """The elements (n_cells,) that are kept, with all points."""
+        shares = self.relative_density
+        return replace(
+            self,
+            cells=self.cells[kept],
+            part=self.part[kept],
+            relative_density=None if shares is None else shares[kept],
+        )
 
     def has_part(self, part: int) -> bool:
         """Whether any brick belongs to `part`."""
@@ -105,10 +118,14 @@ def merged_mesh(meshes) -> BrickMesh:
     """One mesh of several; coincident points stay apart, so the parts stay disconnected."""
     meshes = list(meshes)
     offsets = np.cumsum([0] + [len(m.points) for m in meshes[:-1]])
+    shares = [m.relative_density for m in meshes]
+    if any(one is not None for one in shares):
+        shares = [np.ones(len(m.cells)) if s is None else s for m, s in zip(meshes, shares)]
     return BrickMesh(
         np.concatenate([m.points for m in meshes]),
         np.concatenate([m.cells + offset for m, offset in zip(meshes, offsets)]),
         np.concatenate([m.part for m in meshes]),
+        None if shares[0] is None else np.concatenate(shares),
     )
 
 

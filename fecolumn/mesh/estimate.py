@@ -164,7 +164,7 @@ def body_counts(case) -> tuple[dict[int, int], dict[int, int], int]:
     order = case.mesh.element_order
     bricks, nodes, foot = {}, {}, 0
     if case.column.mesh_file:
-        own = own_mesh(case.column.mesh_file)
+        own = own_mesh(case.column.drawn)
         bricks[UPPER] = len(own.mesh.cells)
         nodes[UPPER], foot = own.counts(order)
     else:

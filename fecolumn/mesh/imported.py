@@ -1,4 +1,4 @@
-"""A user's mesh of the column, read through meshio."""
+"""A user's shape of a body: elements read through meshio, or made inside what was drawn."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import contextlib
 import functools
 import io
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,11 @@ from scipy.sparse.csgraph import connected_components
 from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import FACES, UPPER, BrickMesh, boundary_faces, brick_mesh, outer_faces
+from fecolumn.mesh.filled import filled
 from fecolumn.mesh.jacobian import corner_jacobians
+from fecolumn.mesh.mass import MassProperties
+from fecolumn.mesh.mesh_file import MeshFile, UnusableShape
+from fecolumn.mesh.weighing import NoSuchDensity, relative_densities
 
 if TYPE_CHECKING:
     from fecolumn.case.short_form import ShortForm
@@ -48,7 +52,8 @@ class OwnMesh:
     """A body's mesh and its measures: height [m]; foot: length along x and width along y of the
     rectangle around its foot [m]; foot_edge: mean edge of the foot's faces [m]; drawn_at: place
     (3,) [m] of the foot's middle in the file; has_foot: whether it is flat, else its lowest points
-    are taken for it, and its outer faces for their edges.
+    are taken for it, and its outer faces for their edges; exact: mass properties of what was drawn
+    at a density of 1, None of a file of elements.
     """
 
     mesh: BrickMesh
@@ -57,6 +62,7 @@ class OwnMesh:
     foot_edge: float
     drawn_at: tuple[float, float, float]
     has_foot: bool
+    exact: MassProperties | None = None
 
     @property
     def is_tetrahedral(self) -> bool:
@@ -83,18 +89,19 @@ def _count(groups) -> int:
     return len(np.unique(np.sort(groups.reshape(-1, groups.shape[-1]), axis=1), axis=0))
 
 
-def own_mesh(path: str) -> OwnMesh:
+def own_mesh(file: MeshFile) -> OwnMesh:
     """The mesh of a file, the foot's middle shifted to the origin, all elements in the part UPPER.
 
-    z is up, lengths are in metres. The foot is what lies in the lowest horizontal plane. Shells,
-    lines and points beside the solids are left out; elements of negative volume are turned.
+    z is up. The foot is what lies in the lowest horizontal plane. Shells, lines and points beside
+    solids are left out; elements of negative volume are turned. Of a surface and of a CAD body, the
+    densities of the elements are such that mass, centre and inertia are those of what was drawn.
 
     Raises
     ------
     InputError
         the file cannot be read, holds other solids than 8-node bricks or tetrahedra, or is broken.
     """
-    return _own_mesh(path, content(path))
+    return _own_mesh(file, content(file.path))
 
 
 def imported_column(case: ShortForm) -> BrickMesh:
@@ -110,10 +117,12 @@ def imported_column(case: ShortForm) -> BrickMesh:
     def refuse(value, allowed):
         raise InputError(case.column.mesh_file, "column.mesh_file", value, allowed)
 
-    own = own_mesh(case.column.mesh_file)
+    own = own_mesh(case.column.drawn)
     if not own.has_foot:
         refuse(
-            None, "must stand on a flat foot: no element has a face in the lowest horizontal plane"
+            None,
+            "must stand on a flat foot: no element has a face in the lowest horizontal plane"
+            + foot_hint(case.column.drawn),
         )
     _check_dimensions(own, case, refuse)
     if own.is_tetrahedral and case.cap:
@@ -132,12 +141,77 @@ def imported_column(case: ShortForm) -> BrickMesh:
     return own.mesh
 
 
-@functools.lru_cache(maxsize=32)
-def _own_mesh(path: str, mesh_content: str) -> OwnMesh:
-    def refuse(value, allowed):
-        raise InputError(path, "column.mesh_file", value, allowed)
+def foot_hint(file: MeshFile) -> str:
+    """The way to a flat foot, where there is one."""
+    cut = file.kind == "surface" and file.cut_foot is None
+    return "; cut_foot_m cuts the surface off flat that far above its lowest point" if cut else ""
 
-    found = _read(Path(path), refuse)
+
+@functools.lru_cache(maxsize=32)
+def _own_mesh(file: MeshFile, mesh_content: str) -> OwnMesh:
+    def refuse(value, allowed):
+        raise InputError(file.path, "column.mesh_file", value, allowed)
+
+    exact = None
+    if file.kind == "elements":
+        points, cells = _elements(Path(file.path), refuse)
+        points = points * file.metres
+    else:
+        try:
+            points, cells, exact = filled(file)
+        except UnusableShape as error:
+            refuse(error.value, error.allowed)
+    corners = cells.shape[1]
+    used, cells = np.unique(cells, return_inverse=True)
+    points, cells = points[used], cells.reshape(-1, corners)
+    if not np.all(np.isfinite(points)):
+        refuse(
+            f"{int(np.sum(~np.isfinite(points).all(axis=1)))} points",
+            "coordinates must be finite numbers",
+        )
+
+    try:
+        file.check_size(np.ptp(points, axis=0))
+    except UnusableShape as error:
+        refuse(error.value, error.allowed)
+    height, bottom = float(np.ptp(points[:, 2])), float(points[:, 2].min())
+    points = points - [0.0, 0.0, bottom]
+    mesh = brick_mesh(points, cells, UPPER)
+    _check_elements(mesh, height, refuse)
+    faces = boundary_faces(mesh, UPPER, 0.0, 1e-6 * height)
+    has_foot = len(faces) > 0
+    sides = points[faces if has_foot else outer_faces(mesh, UPPER)]
+    foot = sides.reshape(-1, 3) if has_foot else points[points[:, 2] <= 1e-6 * height]
+    low, high = foot[:, :2].min(axis=0), foot[:, :2].max(axis=0)
+    middle = (low + high) / 2
+    if np.abs(middle).max() > 1e-9 * height:
+        mesh.points[:, :2] -= middle
+    else:
+        middle = np.zeros(2)
+    edge = float(np.linalg.norm(sides - np.roll(sides, 1, axis=1), axis=2).mean())
+    if exact is not None:
+        exact = replace(exact, centre=exact.centre - [*middle, bottom])
+        try:
+            shares = relative_densities(mesh, exact.mass, exact.centre, exact.inertia)
+        except NoSuchDensity as error:
+            refuse(
+                None, f"its elements are too coarse for it, state a smaller mesh_size_m: {error}"
+            )
+        mesh = replace(mesh, relative_density=shares)
+    return OwnMesh(
+        mesh,
+        height,
+        tuple((high - low).tolist()),
+        edge,
+        (float(middle[0]), float(middle[1]), bottom),
+        has_foot,
+        exact,
+    )
+
+
+def _elements(path: Path, refuse) -> tuple[np.ndarray, np.ndarray]:
+    """Points (n, 3) in the file's unit and elements (m, 8 or 4) of a file of elements."""
+    found = _read(path, refuse)
     solids = {block.type: 0 for block in found.cells if len(block.data)}
     for block in found.cells:
         if len(block.data):
@@ -154,8 +228,9 @@ def _own_mesh(path: str, mesh_content: str) -> OwnMesh:
         )
         refuse(
             listed,
-            "must hold 8-node bricks (Abaqus C3D8, Gmsh and VTK hexahedron) or "
-            "tetrahedra (C3D4, C3D10) as its only solids",
+            "must hold 8-node bricks (Abaqus C3D8, Gmsh and VTK hexahedron) or tetrahedra (C3D4, "
+            "C3D10) as its only solids; a closed surface is taken as .stl, .obj or .ply, a CAD "
+            "body as .step or .iges",
         )
     corners = kinds.pop()
     cells = np.concatenate(
@@ -173,37 +248,7 @@ def _own_mesh(path: str, mesh_content: str) -> OwnMesh:
             f"element refers to point {cells.max()} of {len(points)}",
             "every element's points must be in the file",
         )
-    used, cells = np.unique(cells, return_inverse=True)
-    points, cells = points[used], cells.reshape(-1, corners)
-    if not np.all(np.isfinite(points)):
-        refuse(
-            f"{int(np.sum(~np.isfinite(points).all(axis=1)))} points",
-            "coordinates must be finite numbers",
-        )
-
-    height, bottom = float(np.ptp(points[:, 2])), float(points[:, 2].min())
-    points = points - [0.0, 0.0, bottom]
-    mesh = brick_mesh(points, cells, UPPER)
-    _check_elements(mesh, height, refuse)
-    faces = boundary_faces(mesh, UPPER, 0.0, 1e-6 * height)
-    has_foot = len(faces) > 0
-    sides = points[faces if has_foot else outer_faces(mesh, UPPER)]
-    foot = sides.reshape(-1, 3) if has_foot else points[points[:, 2] <= 1e-6 * height]
-    low, high = foot[:, :2].min(axis=0), foot[:, :2].max(axis=0)
-    middle = (low + high) / 2
-    if np.abs(middle).max() > 1e-9 * height:
-        mesh.points[:, :2] -= middle
-    else:
-        middle = np.zeros(2)
-    edge = float(np.linalg.norm(sides - np.roll(sides, 1, axis=1), axis=2).mean())
-    return OwnMesh(
-        mesh,
-        height,
-        tuple((high - low).tolist()),
-        edge,
-        (float(middle[0]), float(middle[1]), bottom),
-        has_foot,
-    )
+    return points, cells
 
 
 def _read(path: Path, refuse):
@@ -252,13 +297,11 @@ def _check_dimensions(own: OwnMesh, case: ShortForm, refuse) -> None:
         hint = ""
         for unit, factor in (("millimetres", 1e3), ("centimetres", 1e2), ("inches", 1 / 0.0254)):
             if abs(value / (wanted * factor) - 1) < 0.1:
-                hint = f"; the file seems to be in {unit}, lengths must be in metres"
+                hint = f"; the file seems to be in {unit}: state column.mesh_unit"
         refuse(
             f"{value:g} m",
             f"must agree with column.{key} = {wanted:g} m within {_DIMENSION_TOLERANCE:.0%}{hint}",
         )
-    if own.height > 1000:
-        refuse(f"{own.height:g} m high", "must be at most 1000 m high: lengths must be in metres")
 
 
 def _check_elements(mesh: BrickMesh, height: float, refuse) -> None:

@@ -30,7 +30,7 @@ def own_of(column):
     """The user's own mesh of a [column]."""
     from fecolumn.mesh.imported import own_mesh
 
-    return own_mesh(column.mesh_file)
+    return own_mesh(column.drawn)
 
 
 def is_solid(column) -> bool:

@@ -7,62 +7,19 @@ from __future__ import annotations
 import functools
 import math
 import operator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh
 from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
-from fecolumn.mesh.outline import is_solid
+from fecolumn.mesh.mass import MassProperties, mass_properties
+from fecolumn.mesh.outline import is_solid, own_of
 from fecolumn.mesh.specimen import SpecimenMesh
 
 if TYPE_CHECKING:
     from fecolumn.case.short_form import ShortForm
-
-# Corner signs of the VTK hexahedron.
-_SIGNS = np.array(
-    [
-        [-1, -1, -1],
-        [1, -1, -1],
-        [1, 1, -1],
-        [-1, 1, -1],
-        [-1, -1, 1],
-        [1, -1, 1],
-        [1, 1, 1],
-        [-1, 1, 1],
-    ]
-)
-
-
-@dataclass(frozen=True, slots=True)
-class MassProperties:
-    """Volume, mass and inertia of a body.
-
-    Attributes
-    ----------
-    volume
-        [m3]
-    mass
-        [kg].
-    centre
-        (3,) centre of mass [m].
-    inertia
-        (3, 3) inertia tensor about the centre of mass [kg m2].
-    """
-
-    volume: float
-    mass: float
-    centre: np.ndarray
-    inertia: np.ndarray
-
-    def __add__(self, other: MassProperties) -> MassProperties:
-        mass = self.mass + other.mass
-        centre = (self.mass * self.centre + other.mass * other.centre) / mass
-        inertia = sum(
-            one.inertia + one.mass * _steiner(one.centre - centre) for one in (self, other)
-        )
-        return MassProperties(self.volume + other.volume, mass, centre, inertia)
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,53 +37,6 @@ class QualityRow:
     def difference(self) -> float | None:
         """(mesh - exact) / exact."""
         return None if self.exact is None else self.mesh / self.exact - 1
-
-
-def mass_properties(mesh: BrickMesh, density: float) -> MassProperties:
-    """Mass properties of trilinear bricks, or of tetrahedra.
-
-    Three Gauss points a direction are exact for bricks: the Jacobian is quadratic and x_i x_j
-    quadratic in each local coordinate. A tetrahedron of volume V has the integral V (4 c_i c_j +
-    sum over corners x_i x_j / 4) / 5 of x_i x_j, c its middle.
-
-    Parameters
-    ----------
-    mesh
-        bricks or tetrahedra.
-    density
-        [kg/m3].
-    """
-    if mesh.is_tetrahedral:
-        corners, weight = mesh.points[mesh.cells], corner_jacobians(mesh)[:, 0] / 6
-        middle = corners.mean(axis=1)
-        second = (
-            4 * np.einsum("c,ci,cj->ij", weight, middle, middle)
-            + np.einsum("c,cai,caj->ij", weight, corners, corners) / 4
-        ) / 5
-        return _from_moments(weight.sum(), weight @ middle, second, density)
-    abscissae, weights = np.polynomial.legendre.leggauss(3)
-    corners = mesh.points[mesh.cells]
-    volume, first, second = 0.0, np.zeros(3), np.zeros((3, 3))
-    for i, j, k in np.ndindex(3, 3, 3):
-        factors = 1 + _SIGNS * abscissae[[i, j, k]]
-        shape = factors.prod(axis=1) / 8
-        slope = np.stack(
-            [_SIGNS[:, a] * np.delete(factors, a, axis=1).prod(axis=1) / 8 for a in range(3)]
-        )
-        weight = np.linalg.det(slope @ corners) * (weights[i] * weights[j] * weights[k])
-        x = np.einsum("a,cai->ci", shape, corners)
-        volume += weight.sum()
-        first += weight @ x
-        second += np.einsum("c,ci,cj->ij", weight, x, x)
-    return _from_moments(volume, first, second, density)
-
-
-def _from_moments(volume, first, second, density) -> MassProperties:
-    """Mass properties from the integrals of 1, x_i and x_i x_j over the volume."""
-    centre = first / volume
-    about_centre = second - volume * np.outer(centre, centre)
-    inertia = density * (np.trace(about_centre) * np.eye(3) - about_centre)
-    return MassProperties(volume, density * volume, centre, inertia)
 
 
 def exact_column(case: ShortForm) -> MassProperties:
@@ -195,8 +105,9 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[QualityRow, 
     """Jacobians, and mass properties of flange, column, cap and their assembly, against closed
     forms where the column is a built one.
 
-    Of a user's mesh there is no other form than the mesh itself: it is told as it is, with the tilt
-    at which its centre of mass stands over the nearest edge of the rectangle around its foot.
+    Beside the mesh of a user's surface or CAD body are the integrals of what was drawn; of elements
+    there is no other form: they are told as they are. Both with the tilt at which the centre of
+    mass stands over the nearest edge of the rectangle around its foot.
     """
     body, base = specimen.body, specimen.base
     density, own = case.material.density_kg_m3, bool(case.column.mesh_file)
@@ -217,7 +128,8 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[QualityRow, 
     ]
 
     found = {name: mass_properties(mesh, density) for name, mesh in parts.items()}
-    closed = {name: None if own and name == "column" else exact[name](case) for name in parts}
+    exact["column"] = functools.partial(_drawn_column, body) if own else exact_column
+    closed = {name: exact[name](case) for name in parts}
     for name in parts:
         rows += _mass_rows(name, found[name], closed[name])
     whole = functools.reduce(operator.add, found.values())
@@ -225,7 +137,7 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[QualityRow, 
         rows += _mass_rows(
             " with ".join(sorted(parts, key=["column", "flange", "cap"].index)),
             whole,
-            None if own else functools.reduce(operator.add, closed.values()),
+            None if None in closed.values() else functools.reduce(operator.add, closed.values()),
         )
     if own:
         foot = body.points[specimen.foot_nodes, :2] - whole.centre[:2]
@@ -250,6 +162,19 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[QualityRow, 
     return tuple(rows)
 
 
+def _drawn_column(body: BrickMesh, case: ShortForm) -> MassProperties | None:
+    """Of the surface or the CAD body that a column was drawn as; None of elements of one's own."""
+    drawn, density = own_of(case.column).exact, case.material.density_kg_m3
+    if drawn is None:
+        return None
+    return replace(
+        drawn,
+        mass=density * drawn.mass,
+        centre=drawn.centre + [0.0, 0.0, body.points[:, 2].min()],
+        inertia=density * drawn.inertia,
+    )
+
+
 def _mass_rows(name, found, exact):
     def row(what, unit, of):
         return QualityRow(
@@ -272,8 +197,4 @@ def _mass_rows(name, found, exact):
 
 
 def _part(mesh, kept) -> BrickMesh:
-    return BrickMesh(mesh.points, mesh.cells[kept], mesh.part[kept])
-
-
-def _steiner(arm):
-    return arm @ arm * np.eye(3) - np.outer(arm, arm)
+    return mesh.only(kept)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import parse_number, read_text, unit_named
+from fecolumn.motions.text import check_end, parse_number, read_text, unit_named
 
 _HEADER_LINES = 4
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?"
@@ -38,9 +38,8 @@ def read_at2(path: Path | str) -> Recording:
     UnusableRecord
         header incomplete, not accelerations, values missing, not numbers or not finite.
     """
-    lines = [
-        (row, line) for row, line in enumerate(read_text(path).splitlines(), 1) if line.strip()
-    ]
+    text = read_text(path)
+    lines = [(row, line) for row, line in enumerate(text.splitlines(), 1) if line.strip()]
     head = next(
         (i for i, (_, line) in enumerate(lines[:_HEADER_LINES]) if "NPTS" in line.upper()), None
     )
@@ -63,9 +62,16 @@ def read_at2(path: Path | str) -> Recording:
         raise UnusableRecord(
             f"the header states NPTS = {points[:20]} but {len(values)} values follow"
         )
-    header = [text.strip() for _, text in lines[:head]]
+    check_end(text, " ".join(line for _, line in lines[head + 1 :][-4:]).split()[-12:])
+    header = [line.strip() for _, line in lines[:head]]
     return Recording(
-        values[:, None], ("",), dt, _stated_units(header), Path(path).name, "; ".join(header)
+        values[:, None],
+        ("",),
+        dt,
+        _stated_units(header),
+        Path(path).name,
+        "; ".join(header),
+        "PEER AT2",
     )
 
 

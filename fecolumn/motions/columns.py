@@ -10,17 +10,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import parse_number, read_text, uniform_step, unit_named
+from fecolumn.motions.text import check_end, parse_number, read_text, uniform_step, unit_named
 
 _NAMES = {
-    "time": ("time", "t"),
-    "x": ("ax", "a_x", "acc_x", "x"),
-    "y": ("ay", "a_y", "acc_y", "y"),
-    "z": ("az", "a_z", "acc_z", "z"),
-    "": ("a", "acc", "accel", "acceleration"),
+    "time": ("time", "t", "seconds", "zeit", "temps", "tempo", "tiempo"),
+    **{axis: (f"a{axis}", f"a_{axis}", f"acc_{axis}", f"acc{axis}", axis) for axis in "xyz"},
+    "": ("a", "acc", "accel", "acceleration", "beschleunigung", "accelerazione", "aceleracion"),
 }
 _MEANING = {name: meaning for meaning, names in _NAMES.items() for name in names}
+# Words of a header, in several tongues, that say what a column is not
+_NO_ACCELERATION = re.compile(
+    r"vel|disp|weg|geschw|^[vud][xyz]?$|index|sample|^no$|^nr$|#", re.IGNORECASE
+)
+# Units behind names, as in time_s, acc_x_m_s2
+_SUFFIX = re.compile(
+    r"(?P<name>.+?)_(?P<unit>m_s2|cm_s2|mm_s2|m_s_2|m/s2|cm/s2|mm/s2|mps2|gal|g|sec|ms|s)"
+)
+_WRITTEN = {"m_s2": "m/s2", "m_s_2": "m/s2", "mps2": "m/s2", "cm_s2": "cm/s2", "mm_s2": "mm/s2"}
 _SECONDS = {"": 1.0, "s": 1.0, "sec": 1.0, "seconds": 1.0, "ms": 1e-3}
+_COMMA = re.compile(r"[-+]?\d+(,\d+)?([eEdD][-+]?\d+)?")
 _CELL = re.compile(
     r"""["']?\s*(?P<name>[^\[\](),;\t"']*?)\s*(?:[\[(]\s*(?P<unit>[^\])]*?)\s*[\])])?\s*["']?"""
 )
@@ -48,14 +56,16 @@ def read_columns(path: Path | str, dt_s: float) -> Recording:
     UnusableRecord
         unknown columns or units, rows of different length, no number, no even time.
     """
-    header, comments, rows = _split(read_text(path))
+    text = read_text(path)
+    header, comments, rows = _split(text)
     if len(rows) < 2:
         raise UnusableRecord(
             f"holds {len(rows)} sample{'s' * (len(rows) != 1)}; at least 2 are needed"
         )
     lines = [row for row, _ in rows]
     table = _table(rows)
-    meanings, units = _columns(header, comments, table.shape[1])
+    check_end(text, [_cells(row)[-1] for _, row in rows[-12:]])
+    meanings, units = _columns(header, comments, table)
     accelerations = [i for i, meaning in enumerate(meanings) if meaning != "time"]
     stated = {unit_named(units[i]) if units[i] else "" for i in accelerations}
     if len(stated) > 1:
@@ -72,6 +82,7 @@ def read_columns(path: Path | str, dt_s: float) -> Recording:
         stated.pop(),
         Path(path).name,
         "; ".join(comments) or Path(path).name,
+        "columns of text",
     )
 
 
@@ -84,7 +95,9 @@ def _split(text: str) -> tuple[str, list[str], list[tuple[int, str]]]:
         line = line.strip()
         if line.startswith("#"):
             comments.append(line.lstrip("# "))
-        elif line and not rows and not header and not _is_number(_cells(line)[0]):
+        elif line and not rows and not _is_number(_cells(line)[0]):
+            # of several lines of words the last one names the columns
+            comments += [header] if header else []
             header = line
         elif line:
             rows.append((row, line))
@@ -93,6 +106,8 @@ def _split(text: str) -> tuple[str, list[str], list[tuple[int, str]]]:
 
 def _cells(line: str) -> list[str]:
     delimiter = next((mark for mark in ";\t," if mark in line), None)
+    if delimiter == "," and (words := line.split())[1:] and all(map(_COMMA.fullmatch, words)):
+        delimiter = None  # spaces between numbers with decimal commas
     cells = line.rstrip(";,").split(delimiter)
     return [cell.strip() if delimiter == "," else cell.strip().replace(",", ".") for cell in cells]
 
@@ -137,8 +152,13 @@ def _header_cells(line: str) -> list[tuple[str, str]]:
     ]
 
 
-def _columns(header: str, comments: list[str], width: int) -> tuple[list[str], list[str]]:
-    """Meaning and unit of each column."""
+def _columns(header: str, comments: list[str], table: NDArray[Any]) -> tuple[list[str], list[str]]:
+    """Meaning and unit of each column.
+
+    A name that is not known is taken where it leaves no choice: of two columns, one of which is the
+    time or rises evenly, the other is the acceleration.
+    """
+    width = table.shape[1]
     cells = _header_cells(header) if header else []
     if not header and comments:
         commented = _header_cells(comments[-1])
@@ -153,9 +173,17 @@ def _columns(header: str, comments: list[str], width: int) -> tuple[list[str], l
         return (["time", ""][-width:], [""] * width)
     if len(cells) != width:
         raise UnusableRecord(f"the header names {len(cells)} columns but {width} follow")
-    meanings, units = [], []
-    for name, unit in cells:
+    meanings: list[str] = []
+    units: list[str] = []
+    cells = [_unit_apart(name, unit) for name, unit in cells]
+    for column, (name, unit) in enumerate(cells):
         meaning = _MEANING.get(name)
+        if meaning is None and width == 2 and not _NO_ACCELERATION.search(name):
+            others = _MEANING.get(cells[1 - column][0])
+            if column == 0 and others in (None, "") and _rises_evenly(table[:, 0]):
+                meaning, unit = "time", unit if unit.lower() in _SECONDS else ""
+            elif meanings[:1] == ["time"]:
+                meaning, unit = "", unit if unit_named(unit) else ""
         if meaning is None:
             raise UnusableRecord(
                 f"column {name!r} is not known; must be one of time, ax, ay, az, in {_EXAMPLE}"
@@ -175,3 +203,14 @@ def _columns(header: str, comments: list[str], width: int) -> tuple[list[str], l
     if "" in meanings and {"x", "y", "z"} & set(meanings):
         raise UnusableRecord(f"does not name the axis of each component; needs {_EXAMPLE}")
     return meanings, units
+
+
+def _unit_apart(name: str, unit: str) -> tuple[str, str]:
+    """Name and unit of a column such as time_s."""
+    found = None if unit or name in _MEANING else _SUFFIX.fullmatch(name)
+    return (found["name"], _WRITTEN.get(found["unit"], found["unit"])) if found else (name, unit)
+
+
+def _rises_evenly(values: NDArray[Any]) -> bool:
+    steps = np.diff(values)
+    return bool(steps.min() > 0 and np.ptp(steps) < 0.1 * steps.mean())

@@ -70,6 +70,7 @@ def read_esm(path: Path | str) -> Recording:
         unit_named(unit),
         Path(path).name,
         "ESM: " + " ".join(filter(None, told)),
+        "ESM ASC",
     )
 
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+import re
+import warnings
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.case.sections import Motion
+from fecolumn.case.sections import GRAVITY, Motion
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions import lick
 from fecolumn.motions.at2 import looks_like_at2, read_at2
@@ -35,11 +37,19 @@ from fecolumn.motions.record import (
     UnusableRecord,
     sound,
 )
+from fecolumn.motions.seismic import read_seismic, seismic_format
 from fecolumn.motions.text import read_text
 
 AXES = "xyz"
 _DT_TOLERANCE = 1e-4
 _LENGTH_TOLERANCE = 0.01
+#: What files of motions may be.
+FORMATS = (
+    "PEER AT2, ESM ASC, columns of text (CSV, tabs, spaces; decimal comma or point); with the "
+    "extra records K-NET, KiK-net, SAC, miniSEED, GSE2"
+)
+# [m/s2], 5 g: more was recorded nowhere, and a unit may be wrong
+_UNLIKELY = 50.0
 _SOURCES = f"a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or {PREFIX}SET/INDEX"
 _LARGEST_RATIO = 20_000  # of steps: the filter between them has 128 times as many terms
 
@@ -140,7 +150,7 @@ def read_motion(motion: Motion, file: Path | str) -> GroundMotion:
     columns: dict[str, NDArray[Any]] = {}
     names, sources, dt = [], [], 0.0
     for key in keys:
-        recording = _recording(motion, key, file)
+        recording = recording_of(motion, key, file)
         step = _step(motion, key, recording, file)
         if dt and not math.isclose(step, dt, rel_tol=_DT_TOLERANCE):
             raise InputError(
@@ -168,14 +178,28 @@ def read_motion(motion: Motion, file: Path | str) -> GroundMotion:
             )
         acceleration[: len(column), AXES.index(axis)] = column
     try:
-        return sound(
+        ground = sound(
             GroundMotion(acceleration, dt, " + ".join(names), " | ".join(dict.fromkeys(sources)))
         )
+        if (peak := ground.pga.max()) > _UNLIKELY:
+            warnings.warn(
+                f"{ground.name} peaks at {peak / GRAVITY:.3g} g, more than was ever recorded: is "
+                "its unit right?",
+                stacklevel=2,
+            )
+        return ground
     except ValueError as error:
         raise InputError(file, "motion.source", motion.source, str(error)) from None
 
 
-def _recording(motion: Motion, key: str, file: Path | str) -> Recording:
+def recording_of(motion: Motion, key: str, file: Path | str) -> Recording:
+    """What the file, or the record, of a key of [motion] says, as it says it.
+
+    Raises
+    ------
+    InputError
+        it cannot be used.
+    """
     source = getattr(motion, key)
     try:
         if source.startswith(lick.PREFIX):
@@ -187,18 +211,32 @@ def _recording(motion: Motion, key: str, file: Path | str) -> Recording:
             recording = Recording(
                 member.acceleration, tuple(AXES), member.dt, "m/s2", member.name, member.source
             )
+        elif kind := seismic_format(source):
+            recording = read_seismic(source, kind)
         elif looks_like_esm(text := read_text(source)):
             recording = read_esm(source)
         elif looks_like_at2(source, text):
             recording = read_at2(source)
         else:
-            recording = read_columns(source, motion.dt_s)
+            recording = _columns_of(source, motion.dt_s)
         if len(recording.values) < 2:
             raise UnusableRecord(f"holds {len(recording.values)} samples; at least 2 are needed")
     except UnusableRecord as error:
         hint = f"; must be {_SOURCES}" if str(error) == "no such file" else ""
         raise InputError(file, f"motion.{key}", source, f"{error}{hint}") from None
     return recording
+
+
+def _columns_of(source: str, dt_s: float) -> Recording:
+    """Columns of a file that is of no other format; where they are none, all formats are told."""
+    try:
+        return read_columns(source, dt_s)
+    except UnusableRecord as error:
+        if re.search(
+            r"not a number|columns need|columns where|holds [01] sample|header names", str(error)
+        ):
+            raise UnusableRecord(f"{error}; formats that are read: {FORMATS}") from None
+        raise
 
 
 def _step(motion: Motion, key: str, recording: Recording, file: Path | str) -> float:

@@ -56,10 +56,45 @@ def parse_number(word: str) -> float:
     ValueError
         not a number.
     """
+    if "_" in word:  # as Python writes numbers, and no recorder does
+        raise ValueError(word)
     try:
         return float(word)
     except ValueError:
         return float(word.upper().replace("D", "E", 1))
+
+
+def check_end(text: str, words: list[str]) -> None:
+    """Refuse a file that was cut off inside its last number: it ends without a line's end, and its
+    last number has fewer digits than all before, which are written alike.
+
+    Parameters
+    ----------
+    text
+        the file.
+    words
+        the last numbers of the file, or of its last column, as they are written.
+
+    Raises
+    ------
+    UnusableRecord
+        so it is.
+    """
+    if text[-1:] in "\r\n" or len(words) < 4:
+        return
+    *before, last = (word.upper().replace("D", "E") for word in words)
+    shapes = {_shape(word) for word in before}
+    if len(shapes) == 1 and _shape(last) < shapes.pop():
+        raise UnusableRecord(
+            f"ends inside a number, {last!r} after {before[-1]!r}, without a line's end: the file "
+            "is cut off"
+        )
+
+
+def _shape(word: str) -> tuple[int, int, int]:
+    """Whether a number has an exponent, digits of it, and digits behind its point."""
+    mantissa, mark, exponent = word.partition("E")
+    return bool(mark), len(exponent.lstrip("+-")), len(mantissa.partition(".")[2])
 
 
 def unit_named(text: str) -> str:

@@ -12,15 +12,19 @@ from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import Material
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.imported import own_mesh
-from fecolumn.mesh.quality import mass_properties
+from fecolumn.mesh.mass import mass_properties
 from fecolumn.structures.faces import Face, plane_faces
-from fecolumn.structures.feet import domed, with_balls
+from fecolumn.structures.feet import domed, lifted, with_balls
 from fecolumn.structures.matrices import SystemMatrices, matrices_model, read_system
 from fecolumn.structures.model import BodyModel
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.reduction import elastic_model, rigid_model
 from fecolumn.structures.shapes import Shape, shape_of
 from fecolumn.structures.storeys import storeys_model
+from fecolumn.structures.weighed import weighed_shares
+
+# Density [kg/m3] of a body without mass: a millionth of the air's, far from where eigenvalues fail
+_LIGHTEST = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,22 +101,12 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
         system = read_system(key, body, file)
         return Drawing(key, body, None, system, system.faces(), None, file)
     shape = shape_of(key, body, file, spots)
-    if getattr(body, "turned_deg", 0.0):
-        shape = dataclasses.replace(
-            shape,
-            mesh=dataclasses.replace(
-                shape.mesh, points=_turned(shape.mesh.points, body.turned_deg)
-            ),
-        )
-    if body.as_drawn:
-        moved = shape.mesh.points + own_mesh(body.mesh_file).drawn_at
-        shape = dataclasses.replace(shape, mesh=dataclasses.replace(shape.mesh, points=moved))
-    faces = plane_faces(shape.mesh)
+    material, weighed_as = material_of(body, case.materials), shape.mesh
     if getattr(body, "foot_radius_m", None):
-        shape, faces = domed(body, shape, faces)
-    material = material_of(body, case.materials)
+        domed_points = lifted(body, shape.mesh.points)
+        weighed_as = dataclasses.replace(shape.mesh, points=domed_points)
     if body.mass_kg is not None:
-        volume = mass_properties(shape.mesh, 1.0).volume
+        volume = mass_properties(weighed_as, 1.0).mass
         try:
             material = dataclasses.replace(material, density_kg_m3=body.mass_kg / volume)
         except InputError as error:
@@ -123,6 +117,33 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
                 f"makes a density of {body.mass_kg / volume:.4g} kg/m3 in {volume:.4g} "
                 f"m3: {error.allowed}",
             ) from None
+    if material.density_kg_m3 < _LIGHTEST:
+        stated = "density_kg_m3" if body.mass_kg is None else "mass_kg"
+        raise InputError(
+            file,
+            f"{key}.{stated}",
+            getattr(body, stated),
+            f"makes a density of {material.density_kg_m3:.3g} kg/m3, must be at least "
+            f"{_LIGHTEST:g} kg/m3: lighter bodies are none",
+        )
+    shares = weighed_shares(key, body, weighed_as, material.density_kg_m3, file)
+    if shares is not None:
+        shape = dataclasses.replace(
+            shape, mesh=dataclasses.replace(shape.mesh, relative_density=shares)
+        )
+    if getattr(body, "turned_deg", 0.0):
+        shape = dataclasses.replace(
+            shape,
+            mesh=dataclasses.replace(
+                shape.mesh, points=_turned(shape.mesh.points, body.turned_deg)
+            ),
+        )
+    if body.as_drawn:
+        moved = shape.mesh.points + own_mesh(body.drawn).drawn_at
+        shape = dataclasses.replace(shape, mesh=dataclasses.replace(shape.mesh, points=moved))
+    faces = plane_faces(shape.mesh)
+    if getattr(body, "foot_radius_m", None):
+        shape, faces = domed(body, shape, faces)
     return Drawing(key, body, shape, None, faces, material, file)
 
 

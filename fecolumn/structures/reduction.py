@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.case.sections import Material
-from fecolumn.mesh.quality import mass_properties
+from fecolumn.mesh.mass import mass_properties
 from fecolumn.structures.faces import Face
 from fecolumn.structures.model import BodyModel
 from fecolumn.structures.patches import Patch, face_weights

@@ -100,7 +100,7 @@ def counts_of(key: str, body, file, spots=()) -> tuple[int, int]:
         return tied_counts(body)
     if isinstance(body, Meshed):
         shape = _own(key, body, file)
-        return len(shape.mesh.cells), own_mesh(body.mesh_file).counts(shape.order)[0]
+        return len(shape.mesh.cells), own_mesh(body.drawn).counts(shape.order)[0]
     if isinstance(body, (Plate, Storeys)):
         coarse, lines = _plate_lines(body, spots)
         grids = [
@@ -157,7 +157,7 @@ def _counts(grids, swept, order: int) -> tuple[int, int]:
 
 def _own(key: str, body: Meshed, file) -> Shape:
     try:
-        own = own_mesh(body.mesh_file)
+        own = own_mesh(body.drawn)
     except InputError as error:
         raise InputError(
             file, f"{key}.mesh_file", error.value, f"{body.mesh_file}: {error.allowed}"

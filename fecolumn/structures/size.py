@@ -123,7 +123,7 @@ def _feet(case, ground: str) -> list[np.ndarray]:
 def _plan(body) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest corner (2,) [m] of a foot."""
     if isinstance(body, Meshed):
-        own = own_mesh(body.mesh_file)
+        own = own_mesh(body.drawn)
         points = own.mesh.points + (own.drawn_at if body.as_drawn else np.zeros(3))
         foot = points[points[:, 2] < points[:, 2].min() + 1e-6 * np.ptp(points[:, 2]), :2]
         return foot.min(axis=0), foot.max(axis=0)

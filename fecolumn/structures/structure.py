@@ -16,7 +16,7 @@ from fecolumn.case.sections import Initial
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.rim import Rim
 from fecolumn.foundation.schema import InputError
-from fecolumn.mesh.quality import mass_properties
+from fecolumn.mesh.mass import mass_properties
 from fecolumn.structures import model as models
 from fecolumn.structures.check import (
     check_joints,

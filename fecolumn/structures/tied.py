@@ -45,11 +45,16 @@ def built_of(body) -> Built:
         a mesh of one's own cannot be read.
     """
     if isinstance(body, Meshed):
-        if not own_mesh(body.mesh_file).has_foot:
+        if not own_mesh(body.drawn).has_foot:
             raise InputError(
                 body.mesh_file, "cap", None, "must be left out of a mesh without a flat foot"
             )
-        column = Column(mesh_file=body.mesh_file)
+        column = Column(
+            mesh_file=body.mesh_file,
+            mesh_unit=body.mesh_unit,
+            mesh_size_m=body.mesh_size_m,
+            cut_foot_m=body.cut_foot_m,
+        )
     elif isinstance(body, Block):
         column = Column(
             shape="block",

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import math
 import os
+import warnings
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +20,11 @@ if TYPE_CHECKING:
     from fecolumn.motions.target import Target
 
 _LICK = "lick"
+# As `load.FORMATS`, which it would take long to import
+_FORMATS = (
+    "PEER AT2, ESM ASC, columns of text (CSV, tabs, spaces; decimal comma or point); with the "
+    "extra records K-NET, KiK-net, SAC, miniSEED, GSE2"
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -99,10 +107,51 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     fit.set_defaults(command=_fit)
 
     info = actions.add_parser(
-        "info", help="what an ensemble is: medians, spread, and how it meets its target"
+        "info",
+        help="what a file or an ensemble is: format, unit, peaks, and what is odd; medians, spread",
+        epilog=f"Files that are read: {_FORMATS}.",
     )
-    info.add_argument("ensemble", metavar="ENSEMBLE.h5")
+    info.add_argument(
+        "ensemble", metavar="FILE", help="ENSEMBLE.h5, or a motion as in motion.source of a case"
+    )
+    _add_unit_and_step(info)
     info.set_defaults(command=_info)
+
+    correct = actions.add_parser(
+        "correct", help="take the drift out of a record: baseline and band-pass, with a picture"
+    )
+    correct.add_argument("source", metavar="SOURCE", help="as in motion.source of a case")
+    correct.add_argument(
+        "--source-y", default="", metavar="FILE", help="file of the y component, if any"
+    )
+    _add_unit_and_step(correct)
+    correct.add_argument(
+        "--high-pass",
+        type=float,
+        default=0.1,
+        metavar="HZ",
+        help="corner below which it is taken out, 0 for none (default: %(default)s)",
+    )
+    correct.add_argument(
+        "--low-pass",
+        type=float,
+        default=0.0,
+        metavar="HZ",
+        help="corner above which it is taken out, 0 for none (default: %(default)s)",
+    )
+    correct.add_argument(
+        "--order", type=int, default=4, help="of the filter, run twice (default: %(default)s)"
+    )
+    correct.add_argument(
+        "--degree",
+        type=int,
+        default=1,
+        help="of the polynomial taken off first, -1 for none (default: %(default)s)",
+    )
+    correct.add_argument(
+        "-o", "--output", required=True, metavar="DIR", help="folder of the motion and the picture"
+    )
+    correct.set_defaults(command=_correct)
 
     plot = actions.add_parser(
         "plot",
@@ -154,6 +203,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     convert.add_argument("-o", "--output", required=True, metavar="ENSEMBLE.h5|DIR")
     convert.set_defaults(command=_convert)
+
+
+def _add_unit_and_step(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--units",
+        default="",
+        help="unit of the accelerations where the file does not state it: g, m/s2, cm/s2 or mm/s2",
+    )
+    parser.add_argument(
+        "--dt", type=float, default=0.0, help="sampling step [s] where the file does not state it"
+    )
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
@@ -316,7 +376,36 @@ def _read(source: str, args: argparse.Namespace, **keys: Any) -> GroundMotion:
         raise InputError(
             "fecolumn motions", "--units", args.units, f"must be one of {', '.join(METRES_PER_S2)}"
         )
-    return read_motion(Motion(source, units=args.units, dt_s=args.dt, **keys), "fecolumn motions")
+    if not 0 <= args.dt <= 100:
+        raise InputError("fecolumn motions", "--dt", args.dt, "must lie in [0, 100] s")
+    motion = Motion(source, units=args.units, dt_s=args.dt, **keys)
+    with _told_by_flags():
+        return read_motion(motion, "fecolumn motions")
+
+
+# Flags of the commands for the keys of a case
+_FLAGS = {
+    "motion.units": "--units",
+    "motion.dt_s": "--dt",
+    "motion.source_y": "--source-y",
+    "motion.source": "SOURCE",
+}
+
+
+@contextlib.contextmanager
+def _told_by_flags() -> Iterator[None]:
+    """Refusals that name the flags of a command, not the keys of a case."""
+    from fecolumn.foundation.schema import InputError
+
+    def told(text: str) -> str:
+        for key, flag in _FLAGS.items():
+            text = text.replace(key, flag)
+        return text
+
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.file, told(error.key), error.value, told(error.allowed)) from None
 
 
 def _stored(path: Path | str) -> Ensemble:
@@ -334,8 +423,67 @@ def _info(args: argparse.Namespace) -> int:
     from fecolumn.motions.ensemble_file import summary
     from fecolumn.motions.ensemble_report import report
 
+    if Path(args.ensemble).suffix not in (".h5", ".hdf5"):
+        return _info_of_motion(args)
     ensemble = _stored(args.ensemble)
     print(report(ensemble, summary(ensemble)))
+    return 0
+
+
+def _info_of_motion(args: argparse.Namespace) -> int:
+    from fecolumn.case.sections import Motion
+    from fecolumn.motions.inspection import file_lines, oddities, peak_lines, peaks_by_unit
+    from fecolumn.motions.load import recording_of
+
+    with _told_by_flags():
+        motion = Motion(args.ensemble, dt_s=args.dt)
+        recording = recording_of(motion, "source", "fecolumn motions info")
+    print("\n".join(file_lines(recording, recording.dt or args.dt)))
+    if not (recording.dt or args.dt):
+        print("its step is not stated: --dt says it")
+    elif not (recording.units or args.units):
+        print(peaks_by_unit(recording))
+        print("--units says it, and motion.units in a case")
+    else:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # told below
+            ground = _read(args.ensemble, args)
+        print("\n".join(peak_lines(ground)))
+        for odd in oddities(ground):
+            print(f"warning: {odd}")
+    return 0
+
+
+def _correct(args: argparse.Namespace) -> int:
+    from fecolumn.foundation.folder import written
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.motions.correction import corrected, end_of
+    from fecolumn.motions.export import write_text_files
+    from fecolumn.pictures.figures.correction_figure import correction_figure
+
+    for key, value, low, high in (
+        ("--high-pass", args.high_pass, 0, 1e4),
+        ("--low-pass", args.low_pass, 0, 1e5),
+        ("--order", args.order, 1, 10),
+        ("--degree", args.degree, -1, 10),
+    ):
+        if not low <= value <= high:
+            raise InputError(
+                "fecolumn motions correct", key, value, f"must lie in [{low:g}, {high:g}]"
+            )
+    before = _read(args.source, args, source_y=args.source_y)
+    try:
+        after = corrected(before, args.high_pass, args.low_pass, args.order, args.degree)
+    except ValueError as error:
+        raise InputError("fecolumn motions correct", "SOURCE", args.source, str(error)) from None
+    with written(args.output, "motions correct") as draft:
+        files = [*write_text_files([after], draft, "csv")]
+        files += correction_figure(before, after, draft)
+    for name, one in (("before", before), ("after", after)):
+        speed, way = end_of(one)
+        print(f"{name}: ends at {100 * speed:.3g} cm/s and {100 * way:.3g} cm")
+    for file in files:
+        print(f"wrote {Path(args.output) / file.name}")
     return 0
 
 

@@ -67,7 +67,7 @@ def test_summary_history_and_figures_are_complete(whole):
 def _weight(out):
     """Weight [N] from the mesh alone."""
     from fecolumn.case.sections import GRAVITY
-    from fecolumn.mesh.quality import mass_properties
+    from fecolumn.mesh.mass import mass_properties
     from fecolumn.mesh.specimen import specimen_mesh
     from fecolumn.simulation import read_folder_case
 

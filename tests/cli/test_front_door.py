@@ -7,6 +7,7 @@ import tomllib
 import typing
 
 import pytest
+import pyvista
 
 from fecolumn import __version__
 from fecolumn.case import manual, templates
@@ -91,15 +92,29 @@ def test_keys_of_an_unknown_section_name_the_nearest(capsys):
 def test_new_writes_a_case_and_a_study_that_are_accepted_and_overwrites_nothing(
     kind, tmp_path, capsys
 ):
-    folder = tmp_path / "mine"
-    assert main(["new", kind, str(folder)]) == 0
+    folder, more = tmp_path / "mine", []
+    if kind == "statue":
+        box = pyvista.Box((0, 0.4, 0, 0.3, 0, 1.2)).triangulate()
+        box.save(tmp_path / "box.stl")
+        more = ["--from", str(tmp_path / "box.stl")]
+    assert main(["new", kind, str(folder), *more]) == 0
     read_case(folder / "case.toml")
     assert len(read_plan(folder / "study.toml").analyses) == 20
     before = {file: file.read_bytes() for file in folder.iterdir()}
     (folder / "study.toml").unlink()
-    assert main(["new", kind, str(folder)]) == 2
+    assert main(["new", kind, str(folder), *more]) == 2
     assert "not overwritten" in capsys.readouterr().err
     assert all(file.read_bytes() == before[file] for file in folder.iterdir())
+
+
+def test_new_statue_needs_a_shape_and_a_foot(tmp_path, capsys):
+    assert main(["new", "statue", str(tmp_path / "a")]) == 2
+    assert "must name the file with the statue's shape" in capsys.readouterr().err
+    pyvista.Sphere(0.5, (0, 0, 0)).save(tmp_path / "ball.stl")
+    assert main(["new", "statue", str(tmp_path / "a"), "--from", str(tmp_path / "ball.stl")]) == 2
+    assert "no flat foot" in (said := capsys.readouterr().err) and "cut_foot_m" in said
+    assert main(["new", "statu", str(tmp_path / "a")]) == 2
+    assert "did you mean statue?" in capsys.readouterr().err
 
 
 def test_new_into_a_file_is_refused(tmp_path, capsys):

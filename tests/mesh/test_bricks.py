@@ -18,7 +18,8 @@ from fecolumn.mesh.cap_plate import cap_mesh
 from fecolumn.mesh.column import column_mesh
 from fecolumn.mesh.gmsh_section import extruded
 from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
-from fecolumn.mesh.quality import exact_cap, exact_column, exact_flange, mass_properties
+from fecolumn.mesh.mass import mass_properties
+from fecolumn.mesh.quality import exact_cap, exact_column, exact_flange
 from fecolumn.mesh.section import Annulus
 from fecolumn.mesh.specimen import specimen_mesh
 

@@ -9,7 +9,8 @@ from fecolumn.mesh.bending import cowper_coefficient, free_free_bending_frequenc
 from fecolumn.mesh.bricks import CAP, brick_mesh
 from fecolumn.mesh.cap_plate import cap_mesh
 from fecolumn.mesh.column import column_mesh, section
-from fecolumn.mesh.quality import exact_cap, exact_column, mass_properties, quality_table
+from fecolumn.mesh.mass import mass_properties
+from fecolumn.mesh.quality import exact_cap, exact_column, quality_table
 from fecolumn.mesh.specimen import specimen_mesh
 
 STEEL = 7850.0

@@ -129,7 +129,7 @@ def test_wrong_input_is_refused_in_a_line(lick, capsys, tmp_path):
         capsys, "make", "seeded", tmp_path / "gone.toml", "-o", tmp_path / "a.h5"
     )
     assert "no such file" in refused(capsys, "info", tmp_path / "gone.h5")
-    assert "is no HDF5 file" in refused(capsys, "info", lick.with_suffix(".csv"))
+    assert "formats that are read" in refused(capsys, "info", lick.with_suffix(".csv"))
     assert "from 1 to 4" in refused(capsys, "plot", lick, "-o", tmp_path, "--show", 5)
     for alpha in (0, 1.6, "nan"):
         assert "--slenderness" in refused(

@@ -7,7 +7,7 @@ from scipy.spatial.transform import Rotation
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.fem.rotation import twist_angle
-from fecolumn.mesh.quality import MassProperties
+from fecolumn.mesh.mass import MassProperties
 from fecolumn.pictures.render.pose import Poses
 from fecolumn.pictures.render.pressure_centre import pressure_centre
 from fecolumn.pictures.render.result import read_result

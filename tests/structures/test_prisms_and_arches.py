@@ -12,8 +12,8 @@ from fecolumn.fem.modes import elastic_modes
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bending import rectangle_bending_frequency
 from fecolumn.mesh.jacobian import corner_jacobians
+from fecolumn.mesh.mass import mass_properties
 from fecolumn.mesh.prism import polygon_counts, polygon_mesh
-from fecolumn.mesh.quality import mass_properties
 from fecolumn.structures.bodies import drawing
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.reduction import body_of

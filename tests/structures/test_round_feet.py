@@ -14,7 +14,7 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.jacobian import scaled_jacobian
-from fecolumn.mesh.quality import mass_properties
+from fecolumn.mesh.mass import mass_properties
 from fecolumn.structures.barrier import stances
 from fecolumn.structures.bodies import drawing
 from fecolumn.structures.feet import hertz

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from fecolumn.mesh.mesh_file import METRES, MeshFile
+
 _FOLDER = Path(__file__).parent
 #: What each kind is, by its name.
 KINDS = {
@@ -12,10 +14,22 @@ KINDS = {
     "block": "marble block",
     "mesh": "mesh of your own (an Abaqus .inp is given)",
     "arch": "stone arch of eleven voussoirs",
+    "statue": "object from a scan or a CAD body, which --from names",
 }
 
 # Files of a kind and their templates, where they are other than those of the first ones
-_OTHERS = {"mesh": {"column.inp": "column.inp"}, "arch": {"study.toml": "arch_study.toml"}}
+_OTHERS = {
+    "mesh": {"column.inp": "column.inp"},
+    "arch": {"study.toml": "arch_study.toml"},
+    "statue": {"study.toml": "statue_study.toml"},
+}
+
+
+class _Words(tuple):
+    """Words that completion offers; any other is taken, too: DIR, where KIND is left out."""
+
+    def __contains__(self, word) -> bool:
+        return True
 
 
 def add_arguments(parser) -> None:
@@ -24,15 +38,29 @@ def add_arguments(parser) -> None:
     parser.add_argument(
         "kind",
         nargs="?",
-        default="tube",
-        choices=tuple(KINDS),
+        choices=_Words(KINDS),
         metavar="KIND",
-        help=f"{kinds} (default: %(default)s)",
+        help=f"{kinds} (default: tube)",
+    )
+    parser.add_argument(
+        "--from",
+        dest="drawn",
+        metavar="FILE",
+        help="of a statue: its shape, as .stl, .obj, .ply, .step, .iges, .geo or elements",
+    )
+    parser.add_argument("--unit", choices=tuple(METRES), help="unit of the lengths in FILE")
+    parser.add_argument(
+        "--cut-foot",
+        type=float,
+        metavar="M",
+        help="height above its lowest point at which a surface is cut off flat [m]",
     )
     parser.add_argument(
         "folder",
+        nargs="?",
         metavar="DIR",
-        help="folder for case.toml and study.toml, made if missing; nothing there is overwritten",
+        help="folder for case.toml and study.toml, made if missing; nothing there is overwritten; "
+        "left out: of a statue the name of FILE without its ending",
     )
 
 
@@ -44,7 +72,9 @@ def main(args) -> int:
     InputError
         one of the files is there already, or the folder cannot be written.
     """
-    for file in write(args.kind, args.folder):
+    args.kind, args.folder = _kind_and_folder(args)
+    stated = _statue(args)
+    for file in write(args.kind, args.folder, stated):
         print(f"wrote {file}")
     print(f"next: fecolumn mesh {Path(args.folder) / 'case.toml'} -o {Path(args.folder) / 'mesh'}")
     print(f"      fecolumn run {Path(args.folder) / 'case.toml'} -o {Path(args.folder) / 'run'}")
@@ -54,8 +84,84 @@ def main(args) -> int:
     return 0
 
 
-def write(kind: str, folder) -> list[Path]:
-    """Write the files of a kind into a folder; as of `main`."""
+def _kind_and_folder(args) -> tuple[str, str]:
+    """Which of the two words is which, where there is but one.
+
+    Raises
+    ------
+    InputError
+        no such kind, or no folder.
+    """
+    from fecolumn.foundation.schema import InputError, meant
+
+    kind, folder = args.kind, args.folder
+    if folder is None and kind == "statue" and args.drawn:
+        return kind, Path(args.drawn).stem
+    if folder is None:
+        kind, folder = "tube", kind
+    if folder is None:
+        raise InputError("fecolumn new", "DIR", None, "must be the folder to write into")
+    if kind not in KINDS:
+        raise InputError(
+            "fecolumn new", "KIND", kind, f"must be one of {', '.join(KINDS)}{meant(kind, KINDS)}"
+        )
+    return kind, folder
+
+
+def _statue(args) -> dict[str, str]:
+    """Lines of the template of a statue and what takes their place, its shape read once.
+
+    Raises
+    ------
+    InputError
+        a shape that cannot be used, or options that do not fit.
+    """
+    import json
+    import os
+
+    from fecolumn.foundation.files import is_file
+    from fecolumn.foundation.schema import InputError
+
+    if args.kind != "statue":
+        for name, value in (
+            ("--from", args.drawn),
+            ("--unit", args.unit),
+            ("--cut-foot", args.cut_foot),
+        ):
+            if value is not None:
+                raise InputError("fecolumn new", name, value, "is of a statue: fecolumn new statue")
+        return {}
+    if not args.drawn or not is_file(args.drawn):
+        raise InputError(
+            "fecolumn new", "--from", args.drawn, "must name the file with the statue's shape"
+        )
+    from fecolumn.mesh.imported import foot_hint, own_mesh
+
+    file = MeshFile(args.drawn, args.unit or "", None, args.cut_foot)
+    if unfit := file.unfit():
+        raise InputError("fecolumn new", *unfit)
+    if args.cut_foot is not None and not args.cut_foot > 0:
+        raise InputError("fecolumn new", "--cut-foot", args.cut_foot, "must be greater than 0 m")
+    own = own_mesh(file)
+    if not own.has_foot:
+        raise InputError(
+            "fecolumn new", "--from", args.drawn, f"has no flat foot to stand on{foot_hint(file)}"
+        )
+    print(
+        f"{args.drawn}: {own.height:.4g} m high on a foot of {own.foot[0]:.4g} x "
+        f"{own.foot[1]:.4g} m, {len(own.mesh.cells)} elements"
+    )
+    path = os.path.relpath(Path(args.drawn).resolve(), Path(args.folder).resolve())
+    stated = {'"FILE"    ': json.dumps(path)}
+    if args.unit:
+        stated['# mesh_unit = "mm"'] = f'mesh_unit = "{args.unit}"'
+    if args.cut_foot is not None:
+        stated["# cut_foot_m = 0.01"] = f"cut_foot_m = {args.cut_foot!r}"
+    return stated
+
+
+def write(kind: str, folder, stated: dict[str, str] | None = None) -> list[Path]:
+    """Write the files of a kind into a folder, with other words for some; as of `main`."""
     from fecolumn.foundation.schema import InputError
 
     folder = Path(folder)
@@ -72,7 +178,10 @@ def write(kind: str, folder) -> list[Path]:
         folder.mkdir(parents=True, exist_ok=True)
         for name, template in contents.items():
             with open(folder / name, "x", encoding="utf-8") as file:
-                file.write((_FOLDER / template).read_text(encoding="utf-8"))
+                text = (_FOLDER / template).read_text(encoding="utf-8")
+                for words, others in (stated or {}).items():
+                    text = text.replace(words, others)
+                file.write(text)
     except OSError as error:
         raise InputError(
             "fecolumn new", "DIR", str(folder), f"cannot be written ({error.strerror})"

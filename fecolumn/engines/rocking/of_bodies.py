@@ -243,7 +243,9 @@ def rigid_body(case, name: str, file) -> RigidColumn:
         a body of matrices, whose shape is not known; a prism or a cone, which no model is of.
     """
     from fecolumn.mesh.imported import own_mesh
-    from fecolumn.mesh.quality import box_properties, mass_properties, ring_properties
+    from fecolumn.mesh.mass import mass_properties
+    from fecolumn.mesh.quality import box_properties, ring_properties
+    from fecolumn.structures.weighed import weighed
 
     body, is_round = case.bodies[name], False
     if isinstance(body, (keys.Matrices, keys.Prism, keys.Cone)):
@@ -258,7 +260,7 @@ def rigid_body(case, name: str, file) -> RigidColumn:
     flange, cap = getattr(body, "flange", None), getattr(body, "cap", None)
     seat = flange.thickness_m if flange else 0.0
     if isinstance(body, keys.Meshed):
-        own = own_mesh(body.mesh_file)
+        own = own_mesh(body.drawn)
         if not own.has_foot:
             raise InputError(
                 file, f"bodies.{name}.mesh_file", body.mesh_file, "has no flat foot to rock on"
@@ -283,11 +285,11 @@ def rigid_body(case, name: str, file) -> RigidColumn:
     if cap:
         found = found + box_properties(cap.length_m, cap.width_m, cap.thickness_m, top, density)
         top += cap.thickness_m
-    more = 1.0 if body.mass_kg is None else body.mass_kg / found.mass
+    found = weighed(body, found)
     return RigidColumn(
-        float(found.mass * more),
+        float(found.mass),
         float(found.centre[2]),
-        tuple((np.diag(found.inertia) * more).tolist()),
+        tuple(np.diag(found.inertia).tolist()),
         tuple(found.centre[:2].tolist()),
         tuple((np.array(extent) / 2).tolist()),
         float(top),

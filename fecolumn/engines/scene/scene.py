@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES, BrickMesh, outline_edges
-from fecolumn.mesh.quality import MassProperties
+from fecolumn.mesh.mass import MassProperties
 
 #: Master of a contact that is no body.
 GROUND = -1

@@ -15,7 +15,7 @@ from fecolumn.engines.scene.state_fields import (
     SwayingFloors,
 )
 from fecolumn.mesh.bricks import BASE, FACES, outer_faces
-from fecolumn.mesh.quality import MassProperties
+from fecolumn.mesh.mass import MassProperties
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.feet import ball_of
 from fecolumn.structures.model import StructureModel

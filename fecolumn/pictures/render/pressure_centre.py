@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.mesh.quality import MassProperties
+from fecolumn.mesh.mass import MassProperties
 from fecolumn.pictures.render.pose import Poses
 
 # Share of the weight [-] below which the base's push says nothing of where it acts: the column is

@@ -1,0 +1,116 @@
+"""What is in a file of a motion, and what is odd about it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fecolumn.case.sections import GRAVITY
+from fecolumn.motions.processing import integrate
+from fecolumn.motions.record import METRES_PER_S2, GroundMotion, Recording
+
+# [g]: peaks of ground motions that are worth an analysis lie between; none was recorded beyond
+_LIKELY, _RECORDED = (0.005, 3.0), 5.0
+# Of the peak velocity: what may be left at the end of a record without drift
+_LEFT = 0.1
+# Seconds of one value without change that are a gap, and of the peak that are a clipped record
+_GAP_S, _CLIPPED = 0.5, 4
+
+
+def file_lines(recording: Recording, dt: float) -> list[str]:
+    """Lines on a file: format, samples, components, unit; and, where it states none, the peak in
+    each unit.
+    """
+    axes = ", ".join(f"a{axis}" for axis in recording.axes if axis)
+    told = f" ({axes})" if axes else "; its axis is that of the key it stands under"
+    kind = recording.format or "record of an ensemble"
+    lines = [
+        f"{recording.name}: {kind}, {len(recording.values)} samples, dt {dt:g} s, "
+        f"{(len(recording.values) - 1) * dt:g} s long",
+        f"components: {len(recording.axes)}{told}",
+        f"unit: {recording.units or 'not stated'}",
+    ]
+    if recording.source and recording.source != recording.name:
+        lines.append(f"source: {recording.source[:300]}")
+    return lines
+
+
+def peaks_by_unit(recording: Recording) -> str:
+    """The peak of a record without a unit in each unit that there is."""
+    peak = float(np.abs(recording.values).max())
+    told, likely = [], []
+    for unit, metres in METRES_PER_S2.items():
+        in_g = peak * metres / GRAVITY
+        told.append(f"{in_g:.3g} g in {unit}")
+        if _LIKELY[0] <= in_g <= _LIKELY[1]:
+            likely.append(unit)
+    what = f"; {' or '.join(likely)} would make a ground motion" if likely else ""
+    return f"peak: {peak:.4g} as it stands, that is {', '.join(told)}{what}"
+
+
+def peak_lines(motion: GroundMotion) -> list[str]:
+    """A line on the peaks of each component along which the ground moves."""
+    velocity, displacement = integrate(motion)
+    lines = []
+    for axis, name in enumerate("xyz"):
+        if motion.acceleration[:, axis].any():
+            pga, pgv, pgd = (
+                float(np.abs(one[:, axis]).max())
+                for one in (motion.acceleration, velocity, displacement)
+            )
+            lines.append(
+                f"a{name}: PGA {pga / GRAVITY:.4g} g ({pga:.4g} m/s2), PGV {100 * pgv:.4g} cm/s, "
+                f"PGD {100 * pgd:.4g} cm"
+            )
+    return lines or ["the ground does not move"]
+
+
+def oddities(motion: GroundMotion) -> list[str]:
+    """What a user should know of before an analysis: unit, drift, gaps, clipping; and ways out."""
+    velocity, displacement = integrate(motion)
+    found = []
+    for axis, name in enumerate("xyz"):
+        a, v, u = (one[:, axis] for one in (motion.acceleration, velocity, displacement))
+        peak = float(np.abs(a).max())
+        if not peak:
+            continue
+        if peak > _RECORDED * GRAVITY:
+            found.append(
+                f"a{name}: {peak / GRAVITY:.3g} g is more than was ever recorded: another unit?"
+            )
+        elif peak < _LIKELY[0] * GRAVITY:
+            found.append(f"a{name}: {peak / GRAVITY:.3g} g is hardly felt: another unit?")
+        found += _drift(name, v, u)
+        found += _stillness(name, a, motion.dt)
+    return found
+
+
+def _drift(name: str, v: NDArray[Any], u: NDArray[Any]) -> list[str]:
+    end = v[-max(2, len(v) // 50) :].mean()
+    if abs(end) <= _LEFT * np.abs(v).max():
+        return []
+    return [
+        f"a{name}: drifts: integrated from rest it ends at {100 * end:.3g} cm/s and {u[-1]:.3g} m; "
+        "fecolumn motions correct takes the drift out"
+    ]
+
+
+def _stillness(name: str, a: NDArray[Any], dt: float) -> list[str]:
+    """Runs of one value: a gap within the motion, or a peak cut off by the recorder."""
+    edges = np.flatnonzero(np.diff(a) != 0)
+    bounds = np.concatenate([[-1], edges, [len(a) - 1]])
+    lengths = np.diff(bounds)
+    inner = np.arange(1, len(lengths) - 1)  # rest before and after is no gap
+    found = []
+    if len(inner) and lengths[inner].max() * dt >= _GAP_S:
+        run = int(inner[lengths[inner].argmax()])
+        found.append(
+            f"a{name}: a gap: {lengths[run] * dt:.3g} s of one value, {a[bounds[run] + 1]:.3g} "
+            f"m/s2, from t = {(bounds[run] + 1) * dt:.4g} s"
+        )
+    top = np.flatnonzero(np.abs(a) == np.abs(a).max())
+    if len(top) >= _CLIPPED and (np.diff(top) == 1).sum() >= _CLIPPED - 1:
+        found.append(f"a{name}: clipped: its peak lasts {len(top)} samples")
+    return found
