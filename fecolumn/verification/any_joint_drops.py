@@ -98,7 +98,7 @@ def _falls(engine: str, restitution: float, lean: float, direction: float, plate
         joints=joints,
         contact=dict(friction_coefficient=0.7, interior_points=0),
         integration=dict(engine=engine, dt_s=dt, duration_s=5.0)
-        | (dict(n_modes=5) if engine == "reduced" else {}),
+        | (dict(n_modes=10) if engine == "reduced" else {}),
     )
     if lean:
         tables["initial"] = dict(block=dict(tilt_rad=lean, direction_deg=direction))
