@@ -220,9 +220,7 @@ def find_impact(
         jump = mobility @ carried
         for j in range(3 * k):
             velocity[j], guess_of_all[j] = free[j] + jump[j], given[j] - carried[j]
-        second, solved = _flat_impulses(
-            mobility, velocity, friction, guess_of_all, speed, counts
-        )
+        second, solved = _flat_impulses(mobility, velocity, friction, guess_of_all, speed, counts)
         if not solved:
             return IMPACT_FAILED, False, impulses
         # judged by velocities relative to the master: whether contact takes energy must not depend

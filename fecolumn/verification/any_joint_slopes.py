@@ -30,7 +30,7 @@ def slope_rows(engine: str):
         each = OFF * GRAVITY * np.sin(angle)
         for direction in _DIRECTIONS:
             limit = np.tan(angle)
-            one = accelerations(slope(engine, degrees, limit * (1 - OFF), direction), "block")
+            one = acceleration_of(slope(engine, degrees, limit * (1 - OFF), direction), "block")
             slides.append(np.linalg.norm(one) / each - 1)
             less, more = limit * (1 - OFF), limit * (1 + OFF)
             stays.append(_creeps(slope(engine, degrees, more, direction, "rest"), 0.0) / each)
@@ -40,7 +40,7 @@ def slope_rows(engine: str):
                 exact = GRAVITY * (1 - share) * np.sin(angle)
                 made = slope(engine, degrees, share * limit, direction)
                 far.append(
-                    np.linalg.norm(accelerations(made, "block", 0.02)) / GRAVITY - exact / GRAVITY
+                    np.linalg.norm(acceleration_of(made, "block", 0.02)) / GRAVITY - exact / GRAVITY
                 )
     told = "block on slopes of 10, 25, 40 deg, falling along x, y and askew"
     yield Row(
@@ -119,7 +119,7 @@ def places(made, name: str, waits: float, each: float) -> np.ndarray:
     return np.array(found)
 
 
-def accelerations(made, name: str, each: float = 0.1) -> np.ndarray:
+def acceleration_of(made, name: str, each: float = 0.1) -> np.ndarray:
     """Acceleration (3,) [m/s2] of a body, by second differences of its places: at the start its
     contact gives way by nanometres, which is over by then.
     """

@@ -4,11 +4,13 @@ friction it sinks or is squeezed up, and how fast.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
-from fecolumn.verification.any_joint_slopes import OFF, accelerations, begun, places
+from fecolumn.verification.any_joint_slopes import OFF, acceleration_of, begun, places
 from fecolumn.verification.result import Row
 
 #: By how much a thrust or a friction is farther within its limit than OFF, and far within it
@@ -22,6 +24,8 @@ _SQUEEZED = ((35.0, 0.3), (50.0, 0.5))
 _JAMMED, _JAMS = 1e3, (10.0, 20.0)
 # Young's modulus [Pa] of elastic wedges and of stiff ones, area [m2] of a face where they touch
 _STONE, _STIFF, _FACE = 200e9, 50e12, 0.4 * 0.4
+#: Slope [rad], friction, thrust over the weight, and 1 where the wedge sinks, -1 where it rises
+Trial = tuple[float, float, float, int]
 
 
 def wedge_rows(engine: str):
@@ -40,10 +44,8 @@ def thrust_limits(slope: float, friction: float) -> tuple[float, float]:
     return 1 / (2 * np.tan(slope + phi)) if slope + phi > 0 else np.inf, up
 
 
-def _by_thrust(off: float):
-    """Wedges whose thrust is within the limit at which they move by a share of it: slope [rad],
-    friction, thrust over the weight, and 1 where it sinks, -1 where it is squeezed up.
-    """
+def _by_thrust(off: float) -> Iterator[Trial]:
+    """Wedges whose thrust is within the limit at which they move by a share of it."""
     for kinds, way in ((_SINKING, 1), (_SQUEEZED, -1)):
         for degrees, friction in kinds:
             slope = np.radians(degrees)
@@ -51,7 +53,7 @@ def _by_thrust(off: float):
             yield float(slope), friction, limit * (1 - way * off), way
 
 
-def _by_friction(off: float):
+def _by_friction(off: float) -> Iterator[Trial]:
     """As `_by_thrust`, whose friction is within the limit: widening downwards a wedge falls below
     mu = tan(theta) and a little, narrowing it is squeezed up below mu = tan(theta) less a little.
     """
@@ -89,7 +91,7 @@ def _thrust_rows(engine: str):
         "the same, 1e-6 outside, from rest: velocity in the first second over that 1e-6 within "
         "after one, largest",
         0.0,
-        max(crept),
+        float(max(crept)),
         1e-3,
     )
 
@@ -122,7 +124,7 @@ def _jam_rows(engine: str):
         yield Row(
             f"{told}: friction of the limit off that of statics, over the strain by the thrust",
             0.0,
-            np.abs(off).max() / strain,
+            float(np.abs(off).max()) / strain,
             2.0,
         )
         off = [_limit(engine, two, 0.01, _STIFF) for two in _two(_by_friction, 1e-3, 2e-3)]
@@ -141,17 +143,17 @@ def _jam_rows(engine: str):
         "the same, 1e-6 outside, begun as drawn: velocity in the third second over that 1e-6 "
         "within after one, largest",
         0.0,
-        max(crept),
+        float(max(crept)),
         1e-3,
     )
 
 
-def _two(kinds, *offs: float):
+def _two(kinds: Callable, first: float, second: float) -> Iterator[tuple[Trial, Trial]]:
     """Pairs of wedges that are so far within their limits."""
-    return zip(*map(kinds, offs))
+    return zip(kinds(first), kinds(second))
 
 
-def _limit(engine: str, two, each: float, modulus: float) -> float:
+def _limit(engine: str, two: tuple[Trial, Trial], each: float, modulus: float) -> float:
     """By how much the limit of two wedges is off, where their accelerations, on a line, say that it
     is; they are a thousandth and two within it. modulus: Young's [Pa].
     """
@@ -161,7 +163,7 @@ def _limit(engine: str, two, each: float, modulus: float) -> float:
     return 1e-3 - one * 1e-3 / (other - one)
 
 
-def _limit_rows(engine: str, kinds, told: str, what: str):
+def _limit_rows(engine: str, kinds: Callable, told: str, what: str):
     """Where accelerations OFF and FARTHER within the limit, on a line, say that the limit is, and
     the first beside the closed form.
     """
@@ -184,9 +186,9 @@ def _limit_rows(engine: str, kinds, told: str, what: str):
     )
 
 
-def _upwards(made, each: float, trial) -> float:
+def _upwards(made, each: float, trial: Trial) -> float:
     """Acceleration [m/s2] of the wedge the way it goes."""
-    return float(accelerations(made, "wedge", each)[2] * -trial[3])
+    return float(acceleration_of(made, "wedge", each)[2] * -trial[3])
 
 
 def _stands(engine: str, slope: float, friction: float, thrust: float) -> bool:
