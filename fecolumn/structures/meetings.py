@@ -57,14 +57,32 @@ class _Gap:
 
 
 def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
-    """Meetings of all interfaces of a case, in its order.
+    """Meetings of all interfaces of a case, in its order. One that names two single bodies stands
+    for what they meet in, beside another that names more.
 
     Raises
     ------
     InputError
-        an interface whose bodies have no faces that touch or look at one another, or overlap.
+        an interface whose bodies have no faces that touch or look at one another, or overlap; or
+        for all of whose meetings others stand.
     """
-    return [meeting for name in case.joints for meeting in _of_interface(case, name, faces, file)]
+    found = {name: _of_interface(case, name, faces, file) for name in case.joints}
+    single = {name for name, one in case.joints.items() if _is_single(case, one.slave, one.on)}
+    named = {frozenset((one.slave, one.master)) for name in single for one in found[name]}
+    for name in found:
+        if name not in single:
+            found[name] = [
+                one for one in found[name] if frozenset((one.slave, one.master)) not in named
+            ]
+        if not found[name]:
+            told = "must be left out: others name what its bodies meet in, two by two"
+            raise InputError(file, f"joints.{name}", None, told)
+    return [meeting for meetings in found.values() for meeting in meetings]
+
+
+def _is_single(case, *names: str) -> bool:
+    """Whether names stand for one copy, or a ground, each."""
+    return all(name in case.grounds or len(case.copies_of(name)) == 1 for name in names)
 
 
 def _of_interface(case, name: str, faces, file) -> list[Meeting]:
