@@ -340,7 +340,7 @@ def test_keys_that_a_voussoir_cannot_have_are_refused(name, own, words):
         _arch().replace({"bodies": {"ring": RING | STONE, name: own}})
 
 
-def test_a_joint_of_two_single_bodies_stands_beside_one_of_many():
+def test_a_joint_of_two_voussoirs_stands_beside_that_of_all():
     """The joint between voussoirs 3 and 4 is smoother than the others."""
     joints = dict(_arch().tables()["joints"])
     smooth = dict(between=["ring 3", "ring 4"], friction_coefficient=0.2)
