@@ -83,7 +83,7 @@ def differing(body, own: dict):
     return dataclasses.replace(body, **dict.fromkeys(left), **own)
 
 
-def own_of(body, made: Prism) -> dict | None:
+def own_keys(body, made: Prism) -> dict | None:
     """Keys in which a body differs from a voussoir of its arch; None where it is not one."""
     keys = [key for key in OWN if getattr(body, key, None) != getattr(made, key)]
     own = {key: getattr(body, key) for key in keys if getattr(body, key, None) is not None}

@@ -14,7 +14,7 @@ import typing
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fecolumn.case.arch import own_of, voussoirs, with_voussoirs, without_voussoirs
+from fecolumn.case.arch import own_keys, voussoirs, with_voussoirs, without_voussoirs
 from fecolumn.case.bodies import (
     GROUND,
     KINDS,
@@ -259,7 +259,7 @@ class Case:
         found: dict[str, typing.Any] = dict(self.bodies)
         for name, arch in self.arches.items():
             made = voussoirs(name, arch)
-            own = {key: own_of(found.get(key), body) for key, body in made.items()}
+            own = {key: own_keys(found.get(key), body) for key, body in made.items()}
             if None not in own.values():
                 own = {key: table for key, table in own.items() if table}
                 first, before, found = next(iter(made)), found, {}
