@@ -5,18 +5,45 @@ from __future__ import annotations
 import dataclasses
 import math
 
-from fecolumn.case.bodies import Arch, Placed, Prism
+from fecolumn.case.bodies import Arch, Placed, Prism, Solid
 from fecolumn.case.check_bodies import check_arch
-from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.schema import InputError, build
+
+#: Keys that a voussoir may have of its own
+OWN = tuple(one.name for one in dataclasses.fields(Solid) if one.name not in ("at_m", "copies_m"))
+# What a voussoir does not have from its arch, where it states a key
+_INSTEAD = {
+    "material": ("youngs_modulus_pa", "poissons_ratio", "density_kg_m3", "mass_kg"),
+    "density_kg_m3": ("mass_kg",),
+    "mass_kg": ("density_kg_m3",),
+}
+# A prism by which the keys of a voussoir are checked
+_ANY: dict = {"outline_m": [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], "width_m": 1.0}
 
 
-def with_voussoirs(bodies: dict[str, Placed], file) -> tuple[dict[str, Placed], dict[str, Arch]]:
-    """Bodies of a case with those of arches in the place of these, and the arches by name.
+def without_voussoirs(tables) -> tuple[dict, dict[str, dict]]:
+    """Tables of bodies, and of them those of single voussoirs, such as "arch 3" beside an arch."""
+    if not isinstance(tables, dict):
+        return tables, {}
+    own = {}
+    for name, table in tables.items():
+        arch = tables.get(name.rpartition(" ")[0])
+        if isinstance(arch, dict) and arch.get("kind") == "arch" and isinstance(table, dict):
+            own[name] = table
+    return {name: table for name, table in tables.items() if name not in own}, own
+
+
+def with_voussoirs(
+    bodies: dict[str, Placed], own: dict[str, dict], file
+) -> tuple[dict[str, Placed], dict[str, Arch]]:
+    """Bodies of a case with those of arches in the place of these, and the arches by name; own:
+    tables of single voussoirs.
 
     Raises
     ------
     InputError
-        an arch that cannot be, or a body that has the name of a voussoir.
+        an arch that cannot be, a body that has the name of a voussoir, or a voussoir that is none,
+        or says of itself what its arch does.
     """
 
     def refuse(key, value, allowed):
@@ -33,7 +60,34 @@ def with_voussoirs(bodies: dict[str, Placed], file) -> tuple[dict[str, Placed], 
         if twice := [one for one in made if one in bodies]:
             refuse(f"bodies.{twice[0]}", None, f"is the name of a voussoir of bodies.{name}")
         found |= made
+    for name, table in own.items():
+        arch = name.rpartition(" ")[0]
+        if arch in arches and name not in found:
+            refuse(f"bodies.{name}", None, f"no such voussoir: {arch} has {arches[arch].voussoirs}")
+        if not_own := [key for key in table if key not in OWN]:
+            refuse(
+                f"bodies.{name}",
+                None,
+                f"is a voussoir of bodies.{arch}, which says its {not_own[0]}; of its own are "
+                f"{', '.join(OWN)}",
+            )
+        if name in found:
+            checked = build(Prism, _ANY | table, file, f"bodies.{name}.")
+            found[name] = differing(found[name], {key: getattr(checked, key) for key in table})
     return found, arches
+
+
+def differing(body, own: dict):
+    """A voussoir with keys of its own."""
+    left = {key for one in own for key in _INSTEAD.get(one, ()) if key not in own}
+    return dataclasses.replace(body, **dict.fromkeys(left), **own)
+
+
+def own_keys(body, made: Prism) -> dict | None:
+    """Keys in which a body differs from a voussoir of its arch; None where it is not one."""
+    keys = [key for key in OWN if getattr(body, key, None) != getattr(made, key)]
+    own = {key: getattr(body, key) for key in keys if getattr(body, key, None) is not None}
+    return own if isinstance(body, Prism) and differing(made, own) == body else None
 
 
 def voussoirs(name: str, arch: Arch) -> dict[str, Prism]:

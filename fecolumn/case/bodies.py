@@ -310,7 +310,8 @@ class Prism(Solid):
 class Arch(Solid):
     """kind = "arch": a ring sector in the plane of x and z of equal voussoirs, prisms "NAME 1",
     "NAME 2" ... from from_deg on; NAME stands for all of them, in a joint between NAME and NAME for
-    neighbours. mass_kg is that of all.
+    neighbours. mass_kg is that of all. A table [bodies."NAME 3"] beside it has what differs of that
+    voussoir: its material, mass, mesh, whether it is fixed.
     """
 
     kind: str = parameter("arch", doc="what the body is", choices=("arch",))

@@ -14,7 +14,7 @@ import typing
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fecolumn.case.arch import voussoirs, with_voussoirs
+from fecolumn.case.arch import own_keys, voussoirs, with_voussoirs, without_voussoirs
 from fecolumn.case.bodies import (
     GROUND,
     KINDS,
@@ -250,25 +250,32 @@ class Case:
             if one.name == "bodies" and arches:
                 value = self._with_arches()
             if one.name in NAMED:
-                value = {key: _stated(section, defaults) for key, section in value.items()}
+                value = {
+                    key: section if isinstance(section, dict) else _stated(section, defaults)
+                    for key, section in value.items()
+                }
             elif dataclasses.is_dataclass(value):
                 value = _stated(value, defaults)
             if one.name not in ("own", "short", "arches") and value not in (None, {}, ""):
                 found[one.name] = value
         return found
 
-    def _with_arches(self) -> dict[str, Placed]:
-        """Bodies with an arch in the place of its voussoirs, where they are still those of it."""
-        found = dict(self.bodies)
+    def _with_arches(self) -> dict[str, typing.Any]:
+        """Bodies with an arch in the place of its voussoirs, where they are still those of it, and
+        after it the keys of voussoirs that have some of their own.
+        """
+        found: dict[str, typing.Any] = dict(self.bodies)
         for name, arch in self.arches.items():
             made = voussoirs(name, arch)
-            if all(found.get(key) == body for key, body in made.items()):
-                first = next(iter(made))
-                found = {
-                    name if key == first else key: arch if key == first else body
-                    for key, body in found.items()
-                    if key == first or key not in made
-                }
+            own = {key: own_keys(found.get(key), body) for key, body in made.items()}
+            if None not in own.values():
+                own = {key: table for key, table in own.items() if table}
+                first, before, found = next(iter(made)), found, {}
+                for key, body in before.items():
+                    if key == first:
+                        found |= {name: arch} | own
+                    elif key not in made:
+                        found[key] = body
         return found
 
     def _tables_of_model(self, defaults: bool) -> dict:
@@ -422,6 +429,8 @@ def structure_from_tables(tables: dict, file) -> Case:
                     f"its tables: {', '.join([*NAMED, *COMMON])}",
                 )
             )
+    bodies, own = without_voussoirs(tables.get("bodies", {}))
+    tables = tables | {"bodies": bodies}
     for name, kind in NAMED.items():
         found[name] = _named(name, kind, tables.get(name, {}), grounds, file, errors)
     for name, kind in COMMON.items():
@@ -438,7 +447,7 @@ def structure_from_tables(tables: dict, file) -> Case:
         if not isinstance(found[key], str):
             errors.append(InputError(file, key, found[key], "must be text in quotes"))
     try:
-        found["bodies"], found["arches"] = with_voussoirs(found["bodies"], file)
+        found["bodies"], found["arches"] = with_voussoirs(found["bodies"], own, file)
     except InputError as error:
         errors.append(error)
     if errors:

@@ -198,7 +198,7 @@ def find_impact(
                 early[i, a],
                 late[i, a],
             )
-    pushed = mobility @ given
+    pushed, speed = mobility @ given, np.inf if lands else _fastest(start, end)
     free = np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
@@ -218,14 +218,14 @@ def find_impact(
             for a in range(3):
                 carried_before[3 * j + a] = share * dt * before[union[j]].force[a]
         carried, solved = _held_impulses(
-            mobility, velocity, friction, held[:m], carried_before, counts
+            mobility, velocity, friction, held[:m], carried_before, speed, counts
         )
         if not solved:
             return IMPACT_FAILED, False, impulses
         jump = mobility @ carried
         for j in range(3 * k):
             velocity[j], guess_of_all[j] = free[j] + jump[j], given[j] - carried[j]
-        second, solved = _flat_impulses(mobility, velocity, friction, guess_of_all, counts)
+        second, solved = _flat_impulses(mobility, velocity, friction, guess_of_all, speed, counts)
         if not solved:
             return IMPACT_FAILED, False, impulses
         # judged by velocities relative to the master: whether contact takes energy must not depend
@@ -253,7 +253,7 @@ def find_impact(
         jump = mobility @ carried
         for j in range(3 * k):
             velocity[j] += jump[j]
-        blow, solved = _flat_impulses(mobility, velocity, friction, second, counts)
+        blow, solved = _flat_impulses(mobility, velocity, friction, second, speed, counts)
         if not solved:
             return IMPACT_FAILED, False, impulses
         for j in range(3 * k):
@@ -286,7 +286,7 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, counts)
         free[j] = end[j] - pushed[j]
     _between(start, free, moment, velocity)
     carried, solved = _held_impulses(
-        mobility, velocity, friction, marked(holds), np.zeros(3 * k), counts
+        mobility, velocity, friction, marked(holds), np.zeros(3 * k), np.inf, counts
     )
     if not solved:
         return 0.0, 0.0
@@ -295,12 +295,12 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, counts)
         velocity[j] += jump[j]
     for j in range(k):
         approach = max(approach, -velocity[3 * j + 2])
-    blow, solved = _flat_impulses(mobility, velocity, friction, given, counts)
+    blow, solved = _flat_impulses(mobility, velocity, friction, given, np.inf, counts)
     return (-_work(blow, velocity, mobility @ blow), approach) if solved else (0.0, 0.0)
 
 
 @njit
-def _held_impulses(mobility, velocity, friction, held, guess, counts):
+def _held_impulses(mobility, velocity, friction, held, guess, speed, counts):
     """Impulses (3 k,) of the points `held` (m,) alone, as `_impulses`; guess: (3 k,)."""
     m, impulses = len(held), np.zeros(len(velocity))
     inner, approach, start, mu = (
@@ -316,7 +316,7 @@ def _held_impulses(mobility, velocity, friction, held, guess, counts):
             for j in range(m):
                 for b in range(3):
                     inner[3 * i + a, 3 * j + b] = mobility[3 * held[i] + a, 3 * held[j] + b]
-    found, solved = _impulses(inner, approach, mu, start, counts)
+    found, solved = _impulses(inner, approach, mu, start, speed, counts)
     for i in range(m):
         for a in range(3):
             impulses[3 * held[i] + a] = found[i, a]
@@ -337,6 +337,15 @@ def _restitutions(interfaces, points, union, landing):
         k = points[union[j]].interface
         found[j] = interfaces[k].restitution if lands[k] else least
     return found
+
+
+@njit
+def _fastest(start, end):
+    """Largest of the velocities (3 k,) at both ends of a step [m/s], at least IMPACT_LEAST."""
+    most = IMPACT_LEAST
+    for j in range(len(start)):
+        most = max(most, abs(start[j]), abs(end[j]))
+    return most
 
 
 @njit
@@ -371,26 +380,30 @@ def _harmless(first, second, contact_work):
 
 
 @njit
-def _flat_impulses(mobility, velocity, friction, guess, counts):
+def _flat_impulses(mobility, velocity, friction, guess, speed, counts):
     """As `_impulses`, with flat arrays (3 k,)."""
     k = len(friction)
     approach, start = np.empty((k, 3)), np.empty((k, 3))
     put_points(velocity, approach)
     put_points(guess, start)
-    found, solved = _impulses(mobility, approach, friction, start, counts)
+    found, solved = _impulses(mobility, approach, friction, start, speed, counts)
     return flat(found), solved
 
 
 @njit
-def _impulses(mobility, velocity, friction, guess, counts):
+def _impulses(mobility, velocity, friction, guess, speed, counts):
     """Impulses (k, 3) of points with velocities (k, 3) [m/s] without them, and whether they obey
-    the laws, up to IMPACT_LEFT of the largest velocity.
+    the laws, up to IMPACT_LEFT of the largest velocity; speed: of the velocities that points have,
+    in place of that where it is less.
+
+    Where slip ends nothing approaches, and velocities without impulses tell no more than how hard
+    bodies are pressed together: a share of them would carry a slip on for ever.
 
     Each point gives a little against its impulse, a share of its own mobility, without which many
     impulses on a stiff foot are not unique. The velocity that this leaves is taken off in the next
     solution, which is close to the last one (proximal point, Rockafellar 1976).
     """
-    k, speed, turns = len(velocity), max(largest(velocity), IMPACT_LEAST), 0
+    k, free, turns = len(velocity), max(largest(velocity), IMPACT_LEAST), 0
     softened, asked, impulses, last, give = (
         mobility.copy(),
         velocity.copy(),
@@ -413,7 +426,7 @@ def _impulses(mobility, velocity, friction, guess, counts):
                 softened[3 * i + a, 3 * i + a] = mobility[3 * i + a, 3 * i + a] + give[i]
                 asked[i, a] = velocity[i, a] - give[i] * last[i, a]
         impulses, solved = _softened_impulses(
-            softened, asked, friction, impulses, IMPACT_SOLVED * speed, counts
+            softened, asked, friction, impulses, IMPACT_SOLVED * free, counts
         )
         if not solved:
             return last, turns > 0
@@ -421,7 +434,7 @@ def _impulses(mobility, velocity, friction, guess, counts):
         for i in range(k):
             for a in range(3):
                 left = max(left, give[i] * abs(impulses[i, a] - last[i, a]))
-        if left <= IMPACT_LEFT * speed:
+        if left <= IMPACT_LEFT * min(speed, free):
             break
         last = impulses
     return impulses, True

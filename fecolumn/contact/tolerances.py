@@ -125,7 +125,8 @@ IMPACT_SOLVED, IMPACT_LEAST = 1e-8, 1e-3
 #: the other: without it a stiff foot's many impulses are not unique. What the first one leaves
 #: closing is up to 4e-2 of the approach below a heavy slab, 6e-4 at a column's foot; each further
 #: one leaves as little of that. It ends where a solution changes velocities by less than this share
-#: of the largest. Of 105 recorded impacts none then closes by more than 6e-4 of its approach.
+#: of the largest: without impulses where points land, at the ends of the step where slip ends. Of
+#: 105 recorded impacts none then closes by more than 6e-4 of its approach.
 IMPACT_GIVES, IMPACT_LEFT = (1e-4, 1e-4, 1e-5, 1e-5, 1e-5), 1e-4
 #: For the energy that impacts take over that of rigid bodies (`reduced.rigid_loss`). Approach, over
 #: the largest before the impact, below which points no longer approach. Duration of an impact over

@@ -73,6 +73,15 @@ class FullAnalysis(OfStructure, Analysis):
         #: measured from there.
         self.standing = upright(case, self.structure)
         damped = [case.modes_of(name) for name in case.bodies for _ in case.names_of(name)]
+        flying = [part.name for part in self.structure.parts if part.airborne]
+        if flying and not begins_unstrained(case, self.structure):
+            raise InputError(
+                file,
+                "integration.start",
+                case.integration.start,
+                f'lets bodies begin at rest, and nothing holds "{flying[0]}" up: in full order say '
+                'start = "drawn", or take engine = "reduced"',
+            )
         plastic = case.contact.impact == "plastic"
         if not plastic and any(joint.pad for joint in self.structure.joints):
             raise InputError(

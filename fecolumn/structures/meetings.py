@@ -57,14 +57,41 @@ class _Gap:
 
 
 def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
-    """Meetings of all interfaces of a case, in its order.
+    """Meetings of all interfaces of a case, in its order. Beside one that names all voussoirs of an
+    arch, one that names two single bodies stands for what these meet in.
 
     Raises
     ------
     InputError
-        an interface whose bodies have no faces that touch or look at one another, or overlap.
+        an interface whose bodies have no faces that touch or look at one another, or overlap; or
+        for all of whose meetings others stand.
     """
-    return [meeting for name in case.joints for meeting in _of_interface(case, name, faces, file)]
+    found = {name: _of_interface(case, name, faces, file) for name in case.joints}
+    of_arches = [name for name, one in case.joints.items() if _is_arch(case, one.slave, one.on)]
+    single = {
+        frozenset((one.slave, one.master))
+        for name in found
+        if name not in of_arches
+        for one in found[name]
+    }
+    for name in of_arches:
+        found[name] = [
+            one for one in found[name] if frozenset((one.slave, one.master)) not in single
+        ]
+        if not found[name]:
+            told = "must be left out: others name what its bodies meet in, two by two"
+            raise InputError(file, f"joints.{name}", None, told)
+    return [meeting for meetings in found.values() for meeting in meetings]
+
+
+def _is_arch(case, *names: str) -> bool:
+    """Whether one of the names stands for all voussoirs of an arch."""
+    return any(name not in case.grounds and not _is_body(case, name) for name in names)
+
+
+def _is_body(case, name: str) -> bool:
+    """Whether a name is that of a body or of one of its copies."""
+    return name in case.bodies or name.rpartition(" ")[0] in case.bodies
 
 
 def _of_interface(case, name: str, faces, file) -> list[Meeting]:

@@ -25,7 +25,7 @@ CASES = {
     "ledger": (*FULL, "reduced"),
     "several_bodies": ("rigid",),
     "joints": ("corotated", *REDUCED),
-    "any_joint": ("rigid",),
+    "any_joint": REDUCED,
     "structures": ("reduced",),
     "structures_feet": REDUCED,
     "full_structures": ("corotated",),

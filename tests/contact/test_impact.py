@@ -12,6 +12,7 @@ from fecolumn.contact.pad import no_pads
 from fecolumn.contact.points import BASE, CONTACT, node_points
 from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import N_COUNTS, OK
+from fecolumn.contact.tolerances import IMPACT_LEFT
 from fecolumn.contact.work import book_impulses
 
 DT = 1e-4
@@ -384,3 +385,39 @@ def test_a_frame_keeps_what_the_theory_of_rocking_frames_says(slab):
     assert answer == OK and left[:, 2].max() / -velocity[:, 2].min() == pytest.approx(
         kept, abs=5e-3 * (1 - kept)
     )
+
+
+@pytest.mark.parametrize("thrust", [1e2, 1e4, 1e6])
+def test_slip_ends_whatever_the_thrust_under_which_it_ended(thrust):
+    """A mass of 1 kg that slid at 1 mm/s under a thrust sticks by the end of the step, to
+    IMPACT_LEFT of the velocities that it had, not of those that the thrust alone would give it.
+    """
+    place, step, speed, mu = np.zeros((1, 3)), 1e-3, 1e-3, 0.5
+    points = node_points(place, 0.0, master=BASE)
+    points["friction"] = mu
+    interface = interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]]), master=points["master"][0])
+    before, after = np.zeros(1, CONTACT), np.zeros(1, CONTACT)
+    before["force"], after["force"] = [-mu * thrust, 0, thrust], [-speed / step, 0, thrust]
+    listed, late = np.arange(1), np.zeros((1, 3))
+    answer, pushed, impulses = find_impact(
+        body(1.0, place),
+        NO_BASE,
+        points,
+        interface,
+        no_pads(np.zeros((1, 3))),
+        listed,
+        place.copy(),
+        poses_on_base(np.eye(3)[None]),
+        before,
+        after,
+        np.array([[speed, 0, 0]]),
+        late,
+        np.zeros(1, bool),
+        np.ones(1, bool),
+        np.nan,
+        step,
+        -1.0,
+        np.zeros(N_COUNTS, np.int64),
+    )
+    assert answer == OK and pushed
+    assert np.abs(late + impulses).max() < 2 * IMPACT_LEFT * speed

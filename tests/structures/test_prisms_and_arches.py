@@ -286,3 +286,70 @@ def test_an_arch_stands_from_the_thickness_of_limit_analysis_on(count, least):
         else:
             with pytest.raises(InputError, match="cannot rest"):
                 structure_model(case)
+
+
+def _differing(**own):
+    """An arch whose third voussoir has keys of its own."""
+    return _arch().replace({"bodies": {"ring": RING | STONE, "ring 3": own}})
+
+
+def test_a_voussoir_may_have_a_material_of_its_own_and_the_case_is_written_so():
+    case = _differing(density_kg_m3=1500.0, youngs_modulus_pa=5e9)
+    plain = _arch()
+    assert case.bodies["ring 3"].density_kg_m3 == 1500.0
+    assert {one: case.bodies[one] for one in plain.bodies if one != "ring 3"} == {
+        one: body for one, body in plain.bodies.items() if one != "ring 3"
+    }
+    assert case.bodies["ring 3"].outline_m == plain.bodies["ring 3"].outline_m
+    assert case.tables(defaults=False)["bodies"]["ring 3"] == dict(
+        density_kg_m3=1500.0, youngs_modulus_pa=5e9
+    )
+    assert set(case.tables()["bodies"]) == {"ring", "ring 3"}
+    again = case_from_tables(full_form(case), "arch.toml")
+    assert again == case and again.id == case.id != plain.id
+    thicker = case.replace({"bodies.ring.thickness_m": 0.4})
+    assert thicker.bodies["ring 3"].density_kg_m3 == 1500.0
+    assert len(structure_model(case).parts) == 7
+
+
+def test_a_key_of_a_voussoir_stands_instead_of_those_of_its_arch_that_say_the_same():
+    light = _differing(mass_kg=10.0).bodies["ring 3"]
+    assert light.mass_kg == 10.0 and light.density_kg_m3 is None
+    made = _arch().replace(
+        {
+            "materials.tuff": dict(density_kg_m3=1300.0, youngs_modulus_pa=4e9),
+            "bodies": {"ring": RING | STONE, "ring 3": dict(material="tuff")},
+        }
+    )
+    assert made.bodies["ring 3"].material == "tuff"
+    assert made.bodies["ring 3"].density_kg_m3 is None
+
+
+@pytest.mark.parametrize(
+    "name, own, words",
+    [
+        ("ring 3", dict(thickness_m=0.2), "bodies.ring 3: is a voussoir.*which says its thickness"),
+        ("ring 3", dict(at_m=[0, 0, 1]), "which says its at_m; of its own are modes, damping"),
+        ("ring 3", dict(density_kg_m3=-1.0), "bodies.ring 3.density_kg_m3 = -1.0: must be"),
+        ("ring 8", dict(density_kg_m3=1e3), "bodies.ring 8: no such voussoir: ring has 7"),
+        ("ring 3", dict(material="jade"), "bodies.ring 3.material.*no such table"),
+    ],
+)
+def test_keys_that_a_voussoir_cannot_have_are_refused(name, own, words):
+    with pytest.raises(InputError, match=words):
+        _arch().replace({"bodies": {"ring": RING | STONE, name: own}})
+
+
+def test_a_joint_of_two_voussoirs_stands_beside_that_of_all():
+    """The joint between voussoirs 3 and 4 is smoother than the others."""
+    joints = dict(_arch().tables()["joints"])
+    smooth = dict(between=["ring 3", "ring 4"], friction_coefficient=0.2)
+    for order in ({"smooth": smooth} | joints, joints | {"smooth": smooth}):
+        model = structure_model(_arch().replace({"joints": order}))
+        found = {
+            tuple(sorted((model.parts[one.slave].name, model.parts[one.master].name))): one.friction
+            for one in model.joints
+            if one.master >= 0
+        }
+        assert len(found) == 6
+        assert {pair for pair, mu in found.items() if mu == 0.2} == {("ring 3", "ring 4")}
