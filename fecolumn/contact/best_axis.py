@@ -203,6 +203,23 @@ def _over_edges(hulls, a, b, relation, enough):
 
 
 @njit(alone=TOGETHER)
+def _gap_of_edges(hulls, a, b, relation, first, second):
+    """Distance [m] of an edge of body a and one of body b along their perpendicular: the separation
+    along it where no other corner reaches farther. The edges of a prism that are parallel to one
+    of the two have the same perpendicular.
+    """
+    x, y, z, _ = perpendicular(hulls, a, b, relation, first, second)
+    T, s = relation.turn, relation.shift
+    p = hulls.corners[hulls.first[a, 0] + hulls.ends[hulls.first[a, 2] + first, 0]]
+    q = hulls.corners[hulls.first[b, 0] + hulls.ends[hulls.first[b, 2] + second, 0]]
+    return (
+        x * (T[0, 0] * q[0] + T[0, 1] * q[1] + T[0, 2] * q[2] + s[0] - p[0])
+        + y * (T[1, 0] * q[0] + T[1, 1] * q[1] + T[1, 2] * q[2] + s[1] - p[1])
+        + z * (T[2, 0] * q[0] + T[2, 1] * q[1] + T[2, 2] * q[2] + s[2] - p[2])
+    )
+
+
+@njit(alone=TOGETHER)
 def largest_separation(hulls, a, b, relation):
     """Largest separation of bodies a and b [m], the kind of its axis and its face or edges, -1
     where there is none; relation: of `relate`.
@@ -233,8 +250,13 @@ def choose_axis(hulls, a, b, relation, enough, kind, first, second, before):
     most, face_a, face_b = _over_faces(hulls, a, b, relation, enough, band)
     if most <= enough:
         edges, edge_a, edge_b = _over_edges(hulls, a, b, relation, most + band)
-        # one pair of edges stays until a face is nearly as good
-        if kind == TWO_EDGES and before > most + band / 2 and (edge_a < 0 or before > edges - band):
+        # one pair of edges stays until a face is nearly as good, or others along them are nearer
+        if (
+            kind == TWO_EDGES
+            and before > most + band / 2
+            and (edge_a < 0 or before > edges - band)
+            and _gap_of_edges(hulls, a, b, relation, first, second) < before + band
+        ):
             return before, kind, first, second
         if edge_a >= 0:
             return edges, TWO_EDGES, edge_a, edge_b

@@ -321,3 +321,20 @@ def test_compiled_code_finds_what_plain_python_finds():
     assert len(compiled) == len(plain) > 200
     for one, other in zip(compiled, plain):
         assert one == pytest.approx(other, abs=1e-12)
+
+
+def test_edges_of_a_bar_that_turns_about_its_length_take_turns():
+    """All four long edges of a bar have one perpendicular with an edge of another bar: the one that
+    is nearest is that of the contact, also where the bar turns past a face within a step.
+    """
+    bar, rotations = box(2.0, 0.1, 0.1), np.zeros((2, 3, 3))
+    w, rotations[0] = world(bar, bar), turned(np.pi / 4, 0, 0)
+    centers, names = np.array([[0, 0, 0], [0, 0, np.sqrt(0.5) * 0.1 + 0.053]]), set()
+    for roll in np.arange(-0.75, 0.8, 0.1):
+        rotations[1] = turned(0, 0, np.pi / 3) @ turned(roll, 0, 0)
+        step(w, centers, rotations, 0.1)
+        row, places = row_of(w, 0, 1)
+        assert row.kind == TWO_EDGES and len(places) == 1
+        assert places["gap"][0] == pytest.approx(row.separation, abs=OTHER_AXIS * 0.1)
+        names.add(tuple(row.feature))
+    assert len(names) == 2

@@ -78,6 +78,8 @@ def lay_found(structure, dt, work, start, end):
     find_boxes(found.hulls, centers, start.rotation, margins, found.boxes)
     count = find_pairs(found.hulls, found.boxes, found.left_out, found.pairs)
     count = add_grounds(found.hulls, found.boxes, places, found.axes, found.pairs, count)
+    if count <= len(found.pairs):
+        count = _without_held(structure, count)
     if count > len(found.pairs) or keep_rows(end.meetings, found.pairs[:count]) > 0:
         return NO_ROOM
     find_meetings(
@@ -101,6 +103,20 @@ def lay_found(structure, dt, work, start, end):
         # the operator is that of other points
         work.stick.key[1] = 0.0
     return OK
+
+
+@njit
+def _without_held(structure, count):
+    """Take the pairs of a ground and a body that a ground holds from the first `count`, which are
+    not to be pushed apart; how many are left.
+    """
+    pairs, left = structure.found.pairs, 0
+    for k in range(count):
+        if pairs[k, 0] < 0 and structure.bodies.body[pairs[k, 1]].held >= 0:
+            continue
+        pairs[left, 0], pairs[left, 1] = pairs[k, 0], pairs[k, 1]
+        left += 1
+    return left
 
 
 @njit

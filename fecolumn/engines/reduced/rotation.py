@@ -71,51 +71,125 @@ def turning(body, advance, rotation, half, spread, resistance, turn, moment, hal
     moment, halfway
         results; the moment in the column's frame at the start.
     """
-    momentum, part, inertia, inverse = np.empty(3), np.empty(3), body.inertia, body.inverse_inertia
+    momentum, value, change = np.empty(3), np.empty(3), 0.0
     for i in range(3):
         momentum[i] = 0.5 * (
-            inertia[i, 0] * advance[0] + inertia[i, 1] * advance[1] + inertia[i, 2] * advance[2]
+            body.inertia[i, 0] * advance[0]
+            + body.inertia[i, 1] * advance[1]
+            + body.inertia[i, 2] * advance[2]
         )
     for _ in range(50):
-        x, y, z = turn[0], turn[1], turn[2]
-        quarter = (x * x + y * y + z * z) / 4
-        sinc = (
-            1 - quarter / 6 * (1 - quarter / 20)
-            if quarter < 1e-4
-            else np.sin(np.sqrt(quarter)) / np.sqrt(quarter)
+        _turn_by_turn(
+            body,
+            advance,
+            momentum,
+            rotation,
+            half,
+            spread,
+            resistance,
+            turn,
+            moment,
+            halfway,
+            value,
         )
-        part[0], part[1], part[2] = x / 2, y / 2, z / 2
-        turn_by(rotation, part, halfway)
-        # arms turned into the table frame: B = Rh spread
-        m0 = m1 = m2 = 0.0
-        for a in range(3):
-            m0 += halfway[1, a] * spread[a, 2] - halfway[2, a] * spread[a, 1]
-            m1 += halfway[2, a] * spread[a, 0] - halfway[0, a] * spread[a, 2]
-            m2 += halfway[0, a] * spread[a, 1] - halfway[1, a] * spread[a, 0]
-        for i in range(3):
-            moment[i] = (
-                sinc * (rotation[0, i] * m0 + rotation[1, i] * m1 + rotation[2, i] * m2)
-                + resistance[i]
-            )
-        b0, b1, b2 = (
-            momentum[0] + half * moment[0],
-            momentum[1] + half * moment[1],
-            momentum[2] + half * moment[2],
-        )
-        # exp(-Th) b
-        square = x * x + y * y + z * z
-        if square < 1e-8:
-            s, c = 1 - square / 6, 0.5 - square / 24
-        else:
-            angle = np.sqrt(square)
-            s, c = np.sin(angle) / angle, (1 - np.cos(angle)) / square
-        k0, k1, k2 = y * b2 - z * b1, z * b0 - x * b2, x * b1 - y * b0
-        l0, l1, l2 = y * k2 - z * k1, z * k0 - x * k2, x * k1 - y * k0
-        b0, b1, b2 = b0 - s * k0 + c * l0, b1 - s * k1 + c * l1, b2 - s * k2 + c * l2
         change = 0.0
         for i in range(3):
-            new = 0.5 * advance[i] + inverse[i, 0] * b0 + inverse[i, 1] * b1 + inverse[i, 2] * b2
-            change = max(change, abs(new - turn[i]))
-            turn[i] = new
+            change = max(change, abs(value[i] - turn[i]))
+            turn[i] = value[i]
         if change <= 1e-17 + 2e-16 * (abs(turn[0]) + abs(turn[1]) + abs(turn[2])):
+            return
+    if change <= 1e-12 * (abs(turn[0]) + abs(turn[1]) + abs(turn[2])):
+        return
+    # a slender body that turns fast: Newton's method from the turn of a body that nothing moves
+    slope, other = np.empty((3, 3)), np.empty(3)
+    for i in range(3):
+        turn[i] = advance[i]
+    for _ in range(50):
+        _turn_by_turn(
+            body,
+            advance,
+            momentum,
+            rotation,
+            half,
+            spread,
+            resistance,
+            turn,
+            moment,
+            halfway,
+            value,
+        )
+        most = 1e-17 + abs(turn[0]) + abs(turn[1]) + abs(turn[2])
+        small, change = 1e-7 * most, 0.0
+        for k in range(3):
+            kept, turn[k] = turn[k], turn[k] + small
+            _turn_by_turn(
+                body,
+                advance,
+                momentum,
+                rotation,
+                half,
+                spread,
+                resistance,
+                turn,
+                moment,
+                halfway,
+                other,
+            )
+            turn[k] = kept
+            for i in range(3):
+                slope[i, k] = (i == k) - (other[i] - value[i]) / small
+        for i in range(3):
+            value[i] -= turn[i]
+        found = np.linalg.solve(slope, value)
+        for i in range(3):
+            change = max(change, abs(found[i]))
+            turn[i] += found[i]
+        if change <= 1e-14 * most:
             break
+    _turn_by_turn(
+        body, advance, momentum, rotation, half, spread, resistance, turn, moment, halfway, value
+    )
+
+
+@njit
+def _turn_by_turn(
+    body, advance, momentum, rotation, half, spread, resistance, turn, moment, halfway, value
+):
+    """The right side of the equation of `turning` at a turn, put into value (3,)."""
+    part, inverse = np.empty(3), body.inverse_inertia
+    x, y, z = turn[0], turn[1], turn[2]
+    quarter = (x * x + y * y + z * z) / 4
+    sinc = (
+        1 - quarter / 6 * (1 - quarter / 20)
+        if quarter < 1e-4
+        else np.sin(np.sqrt(quarter)) / np.sqrt(quarter)
+    )
+    part[0], part[1], part[2] = x / 2, y / 2, z / 2
+    turn_by(rotation, part, halfway)
+    # arms turned into the table frame: B = Rh spread
+    m0 = m1 = m2 = 0.0
+    for a in range(3):
+        m0 += halfway[1, a] * spread[a, 2] - halfway[2, a] * spread[a, 1]
+        m1 += halfway[2, a] * spread[a, 0] - halfway[0, a] * spread[a, 2]
+        m2 += halfway[0, a] * spread[a, 1] - halfway[1, a] * spread[a, 0]
+    for i in range(3):
+        moment[i] = (
+            sinc * (rotation[0, i] * m0 + rotation[1, i] * m1 + rotation[2, i] * m2) + resistance[i]
+        )
+    b0, b1, b2 = (
+        momentum[0] + half * moment[0],
+        momentum[1] + half * moment[1],
+        momentum[2] + half * moment[2],
+    )
+    # exp(-Th) b
+    square = x * x + y * y + z * z
+    if square < 1e-8:
+        s, c = 1 - square / 6, 0.5 - square / 24
+    else:
+        angle = np.sqrt(square)
+        s, c = np.sin(angle) / angle, (1 - np.cos(angle)) / square
+    k0, k1, k2 = y * b2 - z * b1, z * b0 - x * b2, x * b1 - y * b0
+    l0, l1, l2 = y * k2 - z * k1, z * k0 - x * k2, x * k1 - y * k0
+    b0, b1, b2 = b0 - s * k0 + c * l0, b1 - s * k1 + c * l1, b2 - s * k2 + c * l2
+    for i in range(3):
+        value[i] = 0.5 * advance[i] + inverse[i, 0] * b0 + inverse[i, 1] * b1 + inverse[i, 2] * b2
