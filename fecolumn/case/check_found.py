@@ -39,6 +39,15 @@ def check_found(case, refuse, check_name) -> None:
                 ground.kind,
                 f"must be rigid beside {_KEY}: where bodies fall to, no ground is meshed",
             )
+    levels: dict[float, str] = {}
+    for name, ground in case.grounds.items():
+        if (first := levels.setdefault(ground.level_m, name)) != name:
+            refuse(
+                f"grounds.{name}.level_m",
+                ground.level_m,
+                f"must differ from that of grounds.{first} beside {_KEY}: there each ground is a "
+                "plane without end",
+            )
     bodies = dict.fromkeys(name for name, _ in case.found)
     for name in bodies:
         _check_body(name, case.bodies[name], refuse)

@@ -13,10 +13,14 @@ from fecolumn.structures.model import GROUND, StructureModel
 
 # Way of a body between two looks, over the thickness of the thinnest one: none is passed unseen
 _WAY = 0.2
+# Depth over the thickness of the thinner body from which on contact that is found has failed: its
+# middle is in the other one
+_FAILED = 0.5
 
 
 class Passing:
-    """Looks for pairs of bodies without a joint that are in each other.
+    """Looks for pairs of bodies without a joint that are in each other, and for those whose contact
+    is found and that came through each other all the same.
 
     Bodies that are not convex, or have no elements, are in no pair.
     """
@@ -30,8 +34,7 @@ class Passing:
         together = [pair for pair in together if pair[1] != GROUND]
         fixed = np.flatnonzero(self._held)
         together += [(a, b) for a in fixed for b in fixed if a < b]
-        meet = structure.found.parts if structure.found else ()
-        together += [(a, b) for a in meet for b in meet if a < b]
+        self._meet = set(structure.found.parts) if structure.found else set()
         self._check = ThroughCheck(hulls_of(hulls), pair_keys(together, len(parts)))
         thick = self._check.hulls.thickness
         self._thinnest = thick[thick > 0].min(initial=np.inf)
@@ -55,12 +58,18 @@ class Passing:
             return ""
         centers = np.ascontiguousarray(motion.frames["center"])
         found = self._check.deepest(centers, np.ascontiguousarray(motion.rotation))
-        if not found:
-            return ""
-        one, other, depth = found[0]
-        first, second = self._names[one], self._names[other]
-        return (
-            f't = {motion.time:.4g} s: "{first}" and "{second}" came through each other, by '
-            f"{depth:.3g} m; a joint between them, [joints.NAME] between = "
-            f'["{first}", "{second}"], lets them meet'
-        )
+        thick = self._check.hulls.thickness
+        for one, other, depth in found:
+            first, second = self._names[one], self._names[other]
+            told = (
+                f't = {motion.time:.4g} s: "{first}" and "{second}" came through each other, by '
+                f"{depth:.3g} m; "
+            )
+            if not {one, other} <= self._meet:
+                return (
+                    f"{told}a joint between them, [joints.NAME] between = "
+                    f'["{first}", "{second}"], lets them meet'
+                )
+            if depth > _FAILED * min(thick[one], thick[other]):
+                return f"{told}a shorter integration.dt_s lets them meet"
+        return ""

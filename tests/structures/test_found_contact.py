@@ -99,15 +99,15 @@ def test_an_edge_that_falls_on_an_edge_across_it(restitution):
     assert unclosed(rows) < 1e-12
 
 
-@pytest.mark.parametrize("aside", [0.0, 0.1])
-def test_bodies_that_collide_in_flight_keep_their_momentum(aside):
+@pytest.mark.parametrize("apart, aside", [(0.501, 0.0), (0.501, 0.1), (0.5, 0.0)])
+def test_bodies_that_collide_in_flight_keep_their_momentum(apart, aside):
     """A block runs into one of a third of its mass: they go on together, where one is not beside
     the other; what both have of momentum and of its moment stays in any case.
     """
     case = falling(
         dict(
             runner=box(0.6, 0.4, 0.5, at_m=[0.0, 0.0, 5.0]),
-            stands=box(0.2, 0.4, 0.5, at_m=[0.501, aside, 5.0]),
+            stands=box(0.2, 0.4, 0.5, at_m=[apart, aside, 5.0]),
         ),
         initial=dict(runner=dict(velocity_m_s=[2.0, 0.0, 0.0])),
     )
@@ -125,10 +125,11 @@ def test_bodies_that_collide_in_flight_keep_their_momentum(aside):
     )
     middle = (mass * centers).sum(axis=0) / mass.sum()
     moment -= np.cross(middle, (mass * velocity).sum(axis=0))
-    gap, reduced = np.array([0.501, aside, 0.0]), mass.prod() / mass.sum()
+    gap, reduced = np.array([apart, aside, 0.0]), mass.prod() / mass.sum()
     assert moment == pytest.approx(reduced * np.cross(gap, [-2.0, 0.0, 0.0]), abs=1e-7 * mass.sum())
     if not aside:
-        assert velocity[:, 0] == pytest.approx([1.5, 1.5], abs=2e-3)
+        # points of rigid bodies give a little: 2e-3 of the approach at most is left
+        assert velocity[:, 0] == pytest.approx([1.5, 1.5], abs=4e-3)
         assert np.abs(spin).max() < 1e-6
     assert unclosed(rows) < 1e-12
 

@@ -1,9 +1,11 @@
 """Bodies that came through each other, with no joint that lets them meet, end the analysis."""
 
 import pytest
+from small_collapses import box, falling, watched
 from small_structures import STONE, structure
 
 from fecolumn.engines.analysis import AnalysisFailed
+from fecolumn.engines.passing import Passing
 from fecolumn.simulation import run
 
 BLOCK = dict(kind="block", length_m=0.3, width_m=0.4, height_m=0.8, element_size_m=0.2) | STONE
@@ -19,6 +21,17 @@ def _pushed(folder, joints):
         integration=dict(engine="rigid", dt_s=1e-3, duration_s=0.5),
     )
     return run(case, folder, quiet=True)
+
+
+def test_found_contact_that_fails_is_named():
+    pairs = dict(low=box(0.3, 0.3, 0.3), high=box(0.3, 0.3, 0.3, at_m=[0.0, 0.0, 2.0]))
+    engine, _ = watched(falling(pairs), 0.002)
+    passing = Passing(engine.model)
+    assert passing.told(engine.motion) == ""
+    engine.motion.frames["center"][1, 2] = 0.25
+    assert '"low" and "high" came through each other, by 0.2 m' in passing.told(engine.motion)
+    engine.motion.frames["center"][1, 2] = 0.449
+    assert passing.told(engine.motion) == ""
 
 
 def test_bodies_that_come_through_each_other_are_named(tmp_path):

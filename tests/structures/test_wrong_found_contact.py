@@ -68,6 +68,15 @@ WRONG = [
         "must be left out beside contact.between",
     ),
     (
+        beside(
+            box(0.3, 0.3, 0.8, at_m=[2, 0, 0]),
+            joints=dict(foot=dict(between=["block", "rock"]), base=dict(between=["other", "quay"])),
+            grounds=dict(rock={}, quay={}),
+        ),
+        "grounds.quay.level_m",
+        "must differ from that of grounds.rock",
+    ),
+    (
         tables(
             joints=dict(foot=dict(between=["block", "soil"])),
             grounds=dict(soil=dict(kind="pad", stiffness_n_m3=1e7)),
