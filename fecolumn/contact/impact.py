@@ -47,12 +47,14 @@ def mark_landing(interfaces, points, listed, before, after, landing):
 
 
 @njit
-def _lands(interfaces, points, before, early, dt, i):
-    """Whether a point that carries from this step on was open at its start, or came to the surface
-    just then, with a velocity that would take it on.
+def _lands(interfaces, points, before, early, dt, carried, i):
+    """Whether a point that carries from this step on was open at its start; or came to the surface
+    just then, with a velocity that would take it on, where no point of its interface carried.
     """
-    width = interfaces[points[i].interface].width
-    return before[i].relative[2] > OPEN * width or -dt * early[i, 2] > GOES_ON_BY * width
+    k = points[i].interface
+    width = interfaces[k].width
+    arrives = not carried[k] and -dt * early[i, 2] > GOES_ON_BY * width
+    return arrives or before[i].relative[2] > OPEN * width
 
 
 @njit
@@ -97,8 +99,11 @@ def what_happens(interfaces, points, listed, before, after, dt, early, late, lan
         that do turn, of those of all interfaces where any turns for most of its foot.
     """
     lands, turned, total = False, np.zeros(len(interfaces)), np.zeros(len(interfaces))
+    carried = np.zeros(len(interfaces), np.bool_)
     for i in listed:
-        landing[i] = landing[i] and _lands(interfaces, points, before, early, dt, i)
+        carried[points[i].interface] |= before[i].force[2] > 0
+    for i in listed:
+        landing[i] = landing[i] and _lands(interfaces, points, before, early, dt, carried, i)
         lands |= landing[i]
         k = points[i].interface
         total[k] += after[i].force[2]

@@ -106,8 +106,8 @@ RIGID_GIVE = 1e-3
 #: PENETRATION, far below any flight.
 OPEN = 1e-8
 #: Way that a point which is at the surface at the start of a step, without force, would go on below
-#: it in the step, above which it has landed: it came there just at the end of the step before. A
-#: standing foot's points open and close by less.
+#: it in the step, above which it has landed where nothing of its interface carried: the body came
+#: there just at the end of the step before.
 GOES_ON_BY = 1e-6
 #: Way of a sticking point within which it keeps its anchor to the last digit, so that stick does
 #: not creep.

@@ -11,6 +11,7 @@ import pytest
 from fecolumn import simulation
 from fecolumn.case.case import case_from_tables
 from fecolumn.contact import known_base
+from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.problem import CONTACT_FAILED
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import standing
@@ -51,7 +52,7 @@ def sliding(engine, max_cuts=4):
 
 def state_of(engine):
     """All that a motion is, and the ledger."""
-    parts = [values.copy() for values in engine.motion] + [engine.ledger.copy()]
+    parts = [*arrays_of(engine.motion).values(), engine.ledger]
     return [np.ascontiguousarray(part).tobytes() for part in parts]
 
 

@@ -7,6 +7,7 @@ import pytest
 from small_structures import STONE, block, structure
 
 from fecolumn.case.sections import GRAVITY, Material
+from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.interface import interface_of
 from fecolumn.engines.reduced_engine import engine_of
@@ -235,8 +236,8 @@ def test_what_goes_on_from_a_saved_motion_rolls_on_as_if_nothing_had_been(foot):
     whole, first, second = (engine_of(case, structure_model(case), "case") for _ in range(3))
     exact, _ = whole.advance(np.zeros((80, 3)))
     first.advance(np.zeros((40, 3)))
-    for name, values in first.motion._asdict().items():
-        getattr(second.motion, name)[...] = values
+    for name, values in arrays_of(first.motion).items():
+        arrays_of(second.motion)[name][...] = values
     second.ledger[:] = first.ledger
     going_on, _ = second.advance(np.zeros((40, 3)))
     assert np.abs(going_on[:, 1:8] - exact[40:, 1:8]).max() < 1e-12
