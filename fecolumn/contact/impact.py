@@ -18,7 +18,6 @@ from fecolumn.contact.problem import IMPACT_FAILED, N_CONTACT, OK
 from fecolumn.contact.restitution import returned_share
 from fecolumn.contact.tolerances import (
     FULL_FRICTION,
-    GOES_ON_BY,
     IMPACT_GIVES,
     IMPACT_LEAST,
     IMPACT_LEFT,
@@ -36,25 +35,21 @@ NOTHING, LANDS, TURNS = range(3)
 
 @njit
 def mark_landing(interfaces, points, listed, before, after, landing):
-    """Mark in `landing` (n,) those of the listed points (k,) that carry at the end of the step and
-    did not at its start, though some may have been at the surface all the time: how many.
+    """Mark in `landing` (n,) those of the listed points (k,) that touch at the end of the step and
+    were open at its start: how many.
+
+    One that has come to the surface just at the end, and does not carry yet, is left a little above
+    it: else it would not have been open when it carries in the next step.
     """
     count = 0
     for i in listed:
-        landing[i] = not points[i].rolls and before[i].force[2] <= 0 and after[i].force[2] > 0
+        height = OPEN * interfaces[points[i].interface].width
+        was_open = before[i].force[2] <= 0 and before[i].relative[2] > height
+        landing[i] = not points[i].rolls and was_open and after[i].force[2] > 0
         count += landing[i]
+        if was_open and not after[i].force[2] > 0 and after[i].located:
+            after[i].relative[2] = max(after[i].relative[2], 2 * height)
     return count
-
-
-@njit
-def _lands(interfaces, points, before, early, dt, carried, i):
-    """Whether a point that carries from this step on was open at its start; or came to the surface
-    just then, with a velocity that would take it on, where no point of its interface carried.
-    """
-    k = points[i].interface
-    width = interfaces[k].width
-    arrives = not carried[k] and -dt * early[i, 2] > GOES_ON_BY * width
-    return arrives or before[i].relative[2] > OPEN * width
 
 
 @njit
@@ -95,15 +90,11 @@ def what_happens(interfaces, points, listed, before, after, dt, early, late, lan
     listed
         (k,) the points that may carry.
     landing, turning
-        (n,) marked by the functions above; of `landing` those stay that do land, of `turning` those
-        that do turn, of those of all interfaces where any turns for most of its foot.
+        (n,) marked by the functions above; of `turning` those stay that do turn, of those of all
+        interfaces where any turns for most of its foot.
     """
     lands, turned, total = False, np.zeros(len(interfaces)), np.zeros(len(interfaces))
-    carried = np.zeros(len(interfaces), np.bool_)
     for i in listed:
-        carried[points[i].interface] |= before[i].force[2] > 0
-    for i in listed:
-        landing[i] = landing[i] and _lands(interfaces, points, before, early, dt, carried, i)
         lands |= landing[i]
         k = points[i].interface
         total[k] += after[i].force[2]
@@ -469,7 +460,7 @@ def landing_moment(union, before, after, early, landing, dt):
     total = weights = 0.0
     for i in union:
         if landing[i]:
-            gap = max(before[i].relative[2], 0.0)
+            gap = before[i].relative[2]
             total += after[i].force[2] * gap / max(-dt * early[i, 2], gap)
             weights += after[i].force[2]
     return total / weights

@@ -105,10 +105,6 @@ RIGID_GIVE = 1e-3
 #: Height at the start of a step above which a point that touches at its end has landed: far above
 #: PENETRATION, far below any flight.
 OPEN = 1e-8
-#: Way that a point which is at the surface at the start of a step, without force, would go on below
-#: it in the step, above which it has landed where nothing of its interface carried: the body came
-#: there just at the end of the step before.
-GOES_ON_BY = 1e-6
 #: Way of a sticking point within which it keeps its anchor to the last digit, so that stick does
 #: not creep.
 STUCK = 1e-10

@@ -22,7 +22,7 @@ from fecolumn.contact.nearby import Boxes, find_boxes, find_pairs
 from fecolumn.contact.points import BASE, FLAT_GROUND
 from fecolumn.contact.problem import NO_ROOM, OK, list_present
 from fecolumn.contact.separation import FACE_OF_FIRST, TWO_EDGES
-from fecolumn.contact.tolerances import FOUND_NEAR, SAME_PLACE, STAYS_DEEP
+from fecolumn.contact.tolerances import FOUND_NEAR, OPEN, SAME_PLACE, STAYS_DEEP
 from fecolumn.engines.reduced.motion import copy_meetings
 from fecolumn.foundation._compiled import njit
 
@@ -173,7 +173,7 @@ def _lay_row(structure, work, start, end, r):
             continue
         any_place = True
         changed |= _lay_point(structure, row, place, k, point)
-        _bring(start, end, r, s, start.contact[i], now)
+        _bring(start, end, r, s, structure.interfaces[k].width, start.contact[i], now)
         point.lift = place.lift
     end.rims[k].apart = not any_place
     return changed
@@ -291,7 +291,7 @@ def _share_face(found, b, face, place, nodes, shares):
 
 
 @njit
-def _bring(start, end, r, s, was, now):
+def _bring(start, end, r, s, width, was, now):
     """Bring to the place in slot s of row r what its point carried at the start, `was` of CONTACT:
     `now` has it in the frame that the row has now.
 
@@ -304,7 +304,9 @@ def _bring(start, end, r, s, was, now):
         for a in range(3):
             now.force[a] = 0.0
         now.located = now.beyond = False
-        place.lift = max(0.0, -place.gap)
+        # above the surface, as one that is found there has landed when it carries
+        above = 2 * OPEN * width
+        place.lift = above - place.gap if place.gap < -above else 0.0
     else:
         frame_was, frame = np.empty((3, 3)), np.empty((3, 3))
         before, after = np.empty(3), np.empty(3)
