@@ -17,6 +17,7 @@ from fecolumn.contact.friction import iterate
 from fecolumn.contact.problem import IMPACT_FAILED, N_CONTACT, OK
 from fecolumn.contact.restitution import returned_share
 from fecolumn.contact.tolerances import (
+    ARRIVES,
     FULL_FRICTION,
     IMPACT_GIVES,
     IMPACT_LEAST,
@@ -38,17 +39,19 @@ def mark_landing(interfaces, points, listed, before, after, landing):
     """Mark in `landing` (n,) those of the listed points (k,) that touch at the end of the step and
     were open at its start: how many.
 
-    One that has come to the surface just at the end, and does not carry yet, is left a little above
-    it: else it would not have been open when it carries in the next step.
+    One that has come to the surface just at the end, by more than ARRIVES, and does not carry yet
+    is left a little above it: else it would not have been open when it carries in the next step.
     """
     count = 0
     for i in listed:
-        height = OPEN * interfaces[points[i].interface].width
-        was_open = before[i].force[2] <= 0 and before[i].relative[2] > height
+        width = interfaces[points[i].interface].width
+        was_open = before[i].force[2] <= 0 and before[i].relative[2] > OPEN * width
         landing[i] = not points[i].rolls and was_open and after[i].force[2] > 0
         count += landing[i]
-        if was_open and not after[i].force[2] > 0 and after[i].located:
-            after[i].relative[2] = max(after[i].relative[2], 2 * height)
+        if not was_open or points[i].rolls or after[i].force[2] > 0 or not after[i].located:
+            continue
+        if before[i].relative[2] - after[i].relative[2] > ARRIVES * width:
+            after[i].relative[2] = max(after[i].relative[2], 2 * OPEN * width)
     return count
 
 

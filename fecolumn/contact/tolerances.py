@@ -105,6 +105,9 @@ RIGID_GIVE = 1e-3
 #: Height at the start of a step above which a point that touches at its end has landed: far above
 #: PENETRATION, far below any flight.
 OPEN = 1e-8
+#: Way by which a point comes down in a step to the surface, just at its end, that lands in the next
+#: one: far above what points of a standing foot open and close by.
+ARRIVES = 1e-5
 #: Way of a sticking point within which it keeps its anchor to the last digit, so that stick does
 #: not creep.
 STUCK = 1e-10
