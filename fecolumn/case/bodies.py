@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from fecolumn.case.mesh_file_keys import cut_key, size_key, unit_key
 from fecolumn.case.sections import Cap, Flange, Motion
 from fecolumn.foundation.schema import Section, parameter
 from fecolumn.mesh.mesh_file import MeshFile
@@ -376,31 +377,9 @@ class Meshed(Solid):
         "reads; a closed surface (.stl, .obj, .ply), a CAD body (.step, .iges) or a script of Gmsh "
         "(.geo), in which elements are made"
     )
-    mesh_unit: str | None = parameter(
-        None,
-        doc="unit of the lengths in mesh_file; left out: the metre, of STEP and IGES what the file "
-        "says",
-        choices=("m", "cm", "mm", "in", "ft"),
-        since="0.10",
-    )
-    mesh_size_m: float | None = parameter(
-        None,
-        doc="size of the elements made inside a surface, a CAD body or by a script; left out: an "
-        "eighth of the cube root of the volume, less of a thin body",
-        unit="m",
-        above=0,
-        high=100,
-        since="0.10",
-    )
-    cut_foot_m: float | None = parameter(
-        None,
-        doc="height above its lowest point at which a surface is cut off, so that it has a flat "
-        "foot; left out: not cut",
-        unit="m",
-        above=0,
-        high=1000,
-        since="0.10",
-    )
+    mesh_unit: str | None = unit_key()
+    mesh_size_m: float | None = size_key()
+    cut_foot_m: float | None = cut_key()
     turned_deg: float = parameter(
         0.0,
         doc="angle by which it is turned about the vertical through the middle of its "

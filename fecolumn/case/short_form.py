@@ -13,6 +13,7 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 
+from fecolumn.case.mesh_file_keys import cut_key, size_key, unit_key
 from fecolumn.case.model_keys import check_model, check_substeps
 from fecolumn.case.sections import (
     DEFAULT,
@@ -71,31 +72,9 @@ class Column(Section):
         "reads; a closed surface (.stl, .obj, .ply), a CAD body (.step, .iges) or a script of Gmsh "
         "(.geo), in which elements are made; replaces the built column",
     )
-    mesh_unit: str | None = parameter(
-        None,
-        doc="unit of the lengths in mesh_file; left out: the metre, of STEP and IGES what the file "
-        "says",
-        choices=("m", "cm", "mm", "in", "ft"),
-        since="0.10",
-    )
-    mesh_size_m: float | None = parameter(
-        None,
-        doc="size of the elements made inside a surface, a CAD body or by a script; left out: an "
-        "eighth of the cube root of the volume, less of a thin body",
-        unit="m",
-        above=0,
-        high=100,
-        since="0.10",
-    )
-    cut_foot_m: float | None = parameter(
-        None,
-        doc="height above its lowest point at which a surface is cut off, so that it has a flat "
-        "foot; left out: not cut",
-        unit="m",
-        above=0,
-        high=1000,
-        since="0.10",
-    )
+    mesh_unit: str | None = unit_key()
+    mesh_size_m: float | None = size_key()
+    cut_foot_m: float | None = cut_key()
     shape: str = parameter(
         "tube",
         doc="built column: tube, solid cylinder or rectangular block",

@@ -19,6 +19,7 @@ DECIDING = (
     "case/check_found.py",
     "case/check_full.py",
     "case/check_grounds.py",
+    "case/mesh_file_keys.py",
     "case/model_keys.py",
     "case/model_names.py",
     "case/model_table.py",
