@@ -32,6 +32,7 @@ def check_found(case, refuse, check_name) -> None:
         refuse("contact.law", case.contact.law, f"must be augmented_lagrange beside {_KEY}")
     if value := case.contact.rolling_resistance:
         refuse("contact.rolling_resistance", value, f"must be 0 beside {_KEY}")
+    levels: dict[float, str] = {}
     for name, ground in case.grounds.items():
         if ground.kind != "rigid":
             refuse(
@@ -39,8 +40,6 @@ def check_found(case, refuse, check_name) -> None:
                 ground.kind,
                 f"must be rigid beside {_KEY}: where bodies fall to, no ground is meshed",
             )
-    levels: dict[float, str] = {}
-    for name, ground in case.grounds.items():
         if (first := levels.setdefault(ground.level_m, name)) != name:
             refuse(
                 f"grounds.{name}.level_m",

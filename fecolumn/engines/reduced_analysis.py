@@ -18,7 +18,7 @@ from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
 from fecolumn.engines.passing import Passing
-from fecolumn.engines.reduced.observe import column_index
+from fecolumn.engines.reduced.observe import ENERGY, column_index
 from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.engines.reduced.run import advance
 from fecolumn.engines.reduced.states import States, state_of
@@ -181,11 +181,9 @@ class ReducedAnalysis(OfStructure, Analysis):
         if not self.collapse or self.engine.fallen(self.steepest(self.step)) != STANDS:
             return True
         steps = math.ceil(self.collapse.turn_s / self.case.integration.dt_s)
-        began = self.step
         if self._advance(min(steps, self.steps - self.step), goes_on=True):
             return True
-        kinetic = self.history.arrays()["energy/kinetic"][-(self.step - began) or None :]
-        return bool(kinetic.max(initial=0.0) <= self.still_j)
+        return bool(self.engine.made[:, ENERGY].max(initial=0.0) <= self.still_j)
 
     def _advance(self, count: int, goes_on: bool = False) -> bool:
         """So many steps at most, also of what is at rest where it `goes_on`; whether the column is
