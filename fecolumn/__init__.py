@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from fecolumn.study.results.script import run_study
     from fecolumn.study.results.study import StudyResult
 
-__version__ = "0.10.0"
+__version__ = "0.11.0"
 __all__ = [
     "AnalysisFailed",
     "AnalysisResult",

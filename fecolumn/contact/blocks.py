@@ -65,7 +65,7 @@ def find_blocks(W):
     for k in range(g):
         for l in range(g):
             coupled[k, l] = moves[start[k], start[l]]
-    ranks = _least_filling(start, coupled)
+    ranks = least_filling(start, coupled)
     blocks = Blocks(
         np.empty(n, np.int64),
         np.zeros(g + 1, np.int64),
@@ -95,7 +95,7 @@ def _any(W, row, column):
 
 
 @njit
-def _least_filling(start, coupled):
+def least_filling(start, coupled):
     """Order of elimination (g,) of blocks of start[k + 1] - start[k] points, next always the one
     coupled to the fewest points; adds to `coupled` (g, g) what it fills.
     """

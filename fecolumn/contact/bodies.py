@@ -14,7 +14,8 @@ from fecolumn.contact.record import record
 #: where the mobility of rigid motion is part of the nodal one; first, count: its rows among the
 #: surface nodes of all bodies. held: number of the ground that a fixed body moves with, which has
 #: neither mass nor mobility, -1 of a body that is free; airborne: whether nothing carries it at the
-#: start, so that it is left out of the search for rest.
+#: start, so that it is left out of the search for rest; stiff: whether it does not deform, gives:
+#: what each contact point on it then gives alone [m/N].
 BODY = record(
     ("mass", "f8"),
     ("inverse_mass", "f8"),
@@ -24,6 +25,8 @@ BODY = record(
     ("count", "i8"),
     ("held", "i8"),
     ("airborne", "?"),
+    ("stiff", "?"),
+    ("gives", "f8"),
 )
 
 

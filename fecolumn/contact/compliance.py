@@ -219,13 +219,16 @@ def even_out(bodies, base, points, i, poses):
     """Find `uneven` of point i: compliance (3, 3) [m/N] that makes up for its place between nodes.
 
     A force between nodes of slave and base is shared by several nodes and meets less compliance
-    than a force at a node. `uneven` is the difference, zero at a node. Without it a rolling rim
+    than a force at a node. `uneven` is the difference, zero at a node; of bodies that do not deform
+    it is what the point gives alone. Without it a rolling rim
     would store energy at each node and give it back after it.
     """
-    target, b = points[i].uneven, points[i].slave
+    target, b, gives = points[i].uneven, points[i].slave, bodies.body[points[i].slave].gives
+    if points[i].master != BASE:
+        gives += bodies.body[points[i].master].gives
     for a in range(3):
         for c in range(3):
-            target[a, c] = 0.0
+            target[a, c] = gives if a == c else 0.0
     if points[i].count == 1:
         return
     block, C, pose = np.empty((3, 3)), bodies.static, poses[points[i].interface]

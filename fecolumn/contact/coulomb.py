@@ -6,32 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.contact.arrays import flat, put_points
 from fecolumn.foundation._compiled import njit
-
-
-@njit
-def slips_and_gaps(W, q, forces):
-    """W r + q as (n, 3)."""
-    n, result = len(q), np.empty((len(q), 3))
-    if n > 8:
-        put_points(W @ flat(forces), result)
-        for i in range(n):
-            for a in range(3):
-                result[i, a] += q[i, a]
-        return result
-    # so small, a call of BLAS costs more than the product
-    for i in range(n):
-        for a in range(3):
-            result[i, a] = q[i, a]
-            line = W[3 * i + a]
-            for j in range(n):
-                result[i, a] += (
-                    line[3 * j] * forces[j, 0]
-                    + line[3 * j + 1] * forces[j, 1]
-                    + line[3 * j + 2] * forces[j, 2]
-                )
-    return result
 
 
 @njit

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.contact.coupling import are_stiff
 from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import turns
@@ -25,12 +26,15 @@ def static_displacement(bodies, base, points, poses, contact, listed, target):
             target[i, a] = 0.0
     if loaded == 0:
         return
-    if len(listed) > FEW_SIDES:
+    if are_stiff(bodies, base, points, listed):
+        # each point gives alone
+        pass
+    elif len(listed) > FEW_SIDES:
         _displace_many(bodies, base, points, turns(poses), contact, listed, target)
     else:
         _displace_few(bodies, base, points, turns(poses), contact, listed, target)
     for i in listed:
-        if contact[i].force[2] > 0 and points[i].count > 1:
+        if contact[i].force[2] > 0:
             for a in range(3):
                 for c in range(3):
                     target[i, a] += points[i].uneven[a, c] * contact[i].force[c]

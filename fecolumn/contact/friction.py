@@ -10,10 +10,16 @@ import numpy as np
 
 from fecolumn.contact import tolerances
 from fecolumn.contact.arrays import marked
-from fecolumn.contact.blocks import find_blocks
-from fecolumn.contact.coulomb import in_cone, law_error, slips_and_gaps, violation
+from fecolumn.contact.coulomb import in_cone, law_error, violation
+from fecolumn.contact.coupling import (
+    coupling_of,
+    part_of,
+    slips_under,
+    stiffnesses,
+    whole_of,
+)
 from fecolumn.contact.interior_point import approach, in_cones
-from fecolumn.contact.newton import newton_steps, solve_in_place, stiffnesses
+from fecolumn.contact.newton import newton_steps, solve_in_place
 from fecolumn.foundation._compiled import compiled, njit
 
 
@@ -98,22 +104,22 @@ def frictionless(W, q, start):
 
 
 @njit
-def iterate(W, q, friction, start, tolerance, near, sweeps):
+def iterate(coupling, q, friction, start, tolerance, near, sweeps):
     """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and others.
 
-    near: whether `start` is a good guess, from which Newton is tried first.
+    coupling: of `contact.coupling`. near: whether `start` is a good guess, from which Newton is
+    tried first.
     """
     n, best, least, iterations, others = len(q), start.copy(), np.inf, 0, 0
     if n == 0:
         return best, 0.0, 0, 0
-    rho, blocks = stiffnesses(W, False), find_blocks(W)
+    rho = stiffnesses(coupling, False)
     if near:
-        together, softest = stiffnesses(W, True), 1 / rho.min()
+        together, softest = stiffnesses(coupling, True), 1 / rho.min()
         for give in (0.0, tolerances.NEAR_GIVE * softest):
             if least > tolerance:
                 forces, residual, made = newton_steps(
-                    W,
-                    blocks,
+                    coupling,
                     q,
                     friction,
                     start,
@@ -130,18 +136,31 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
     if least <= tolerance:
         return best, least, iterations, others
     # few of many points carry: those that do without friction, and those that sink where these do
-    forces, taken, grown, pressed = frictionless(W, q, start), np.empty(n, np.bool_), True, 0
+    forces, taken, grown, pressed = (
+        frictionless(whole_of(coupling), q, start),
+        np.empty(n, np.bool_),
+        True,
+        0,
+    )
     for i in range(n):
         pressed += forces[i, 2] > 0
     for i in range(n):
         taken[i] = n <= tolerances.FEW_POINTS or 2 * pressed > n or forces[i, 2] > 0
     while grown and least > tolerance:
         made, more = _find_some(
-            W, q, friction, forces, start, marked(taken), tolerance, sweeps, tolerances.FROZEN_TURNS
+            coupling,
+            q,
+            friction,
+            forces,
+            start,
+            marked(taken),
+            tolerance,
+            sweeps,
+            tolerances.FROZEN_TURNS,
         )
         iterations += made
         others += more
-        relative = slips_and_gaps(W, q, forces)
+        relative = slips_under(coupling, q, forces)
         residual, grown = violation(relative, forces, friction, rho), False
         if residual < least:
             best, least = forces.copy(), residual
@@ -162,7 +181,7 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
             ):
                 taken[i] = grown = True
     if least > tolerance and n > tolerances.FEW_POINTS:
-        forces, residual, made, more = _one_by_one(W, q, friction, rho, tolerance, sweeps)
+        forces, residual, made, more = _one_by_one(coupling, q, friction, rho, tolerance, sweeps)
         iterations += made
         others += more
         if residual < least:
@@ -171,7 +190,7 @@ def iterate(W, q, friction, start, tolerance, near, sweeps):
 
 
 @njit
-def _one_by_one(W, q, friction, rho, tolerance, sweeps):
+def _one_by_one(coupling, q, friction, rho, tolerance, sweeps):
     """As `iterate`, from no forces at all: the point that obeys the laws least is taken in, one
     after the other; one that then carries nothing is let go, but not again and again. Each problem
     is near to the last, and its solution a good guess.
@@ -184,7 +203,7 @@ def _one_by_one(W, q, friction, rho, tolerance, sweeps):
         np.zeros(n, np.int64),
     )
     for _ in range(tolerances.ONE_BY_ONE):
-        relative, residual, farthest, most = slips_and_gaps(W, q, forces), 0.0, -1, tolerance
+        relative, residual, farthest, most = slips_under(coupling, q, forces), 0.0, -1, tolerance
         for i in range(n):
             error = law_error(
                 forces[i, 0],
@@ -204,7 +223,9 @@ def _one_by_one(W, q, friction, rho, tolerance, sweeps):
         if least <= tolerance or farthest < 0:
             break
         taken[farthest] = True
-        made, more = _find_some(W, q, friction, forces, forces, marked(taken), tolerance, sweeps, 0)
+        made, more = _find_some(
+            coupling, q, friction, forces, forces, marked(taken), tolerance, sweeps, 0
+        )
         iterations += made
         others += more
         for i in range(n):
@@ -215,13 +236,12 @@ def _one_by_one(W, q, friction, rho, tolerance, sweeps):
 
 
 @njit
-def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps, turns):
+def _find_some(coupling, q, friction, forces, start, listed, tolerance, sweeps, turns):
     """Put forces that obey the laws on the listed points (k,), the others open, in place of
     `forces` (n, 3): iterations of Newton and others.
     """
     k = len(listed)
-    inner, slack, mu, guess, first = (
-        np.empty((3 * k, 3 * k)),
+    slack, mu, guess, first = (
         np.empty((k, 3)),
         np.empty(k),
         np.empty((k, 3)),
@@ -232,11 +252,8 @@ def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps, turns):
         mu[u] = friction[i]
         for a in range(3):
             slack[u, a], guess[u, a], first[u, a] = q[i, a], forces[i, a], start[i, a]
-            for v in range(k):
-                for b in range(3):
-                    inner[3 * u + a, 3 * v + b] = W[3 * i + a, 3 * listed[v] + b]
     found, _, iterations, others = _by_all_ways(
-        inner, slack, mu, guess, first, tolerance, sweeps, turns
+        part_of(coupling, listed), slack, mu, guess, first, tolerance, sweeps, turns
     )
     forces[:] = 0.0
     for u in range(k):
@@ -246,21 +263,19 @@ def _find_some(W, q, friction, forces, start, listed, tolerance, sweeps, turns):
 
 
 @njit
-def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
+def _by_all_ways(coupling, q, friction, guess, start, tolerance, sweeps, turns):
     """Forces (n, 3) by one way after the other, residual, Newton iterations and others; guess,
     start: (n, 3) from which Newton is tried; turns: of `_with_frozen_slips`, 0 to leave it.
     """
     n, stiffest, give = len(q), np.inf, 0.0
     if n == 0:
         return guess, 0.0, 0, 0
-    rho, rho_t, blocks = stiffnesses(W, False), np.empty(n), find_blocks(W)
+    rho, rho_t = stiffnesses(coupling, False), np.empty(n)
     for i in range(n):
-        rho_t[i] = 1 / np.hypot(W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1])
         stiffest, give = min(stiffest, rho[i]), max(give, tolerances.GIVE / rho[i])
     others = 0
     best, least, iterations = newton_steps(
-        W,
-        blocks,
+        coupling,
         q,
         friction,
         guess,
@@ -273,13 +288,12 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
     )
     if least > tolerance:
         forces, residual, made = newton_steps(
-            W,
-            blocks,
+            coupling,
             q,
             friction,
             start,
             tolerance,
-            stiffnesses(W, True),
+            stiffnesses(coupling, True),
             rho,
             0.0,
             tolerances.NEWTON_STEPS,
@@ -289,6 +303,11 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
         if residual < least:
             best, least = forces, residual
     if least > tolerance:
+        # what follows does not use how the bodies move
+        coupling = coupling_of(whole_of(coupling))
+        W = coupling.whole
+        for i in range(n):
+            rho_t[i] = 1 / np.hypot(W[3 * i, 3 * i], W[3 * i + 1, 3 * i + 1])
         A, Q = in_cones(W, q, friction)
         R, U, inside, most = np.zeros((n, 3)), np.zeros((n, 3)), 0, tolerances.INSIDE_FIRST
         while inside < tolerances.INSIDE_MOST:
@@ -296,8 +315,7 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
             inside += made
             # from inside Newton needs a step or two when the active set is right, and costs a tenth
             forces, residual, newtons = newton_steps(
-                W,
-                blocks,
+                coupling,
                 q,
                 friction,
                 forces,
@@ -318,10 +336,11 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
     count = tolerances.SWEEPS_FIRST
     while least > tolerance and count <= sweeps:
         forces = best.copy()
-        others += gauss_seidel(W, q, forces, friction, rho_t, count, tolerance * stiffest)
+        others += gauss_seidel(
+            coupling.whole, q, forces, friction, rho_t, count, tolerance * stiffest
+        )
         forces, residual, made = newton_steps(
-            W,
-            blocks,
+            coupling,
             q,
             friction,
             forces,
@@ -341,8 +360,7 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
         # of all other ways cycle
         held = give * tolerances.HELD_GIVE / tolerances.GIVE
         forces, residual, made = newton_steps(
-            W,
-            blocks,
+            coupling,
             q,
             friction,
             best,
@@ -358,7 +376,7 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
             best, least = forces, residual
     if least > tolerance and turns > 0 and n <= tolerances.FROZEN_POINTS:
         forces, residual, made, inside = _with_frozen_slips(
-            W, blocks, q, friction, tolerance, rho, give, turns
+            coupling, q, friction, tolerance, rho, give, turns
         )
         iterations += made
         others += inside
@@ -368,7 +386,7 @@ def _by_all_ways(W, q, friction, guess, start, tolerance, sweeps, turns):
 
 
 @njit
-def _with_frozen_slips(W, blocks, q, friction, tolerance, rho, give, turns):
+def _with_frozen_slips(coupling, q, friction, tolerance, rho, give, turns):
     """Forces by a fixed point on the sizes of the slips (Acary, Cadoux, Lemarechal and Malick 2011,
     ZAMM 91): best forces, residual, steps of Newton, iterations inside.
 
@@ -376,17 +394,17 @@ def _with_frozen_slips(W, blocks, q, friction, tolerance, rho, give, turns):
     Newton tries from each solution, `turns` times at most.
     """
     n, slips, least, iterations, others = len(q), np.zeros(len(q)), np.inf, 0, 0
-    A, Q = in_cones(W, q, friction)
+    A, Q = in_cones(coupling.whole, q, friction)
     best = np.zeros((n, 3))
     for _ in range(turns):
         forces, inside = approach(
             A, Q, friction, np.zeros((n, 3)), np.zeros((n, 3)), tolerances.FROZEN_INSIDE, slips
         )
-        relative = slips_and_gaps(W, q, forces)
+        relative = slips_under(coupling, q, forces)
         for i in range(n):
             slips[i] = np.hypot(relative[i, 0], relative[i, 1])
         forces, residual, made = newton_steps(
-            W, blocks, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2
+            coupling, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2
         )
         iterations += made
         others += inside
@@ -425,7 +443,7 @@ def solve_contact(
     """
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))
     friction = np.ascontiguousarray(np.broadcast_to(np.asarray(mu, float), len(q)))
-    return ContactSolution(*iterate(W, q, friction, start, tolerance, True, sweeps))
+    return ContactSolution(*iterate(coupling_of(W), q, friction, start, tolerance, True, sweeps))
 
 
 def prepare_solver(say=lambda text: None) -> None:

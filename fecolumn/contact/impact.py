@@ -13,6 +13,15 @@ import numpy as np
 
 from fecolumn.contact.arrays import flat, largest, marked, put_points
 from fecolumn.contact.compliance import assemble
+from fecolumn.contact.coupling import (
+    are_stiff,
+    couple,
+    coupling_of,
+    part_of,
+    softened,
+    stiffnesses,
+    times,
+)
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.problem import IMPACT_FAILED, N_CONTACT, OK
 from fecolumn.contact.restitution import returned_share
@@ -179,10 +188,7 @@ def find_impact(
     """
     impulses = np.zeros((len(after), 3))
     k, lands = len(union), moment >= 0.0
-    mobility = np.empty((3 * k, 3 * k))
-    assemble(
-        bodies, base, points, arms, union, poses, 1.0, bodies.mobility, 0.0, springs.own, mobility
-    )
+    mobility = _mobility(bodies, base, points, springs, union, arms, poses)
     held, m = np.empty(k, np.int64), 0
     given, start, end, friction = np.empty(3 * k), np.empty(3 * k), np.empty(3 * k), np.empty(k)
     for j in range(k):
@@ -197,7 +203,7 @@ def find_impact(
                 early[i, a],
                 late[i, a],
             )
-    pushed, speed = mobility @ given, np.inf if lands else _fastest(start, end)
+    pushed, speed = _jump(mobility, given), np.inf if lands else _fastest(start, end)
     free = np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
@@ -221,7 +227,7 @@ def find_impact(
         )
         if not solved:
             return IMPACT_FAILED, False, impulses
-        jump = mobility @ carried
+        jump = _jump(mobility, carried)
         for j in range(3 * k):
             velocity[j], guess_of_all[j] = free[j] + jump[j], given[j] - carried[j]
         second, solved = _flat_impulses(mobility, velocity, friction, guess_of_all, speed, counts)
@@ -231,7 +237,7 @@ def find_impact(
         # on the frame
         for j in range(3 * k):
             changed[j] = second[j] + carried[j] - given[j]
-        taken = contact_work + _work(changed, end, mobility @ changed)
+        taken = contact_work + _work(changed, end, _jump(mobility, changed))
         if taken <= 0:
             break
     if taken > 0:
@@ -239,7 +245,7 @@ def find_impact(
             return OK, False, impulses
         kept = _harmless(
             _work(changed, end, np.zeros(3 * k)),
-            _work(changed, np.zeros(3 * k), mobility @ changed),
+            _work(changed, np.zeros(3 * k), _jump(mobility, changed)),
             contact_work,
         )
         if kept == 0.0:
@@ -249,7 +255,7 @@ def find_impact(
     restitution = _restitutions(interfaces, points, union, landing)
     if lands and restitution.any() and taken < 0.0:
         _between(start, free, share, velocity)
-        jump = mobility @ carried
+        jump = _jump(mobility, carried)
         for j in range(3 * k):
             velocity[j] += jump[j]
         blow, solved = _flat_impulses(mobility, velocity, friction, second, speed, counts)
@@ -257,7 +263,7 @@ def find_impact(
             return IMPACT_FAILED, False, impulses
         for j in range(3 * k):
             blow[j] *= restitution[j // 3]
-        returned, jump = mobility @ blow, mobility @ changed
+        returned, jump = _jump(mobility, blow), _jump(mobility, changed)
         arrived = square = 0.0
         for j in range(3 * k):
             arrived += blow[j] * (end[j] + jump[j])
@@ -272,6 +278,24 @@ def find_impact(
 
 
 @njit
+def _mobility(bodies, base, points, springs, union, arms, poses):
+    """Coupling by mobility [1/kg] of the points `union` (k,)."""
+    if are_stiff(bodies, base, points, union):
+        return couple(bodies, points, arms, union, poses, 1.0, 0.0, springs.own)
+    W = np.empty((3 * len(union), 3 * len(union)))
+    assemble(bodies, base, points, arms, union, poses, 1.0, bodies.mobility, 0.0, springs.own, W)
+    return coupling_of(W)
+
+
+@njit
+def _jump(mobility, impulses):
+    """Jump of the velocities (3 k,) [m/s] by impulses (3 k,) [N s]."""
+    points = np.empty((len(impulses) // 3, 3))
+    put_points(impulses, points)
+    return flat(times(mobility, points))
+
+
+@njit
 def plastic_impact(mobility, friction, holds, start, end, given, moment, counts):
     """Kinetic energy [J] that a plastic impact of points (k,) takes at a moment in a step, and the
     fastest approach before it [m/s]; both 0 where none is found.
@@ -280,7 +304,7 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, counts)
     the step [m/s], end with the impulses `given` (3 k,) [N s]. moment: fraction of the step.
     """
     k = len(friction)
-    pushed, free, velocity = mobility @ given, np.empty(3 * k), np.empty(3 * k)
+    pushed, free, velocity = _jump(mobility, given), np.empty(3 * k), np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
     _between(start, free, moment, velocity)
@@ -289,21 +313,20 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, counts)
     )
     if not solved:
         return 0.0, 0.0
-    jump, approach = mobility @ carried, 0.0
+    jump, approach = _jump(mobility, carried), 0.0
     for j in range(3 * k):
         velocity[j] += jump[j]
     for j in range(k):
         approach = max(approach, -velocity[3 * j + 2])
     blow, solved = _flat_impulses(mobility, velocity, friction, given, np.inf, counts)
-    return (-_work(blow, velocity, mobility @ blow), approach) if solved else (0.0, 0.0)
+    return (-_work(blow, velocity, _jump(mobility, blow)), approach) if solved else (0.0, 0.0)
 
 
 @njit
 def _held_impulses(mobility, velocity, friction, held, guess, speed, counts):
     """Impulses (3 k,) of the points `held` (m,) alone, as `_impulses`; guess: (3 k,)."""
     m, impulses = len(held), np.zeros(len(velocity))
-    inner, approach, start, mu = (
-        np.empty((3 * m, 3 * m)),
+    approach, start, mu = (
         np.empty((m, 3)),
         np.empty((m, 3)),
         np.empty(m),
@@ -312,10 +335,7 @@ def _held_impulses(mobility, velocity, friction, held, guess, speed, counts):
         mu[i] = friction[held[i]]
         for a in range(3):
             approach[i, a], start[i, a] = velocity[3 * held[i] + a], guess[3 * held[i] + a]
-            for j in range(m):
-                for b in range(3):
-                    inner[3 * i + a, 3 * j + b] = mobility[3 * held[i] + a, 3 * held[j] + b]
-    found, solved = _impulses(inner, approach, mu, start, speed, counts)
+    found, solved = _impulses(part_of(mobility, held), approach, mu, start, speed, counts)
     for i in range(m):
         for a in range(3):
             impulses[3 * held[i] + a] = found[i, a]
@@ -403,8 +423,8 @@ def _impulses(mobility, velocity, friction, guess, speed, counts):
     solution, which is close to the last one (proximal point, Rockafellar 1976).
     """
     k, free, turns = len(velocity), max(largest(velocity), IMPACT_LEAST), 0
-    softened, asked, impulses, last, give = (
-        mobility.copy(),
+    alone, asked, impulses, last, give = (
+        stiffnesses(mobility, False),
         velocity.copy(),
         guess,
         np.zeros((k, 3)),
@@ -412,20 +432,11 @@ def _impulses(mobility, velocity, friction, guess, speed, counts):
     )
     for share in IMPACT_GIVES:
         for i in range(k):
-            give[i] = (
-                share
-                * (
-                    mobility[3 * i, 3 * i]
-                    + mobility[3 * i + 1, 3 * i + 1]
-                    + mobility[3 * i + 2, 3 * i + 2]
-                )
-                / 3
-            )
+            give[i] = share / alone[i]
             for a in range(3):
-                softened[3 * i + a, 3 * i + a] = mobility[3 * i + a, 3 * i + a] + give[i]
                 asked[i, a] = velocity[i, a] - give[i] * last[i, a]
         impulses, solved = _softened_impulses(
-            softened, asked, friction, impulses, IMPACT_SOLVED * free, counts
+            softened(mobility, give), asked, friction, impulses, IMPACT_SOLVED * free, counts
         )
         if not solved:
             return last, turns > 0

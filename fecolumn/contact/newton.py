@@ -6,20 +6,21 @@ import numpy as np
 
 from fecolumn.contact.arrays import put
 from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate, solve_columns
-from fecolumn.contact.coulomb import slips_and_gaps, violation
+from fecolumn.contact.coulomb import violation
+from fecolumn.contact.coupling import slips_under
 from fecolumn.contact.tolerances import SINGULAR
 from fecolumn.foundation._compiled import njit
 
 
 @njit
-def newton_steps(W, blocks, q, friction, start, tolerance, rho, rho_alone, give, most, patience):
+def newton_steps(coupling, q, friction, start, tolerance, rho, rho_alone, give, most, patience):
     """Newton steps until the tolerance is met, or the residual has not fallen for more than
     `patience`, or without `give` W proves singular: best forces, residual, steps made.
     """
     forces, least, stalled, made = start, np.inf, 0, 0
     best = start
     while True:
-        relative = slips_and_gaps(W, q, forces)
+        relative = slips_under(coupling, q, forces)
         residual = violation(relative, forces, friction, rho_alone)
         stalled += 1
         if residual < least:
@@ -32,7 +33,7 @@ def newton_steps(W, blocks, q, friction, start, tolerance, rho, rho_alone, give,
             and not residual <= SINGULAR * least
         ):
             break
-        forces, regular = newton_step(W, blocks, q, forces, relative, friction, rho, give)
+        forces, regular = newton_step(coupling, q, forces, relative, friction, rho, give)
         if not regular:
             break
         made += 1
@@ -40,11 +41,11 @@ def newton_steps(W, blocks, q, friction, start, tolerance, rho, rho_alone, give,
 
 
 @njit
-def newton_step(W, blocks, q, forces, relative, friction, rho, give):
+def newton_step(coupling, q, forces, relative, friction, rho, give):
     """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False
     where it is singular.
 
-    blocks: of `blocks.find_blocks`. relative: (n, 3) slips and gaps under the forces.
+    relative: (n, 3) slips and gaps under the forces.
 
     give: compliance [m/N] of each point against a change of its force, in this step alone: 0, or
     little where W leaves open which of many points carry. The laws are not softened by it: where
@@ -54,49 +55,78 @@ def newton_step(W, blocks, q, forces, relative, friction, rho, give):
     e. Linearised in r_t, r_n and the slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c =
     mu r_n / |trial|: two unknowns, three for a sticking point.
     """
-    n, g = len(q), len(blocks.coupled)
-    trial, updated = np.empty((n, 3)), np.zeros((n, 3))
-    for i in range(n):
-        for a in range(3):
-            trial[i, a] = forces[i, a] - rho[i] * relative[i, a]
-    # unknown u multiplies basis[u] (3,) of the force on point[u], and its equation is the slip or
-    # gap along test[u]
+    n, by_levers = len(q), len(coupling.whole) == 0
+    # unknown u multiplies basis[u] (3,) of the force on point[u], where it is guess[u] now, and its
+    # equation is the slip or gap along test[u]
     point, basis, test = np.empty(3 * n, np.int64), np.zeros((3 * n, 3)), np.zeros((3 * n, 3))
-    stiffening, count = np.zeros(3 * n), 0
-    for i in blocks.order:
-        if not trial[i, 2] > 0:
+    guess, stiffening, count = np.zeros(3 * n), np.zeros(3 * n), 0
+    for j in range(n):
+        i = j if by_levers else coupling.blocks.order[j]
+        t0, t1, normal = (
+            forces[i, 0] - rho[i] * relative[i, 0],
+            forces[i, 1] - rho[i] * relative[i, 1],
+            forces[i, 2] - rho[i] * relative[i, 2],
+        )
+        if not normal > 0:
             continue
         mu = friction[i]
         if mu == 0.0:
             point[count], basis[count, 2], test[count, 2] = i, 1.0, 1.0
+            guess[count] = forces[i, 2]
             count += 1
             continue
-        length = np.hypot(trial[i, 0], trial[i, 1])
-        if length <= mu * trial[i, 2]:
+        length = np.sqrt(t0 * t0 + t1 * t1)
+        if length <= mu * normal:
             for a in range(3):
-                point[count] = i
+                point[count], guess[count] = i, forces[i, a]
                 basis[count, a] = test[count, a] = 1.0
                 count += 1
             continue
-        x, y = trial[i, 0] / length, trial[i, 1] / length
+        x, y = t0 / length, t1 / length
         share = min(mu * max(forces[i, 2], 0.0) / length, 1.0)
         point[count] = point[count + 1] = i
         basis[count, 0], basis[count, 1], basis[count, 2] = mu * x, mu * y, 1.0
+        guess[count], guess[count + 1] = forces[i, 2], x * forces[i, 1] - y * forces[i, 0]
         test[count, 2] = 1.0
         basis[count + 1, 0], basis[count + 1, 1] = -y, x
         # scaled to the size of the other equations
         test[count + 1, 0], test[count + 1, 1] = -share * y, share * x
         stiffening[count + 1] = (1 - share) / rho[i]
         count += 2
+    updated = np.zeros((n, 3))
     if count == 0:
         return updated, True
+    point, basis, test, stiffening, guess = (
+        point[:count],
+        basis[:count],
+        test[:count],
+        stiffening[:count],
+        guess[:count],
+    )
+    solved, regular = (
+        _by_levers(coupling, q, forces, relative, give, point, basis, test, stiffening, guess)
+        if by_levers
+        else _by_whole(coupling, q, forces, give, point, basis, test, stiffening)
+    )
+    if regular:
+        for u in range(count):
+            for a in range(3):
+                updated[point[u], a] += solved[u] * basis[u, a]
+    return updated, regular
+
+
+@njit
+def _by_whole(coupling, q, forces, give, point, basis, test, stiffening):
+    """Unknowns (count,) of a Newton step by the whole matrix, and whether it is regular."""
+    W, blocks, count = coupling.whole, coupling.blocks, len(point)
+    g = len(blocks.coupled)
     # rows and columns of the blocks
     begin = np.zeros(g + 1, np.int64)
     for u in range(count):
         begin[blocks.of[point[u]] + 1] += 1
     for k in range(g):
         begin[k + 1] += begin[k]
-    line, matrix, right = np.empty(3 * n), np.empty((count, count)), np.empty(count)
+    line, matrix, right = np.empty(3 * len(q)), np.empty((count, count)), np.empty(count)
     for u in range(count):
         row, x, y, z = 3 * point[u], test[u, 0], test[u, 1], test[u, 2]
         right[u] = 0.0
@@ -122,14 +152,124 @@ def newton_step(W, blocks, q, forces, relative, friction, rho, give):
             if point[v] == point[u]:
                 matrix[u, v] += give * (x * basis[v, 0] + y * basis[v, 1] + z * basis[v, 2])
         matrix[u, u] += stiffening[u]
-    if not (
+    regular = (
         solve_in_place(matrix, right) if g == 1 else eliminate(matrix, right, begin, blocks.coupled)
-    ):
-        return updated, False
+    )
+    return right, regular
+
+
+@njit
+def _by_levers(coupling, q, forces, relative, give, point, basis, test, stiffening, guess):
+    """As `_by_whole`, by the formula of Woodbury (1950): (D + L R^T) y = b with D of each point
+    alone and six columns of L and R a body leaves equations of the bodies, 1 + R^T D^-1 L.
+
+    Solved for the change of the unknowns from their guess (count,), so that rounding, which grows
+    with L R^T over D, is that of a change that becomes small.
+    """
+    bodies, blocks, count = coupling.bodies, coupling.blocks, len(point)
+    start, same = np.zeros((len(q), 3)), True
     for u in range(count):
         for a in range(3):
-            updated[point[u], a] += right[u] * basis[u, a]
-    return updated, True
+            start[point[u], a] += guess[u] * basis[u, a]
+    for i in range(len(q)):
+        for a in range(3):
+            same &= start[i, a] == forces[i, a]
+    if not same:
+        relative = slips_under(coupling, q, start)
+    solved, left, across = np.empty(count), np.empty((count, 12)), np.empty((count, 12))
+    for u in range(count):
+        i = point[u]
+        solved[u] = -stiffening[u] * guess[u]
+        for a in range(3):
+            solved[u] -= test[u, a] * (relative[i, a] + give * (start[i, a] - forces[i, a]))
+        _along(coupling.levers[i], test[u], left[u])
+        _along(coupling.levers[i], basis[u], across[u])
+    if not _divide(coupling, give, point, basis, test, stiffening, solved, left):
+        return solved, False
+    rows, begin = blocks.first[-1], 0
+    matrix, right = np.zeros((rows, rows)), np.zeros(rows)
+    for j in range(rows):
+        matrix[j, j] = 1.0
+    while begin < count:
+        # the unknowns of points between the same two bodies
+        one, end = bodies[point[begin]], begin + 1
+        while end < count and bodies[point[end], 0] == one[0] and bodies[point[end], 1] == one[1]:
+            end += 1
+        block = across[begin:end].T @ left[begin:end]
+        along = across[begin:end].T @ solved[begin:end]
+        for side in range(2):
+            if one[side] < 0:
+                continue
+            top = blocks.first[blocks.of[one[side]]]
+            for a in range(6):
+                right[top + a] += along[6 * side + a]
+                for t in range(2):
+                    if one[t] >= 0:
+                        first = blocks.first[blocks.of[one[t]]]
+                        for c in range(6):
+                            matrix[top + a, first + c] += block[6 * side + a, 6 * t + c]
+        begin = end
+    if rows and not eliminate(matrix, right, blocks.first, blocks.coupled):
+        return solved, False
+    for u in range(count):
+        solved[u] += guess[u]
+        for side in range(2):
+            b = bodies[point[u], side]
+            if b >= 0:
+                first = blocks.first[blocks.of[b]]
+                for c in range(6):
+                    solved[u] -= left[u, 6 * side + c] * right[first + c]
+    return solved, True
+
+
+@njit
+def _along(levers, direction, target):
+    """Target (12,): levers (3, 12) along a direction (3,)."""
+    x, y, z = direction[0], direction[1], direction[2]
+    for c in range(12):
+        target[c] = x * levers[0, c] + y * levers[1, c] + z * levers[2, c]
+
+
+@njit
+def _divide(coupling, give, point, basis, test, stiffening, right, left):
+    """Divide right (count,) and left (count, 12) by what each point gives alone: False where one
+    gives nothing.
+    """
+    own, D, first = coupling.own, np.empty((2, 2)), 0
+    while first < len(point):
+        i, last = point[first], first + 1
+        while last < len(point) and point[last] == i:
+            last += 1
+        if last == first + 2:
+            # of a point that slips: along its force, and across
+            for u in range(2):
+                for v in range(2):
+                    D[u, v] = stiffening[first + u] if u == v else 0.0
+                    for a in range(3):
+                        D[u, v] += test[first + u, a] * basis[first + v, a] * (own[i, a] + give)
+            size = D[0, 0] * D[1, 1] - D[0, 1] * D[1, 0]
+            if size == 0.0:
+                return False
+            x, y = right[first], right[last - 1]
+            right[first] = (D[1, 1] * x - D[0, 1] * y) / size
+            right[last - 1] = (D[0, 0] * y - D[1, 0] * x) / size
+            for c in range(12):
+                x, y = left[first, c], left[last - 1, c]
+                left[first, c] = (D[1, 1] * x - D[0, 1] * y) / size
+                left[last - 1, c] = (D[0, 0] * y - D[1, 0] * x) / size
+        else:
+            for u in range(first, last):
+                alone = give
+                for a in range(3):
+                    alone += test[u, a] * basis[u, a] * own[i, a]
+                if alone == 0.0:
+                    return False
+                right[u] /= alone
+                inverse = 1 / alone
+                for c in range(12):
+                    left[u, c] *= inverse
+        first = last
+    return True
 
 
 @njit
@@ -145,31 +285,3 @@ def solve_in_place(matrix, right):
             return False
         return True
     return solve_columns(matrix, right.reshape(n, 1))
-
-
-@njit
-def stiffness_alone(W, i):
-    """Stiffness [N/m] of point i when it moves alone."""
-    return 3 / (W[3 * i, 3 * i] + W[3 * i + 1, 3 * i + 1] + W[3 * i + 2, 3 * i + 2])
-
-
-@njit
-def stiffnesses(W, together):
-    """Stiffness (n,) [N/m] of each point alone, or when all move."""
-    found = np.empty(len(W) // 3)
-    for i in range(len(found)):
-        found[i] = stiffness_together(W, i) if together else stiffness_alone(W, i)
-    return found
-
-
-@njit(fastmath={"reassoc", "contract"})
-def stiffness_together(W, i):
-    """Stiffness [N/m] of point i when all points move: it is less than alone, with which each would
-    seem to slip to and fro.
-    """
-    total = 0.0
-    for a in range(3):
-        row = W[3 * i + a]
-        for j in range(len(row)):
-            total += abs(row[j])
-    return 3 / total

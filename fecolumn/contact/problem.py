@@ -13,16 +13,25 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fecolumn.contact.arrays import marked, put_matrix
 from fecolumn.contact.compliance import assemble, even_out
-from fecolumn.contact.coulomb import law_error, slips_and_gaps
+from fecolumn.contact.coulomb import law_error
+from fecolumn.contact.coupling import (
+    are_stiff,
+    couple,
+    coupling_by_levers,
+    coupling_of,
+    stiffness_alone,
+    stiffnesses,
+    times,
+)
 from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.factor import multiply
 from fecolumn.contact.friction import iterate
-from fecolumn.contact.newton import stiffness_alone
 from fecolumn.contact.pad import any_pad, indent, indented
 from fecolumn.contact.points import OVER
 from fecolumn.contact.projection import ON, UNKNOWN, project
-from fecolumn.contact.stick import find_stick, operator_of, solve_sticking
+from fecolumn.contact.stick import find_stick, operator_of, part_of_stick, solve_sticking
 from fecolumn.contact.tolerances import (
     CLOSE,
     EXACT,
@@ -64,9 +73,10 @@ class Problem(NamedTuple):
     evened: (n,) those whose `uneven` is found. present: (n,) points that are not idle, `count[2]`
     of them. displaced: (n, 3) static displacement, slack: (n, 3) slips and gaps [m]; rho: (n,)
     stiffness by which the laws are measured [N/m], allowed: (n,) by how much they may be violated
-    [m]. W: (9 n^2,) room for the compliance of the active points. flags: (3,) whether W is
-    assembled, the foot stays where its stick operator holds, and it stays long enough for finding
-    one.
+    [m]. W: (9 n^2,) room for the compliance of the active points, own, levers, moved: of
+    bodies that do not deform, as `own`, `levers` and `bodies` of Coupling. flags: (4,) whether it
+    is assembled, the foot stays where its stick operator holds, it stays long enough for finding
+    one, and the active points are of bodies that do not deform.
     """
 
     near: np.ndarray
@@ -79,10 +89,13 @@ class Problem(NamedTuple):
     rho: np.ndarray
     allowed: np.ndarray
     W: np.ndarray
+    own: np.ndarray
+    levers: np.ndarray
+    moved: np.ndarray
     flags: np.ndarray
 
 
-ASSEMBLED, STICKS_STILL, WORTH_STICK = range(3)
+ASSEMBLED, STICKS_STILL, WORTH_STICK, STIFF = range(4)
 
 
 def room(points: np.ndarray) -> Problem:
@@ -100,7 +113,10 @@ def room(points: np.ndarray) -> Problem:
         np.zeros(n),
         np.zeros(n),
         np.zeros(9 * n * n),
-        np.zeros(3, bool),
+        np.zeros((n, 3)),
+        np.zeros((n, 3, 12)),
+        np.zeros((n, 2), np.int64),
+        np.zeros(4, bool),
     )
 
 
@@ -225,7 +241,7 @@ def find_residual(
                 )
                 counts[N_ASSEMBLED] += 1
                 problem.flags[STICKS_STILL] = sticks = True
-    if sticks:
+    if sticks and stick.key[2] == 0.0:
         _displace_all(stick, listed, after, problem.displaced)
     else:
         static_displacement(bodies, base, points, poses, after, listed, problem.displaced)
@@ -333,11 +349,42 @@ def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, pos
             problem.evened[i] = True
         for a in range(3):
             arms[i, a] = points[i].arm[a]
-    W = problem.W[: 9 * count * count].reshape(3 * count, 3 * count)
-    assemble(bodies, base, points, arms, listed, poses, rigid, dynamic, 1.0, springs.own, W)
-    for j in range(count):
-        problem.rho[listed[j]] = stiffness_alone(W, j)
+    problem.flags[STIFF] = are_stiff(bodies, base, points, listed)
+    if problem.flags[STIFF]:
+        coupling = couple(bodies, points, arms, listed, poses, rigid, 1.0, springs.own)
+        alone = stiffnesses(coupling, False)
+        for j in range(count):
+            problem.rho[listed[j]] = alone[j]
+            for a in range(3):
+                problem.own[j, a] = coupling.own[j, a]
+            for side in range(2):
+                problem.moved[j, side] = coupling.bodies[j, side]
+            put_matrix(coupling.levers[j], problem.levers[j])
+    else:
+        W = problem.W[: 9 * count * count].reshape(3 * count, 3 * count)
+        assemble(bodies, base, points, arms, listed, poses, rigid, dynamic, 1.0, springs.own, W)
+        for j in range(count):
+            problem.rho[listed[j]] = stiffness_alone(W, j)
     problem.flags[ASSEMBLED] = True
+
+
+@njit
+def _coupling(problem, stick):
+    """Coupling of the active points."""
+    listed = _active(problem)
+    count = len(listed)
+    if problem.flags[STICKS_STILL]:
+        near = near_points(problem)
+        taken = np.empty(len(near), np.bool_)
+        for n in range(len(near)):
+            taken[n] = problem.active[near[n]]
+        return part_of_stick(stick, len(near), marked(taken))
+    if problem.flags[STIFF]:
+        return coupling_by_levers(
+            problem.own[:count], problem.levers[:count], problem.moved[:count]
+        )
+    W = problem.W[: 9 * count * count].reshape(3 * count, 3 * count)
+    return coupling_of(W)
 
 
 @njit
@@ -357,27 +404,13 @@ def find_forces(problem, points, interfaces, stick, after, counts):
         counts[N_CONTACT] += newtons
         if residual <= usable:
             return OK
-    count = len(listed)
-    W = problem.W[: 9 * count * count].reshape(3 * count, 3 * count)
-    if sticks:
-        near = near_points(problem)
-        whole, place = operator_of(stick, len(near)), np.empty(count, np.int64)
-        j = 0
-        for n in range(len(near)):
-            if problem.active[near[n]]:
-                place[j] = n
-                j += 1
-        for i in range(count):
-            for j in range(count):
-                for a in range(3):
-                    for b in range(3):
-                        W[3 * i + a, 3 * j + b] = whole[3 * place[i] + a, 3 * place[j] + b]
+    count, coupling = len(listed), _coupling(problem, stick)
     q, old, friction = np.empty((count, 3)), np.empty((count, 3)), np.empty(count)
     for j in range(count):
         friction[j] = points[listed[j]].friction
         for a in range(3):
             old[j, a] = after[listed[j]].force[a]
-    moved = slips_and_gaps(W, np.zeros((count, 3)), old)
+    moved = times(coupling, old)
     for j in range(count):
         for a in range(3):
             q[j, a] = problem.slack[listed[j], a] - moved[j, a]
@@ -386,7 +419,9 @@ def find_forces(problem, points, interfaces, stick, after, counts):
         if _hangs(problem, after, listed[j]):
             for a in range(3):
                 old[j, a] = 0.0
-    forces, residual, newtons, others = iterate(W, q, friction, old, tight, True, SWEEPS_MOST)
+    forces, residual, newtons, others = iterate(
+        coupling, q, friction, old, tight, True, SWEEPS_MOST
+    )
     counts[N_CONTACT] += newtons + others
     if not residual <= usable:
         return CONTACT_FAILED

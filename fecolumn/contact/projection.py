@@ -28,7 +28,7 @@ ON, OFF, UNKNOWN = range(3)
 
 #: Grid of the top of one ground: first_x, count_x, first_y, count_y: its lines among those of all;
 #: first: place of its numbers; square: side of the squares [m] by which an unbounded one follows
-#: the feet, 0 for a plate that stays.
+#: the feet, 0 for a plate that stays; stiff: whether it gives nowhere.
 TOP = record(
     ("first_x", "i8"),
     ("count_x", "i8"),
@@ -36,6 +36,7 @@ TOP = record(
     ("count_y", "i8"),
     ("first", "i8"),
     ("square", "f8"),
+    ("stiff", "?"),
 )
 
 
@@ -58,6 +59,7 @@ def base_of(x, y, number, slot, compliance, square: float = 0.0) -> GroundTops:
     """GroundTops of one ground, of which nothing is gathered."""
     top = np.zeros(1, TOP)
     top["count_x"], top["count_y"], top["square"] = len(x), len(y), square
+    top["stiff"] = not compliance.any()
     gathered = none_gathered(len(compliance) // 3)
     return GroundTops(top, x, y, np.ascontiguousarray(number).ravel(), slot, compliance, gathered)
 
@@ -119,13 +121,16 @@ def project(base, positions, listed, points):
     """
     answer, moved = ON, np.zeros((len(base.tops), 2))
     for g in range(len(base.tops)):
-        if base.tops[g].square > 0:
+        if base.tops[g].square > 0 and not base.tops[g].stiff:
             _follow(base.tops[g].square, g, positions, points, moved[g])
     for i in listed:
         if points[i].master != BASE or points[i].facet == FLAT_GROUND:
             continue
         g = points[i].ground
         top = base.tops[g]
+        if top.stiff and top.square > 0:
+            # without end, and the same everywhere
+            continue
         lines_x = base.x[top.first_x : top.first_x + top.count_x]
         lines_y = base.y[top.first_y : top.first_y + top.count_y]
         x, far_x = _within(lines_x, positions[i, 0] - moved[g, 0])

@@ -14,11 +14,21 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.arrays import put
+from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.coulomb import law_error
+from fecolumn.contact.coupling import (
+    are_stiff,
+    couple,
+    coupling_by_levers,
+    coupling_of,
+    part_of,
+    stiffness_alone,
+    stiffness_together,
+    stiffnesses,
+)
 from fecolumn.contact.factor import Blocked, divide, factorize, no_blocks, solve_factored
-from fecolumn.contact.newton import solve_in_place, stiffness_alone, stiffness_together
+from fecolumn.contact.newton import solve_in_place
 from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.tolerances import PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
 from fecolumn.foundation._compiled import njit
@@ -29,12 +39,17 @@ class Stick(NamedTuple):
     and the static part without what the points give alone; inverse: (3 n, 3 n), of whose rows those
     known, (3 n,), are found, 3 k numbers each; rho, rho_all: (n,) stiffness of a point alone and
     with all others [N/m]; poses: (ni,) of POSE and angles: (ni,) of the rims for which they hold;
-    key: (2,) length of the step, and 1 once they are found.
+    key: (3,) length of the step, 1 once they are found, and 1 where the bodies do not deform. Then
+    own, levers and bodies are those of a Coupling, the bodies by number among those that move, in
+    place of W, and the factor is that of 1 + V^T own^-1 V (Woodbury 1950).
     """
 
     W: np.ndarray
     factor: Blocked
     static: Blocked
+    own: np.ndarray
+    levers: np.ndarray
+    bodies: np.ndarray
     inverse: np.ndarray
     known: np.ndarray
     rho: np.ndarray
@@ -50,13 +65,16 @@ def no_stick(n: int, interfaces: int = 1) -> Stick:
         np.zeros(9 * n * n),
         no_blocks(n),
         no_blocks(n),
+        np.zeros((n, 3)),
+        np.zeros((n, 3, 12)),
+        np.zeros((n, 2), np.int64),
         np.zeros((3 * n, 3 * n)),
         np.zeros(3 * n, bool),
         np.zeros(n),
         np.zeros(n),
         np.zeros(interfaces, POSE),
         np.zeros(interfaces),
-        np.zeros(2),
+        np.zeros(3),
     )
 
 
@@ -122,11 +140,21 @@ def find_stick(stick, bodies, base, points, listed, springs, dynamic, rigid, rim
     """Find the operator of feet of which all points, the listed ones (k,), stand; further arguments
     as of `compliance.assemble`.
     """
-    k = len(listed)
-    arms, static, W = np.empty((len(points), 3)), np.empty((3 * k, 3 * k)), operator_of(stick, k)
+    k, arms = len(listed), np.empty((len(points), 3))
     for i in listed:
         for a in range(3):
             arms[i, a] = points[i].arm[a]
+    for j in range(3 * k):
+        stick.known[j] = False
+    for j in range(len(poses)):
+        stick.poses[j], stick.angles[j] = poses[j], rims[j].angle
+    stick.key[0], stick.key[1], stick.key[2] = rigid, 1.0, 0.0
+    if are_stiff(bodies, base, points, listed):
+        coupling = couple(bodies, points, arms, listed, poses, rigid, 1.0, springs.own)
+        if 2 * len(coupling.blocks.coupled) <= len(points):
+            _take_levers(stick, coupling)
+            return
+    static, W = np.empty((3 * k, 3 * k)), operator_of(stick, k)
     assemble(
         bodies, base, points, arms, listed, poses, 0.0, bodies.static, 1.0, springs.own, static
     )
@@ -135,13 +163,79 @@ def find_stick(stick, bodies, base, points, listed, springs, dynamic, rigid, rim
         stick.rho[j] = stiffness_alone(W, j)
         stick.rho_all[j] = stiffness_together(W, j)
         for a in range(3):
-            stick.known[3 * j + a] = False
             static[3 * j + a, 3 * j + a] -= springs.own[listed[j], a]
     factorize(W, stick.factor)
     divide(static, stick.factor, stick.static)
-    for j in range(len(poses)):
-        stick.poses[j], stick.angles[j] = poses[j], rims[j].angle
-    stick.key[0], stick.key[1] = rigid, 1.0
+
+
+@njit
+def _take_levers(stick, coupling):
+    """Take over the coupling of bodies that do not deform, and find its factor."""
+    k, rows, stick.key[2] = len(coupling.own), 6 * len(coupling.blocks.coupled), 1.0
+    alone, together, S = (
+        stiffnesses(coupling, False),
+        stiffnesses(coupling, True),
+        np.eye(rows),
+    )
+    for j in range(k):
+        stick.rho[j], stick.rho_all[j] = alone[j], together[j]
+        for a in range(3):
+            stick.own[j, a] = coupling.own[j, a]
+        put_matrix(coupling.levers[j], stick.levers[j])
+        for side in range(2):
+            b = coupling.bodies[j, side]
+            stick.bodies[j, side] = coupling.blocks.of[b] if b >= 0 else -1
+    for j in range(k):
+        for side in range(2):
+            for other in range(2):
+                top, left = 6 * stick.bodies[j, side], 6 * stick.bodies[j, other]
+                if top < 0 or left < 0:
+                    continue
+                for a in range(3):
+                    for c in range(6):
+                        value = stick.levers[j, a, 6 * side + c] / stick.own[j, a]
+                        for e in range(6):
+                            S[top + c, left + e] += value * stick.levers[j, a, 6 * other + e]
+    factorize(S, stick.factor)
+
+
+@njit
+def solve_stuck(stick, right):
+    """Solve for right (3 k,) in its place: forces at which points that stick move by it."""
+    if stick.key[2] == 0.0:
+        solve_factored(stick.factor, right)
+        return
+    k, rows = len(right) // 3, 0
+    for j in range(k):
+        rows = max(rows, 6 * stick.bodies[j, 0] + 6, 6 * stick.bodies[j, 1] + 6)
+    motion = np.zeros(rows)
+    for j in range(k):
+        for a in range(3):
+            right[3 * j + a] /= stick.own[j, a]
+        for side in range(2):
+            first = 6 * stick.bodies[j, side]
+            if first >= 0:
+                for a in range(3):
+                    for c in range(6):
+                        motion[first + c] += stick.levers[j, a, 6 * side + c] * right[3 * j + a]
+    solve_factored(stick.factor, motion)
+    for j in range(k):
+        for a in range(3):
+            moved = 0.0
+            for side in range(2):
+                first = 6 * stick.bodies[j, side]
+                if first >= 0:
+                    for c in range(6):
+                        moved += stick.levers[j, a, 6 * side + c] * motion[first + c]
+            right[3 * j + a] -= moved / stick.own[j, a]
+
+
+@njit
+def part_of_stick(stick, k, listed):
+    """Coupling of some, (m,), of the k points that stand."""
+    if stick.key[2] == 0.0:
+        return part_of(coupling_of(operator_of(stick, k)), listed)
+    return coupling_by_levers(stick.own[listed], stick.levers[listed], stick.bodies[listed])
 
 
 @njit
@@ -151,7 +245,7 @@ def _find_inverse(stick, row, count):
         line = stick.inverse[row, :count]
         for j in range(len(line)):
             line[j] = 1.0 if j == row else 0.0
-        solve_factored(stick.factor, line)
+        solve_stuck(stick, line)
         stick.known[row] = True
 
 
@@ -184,7 +278,7 @@ def solve_sticking(stick, points, listed, slack, active, after, tolerance, usabl
         for a in range(3):
             r[3 * i + a] = best[3 * i + a] = after[listed[i]].force[a]
             s[3 * i + a] = stuck[3 * i + a] = slack[listed[i], a]
-    solve_factored(stick.factor, stuck)
+    solve_stuck(stick, stuck)
     for j in range(3 * n):
         stuck[j] = r[j] - stuck[j]
     unknown, point, opened, turn = (
@@ -205,7 +299,7 @@ def solve_sticking(stick, points, listed, slack, active, after, tolerance, usabl
                     count += 1
                 continue
             t0, t1 = r[3 * i] - rho * s[3 * i], r[3 * i + 1] - rho * s[3 * i + 1]
-            length = np.hypot(t0, t1)
+            length = np.sqrt(t0 * t0 + t1 * t1)
             if length <= mu * normal:
                 continue
             t0, t1 = t0 / length, t1 / length

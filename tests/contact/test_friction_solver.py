@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from fecolumn.contact import coulomb
+from fecolumn.contact.coupling import coupling_of, slips_under
 from fecolumn.contact.friction import iterate, solve_contact
 from fecolumn.contact.interior_point import approach, in_cones
 
@@ -81,7 +82,7 @@ def test_interior_point_goes_on_where_points_are_at_the_brink_of_slip(friction):
     )
     stiffness = 3 / np.diag(W).reshape(-1, 3).sum(axis=1)
     assert (
-        coulomb.violation(coulomb.slips_and_gaps(W, q, forces), forces, mu, stiffness)
+        coulomb.violation(slips_under(coupling_of(W), q, forces), forces, mu, stiffness)
         < 1e-9 * np.abs(q).max()
     )
 
@@ -150,7 +151,7 @@ def test_of_many_points_those_that_carry_are_a_problem_of_their_own():
     W, q = foot(60, 4, slip=1e-6)
     q[20:, 2] = 1e-3
     alone = solve_contact(W[:60, :60], q[:20], 0.3, np.zeros((20, 3)), tolerance=1e-14)
-    every = iterate(W, q, np.full(60, 0.3), np.zeros_like(q), 1e-14, False, 800)
+    every = iterate(coupling_of(W), q, np.full(60, 0.3), np.zeros_like(q), 1e-14, False, 800)
     assert (
         every[1] <= 1e-14
         and every[0][:20] == pytest.approx(alone.forces, abs=1e-7 * np.abs(alone.forces).max())
@@ -177,6 +178,6 @@ def test_slips_of_which_one_is_the_sum_of_others_take_newton_few_steps_from_a_go
     q = -(W @ pressed.ravel()).reshape(-1, 3)
     assert np.linalg.matrix_rank(W) == 6 * nodes
     guess = pressed + random.normal(0, 1.0, pressed.shape)
-    found = iterate(W, q, np.full(3 * nodes, 0.7), guess, 1e-13, True, 800)
+    found = iterate(coupling_of(W), q, np.full(3 * nodes, 0.7), guess, 1e-13, True, 800)
     assert found[1] <= 1e-13 and found[2] <= 10 and found[3] == 0
     assert violation(W, q, 0.7, found[0]) < 1e-12

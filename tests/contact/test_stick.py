@@ -162,7 +162,7 @@ def standing(on_pad=False):
         place["foot"] = center + rotation @ [0, 0, DEPTH]
         return place
 
-    stick.poses[:], stick.angles[:], stick.key[:] = pose(center, rotation), ANGLE, [HALF, 1.0]
+    stick.poses[:], stick.angles[:], stick.key[:] = pose(center, rotation), ANGLE, [HALF, 1.0, 0.0]
 
     def still(moved=(0.0, 0, 0), turned=(0.0, 0, 0), angle=ANGLE, half=HALF):
         rims = rims_at_rest()

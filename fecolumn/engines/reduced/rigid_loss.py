@@ -2,17 +2,18 @@
 over that which a plastic impact of rigid bodies would take.
 
 An impact begins with the step in which a point lands. For bodies that do not deform it is over at
-the end of it. Elastic faces meet point by point, and give back a part of what they store: their
-impact goes on while points that the rigid motion has brought together still approach, and for three
-times as long while they part. The rigid loss is that of a plastic impact (Moreau 1988), with
-friction, of all points which the rigid motion has brought together, from the velocities before the
-first landing.
+the end of it, and its points are those that carry. Elastic faces meet point by point, and give back
+a part of what they store: their impact goes on while points that the rigid motion has brought
+together still approach, and for three times as long while they part. The rigid loss is that of a
+plastic impact (Moreau 1988), with friction, of all points which the rigid motion has brought
+together, from the velocities before the first landing.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.contact.coupling import coupling_by_levers, put_root
 from fecolumn.contact.impact import plastic_impact
 from fecolumn.contact.points import BASE, OVER
 from fecolumn.contact.pose import find_poses
@@ -168,27 +169,41 @@ def _velocities_of(motion):
 
 
 @njit
-def _pushed(structure, J):
-    """J^T over masses and inertias: (6 nb, 3 k)."""
-    pushed = np.zeros((J.shape[1], J.shape[0]))
+def _mobility(structure, points, listed, J):
+    """Coupling by mobility of the listed points (k,); J: of `_velocities_by_motion`."""
+    k = len(listed)
+    levers, sides, root = np.zeros((k, 3, 12)), np.full((k, 2), -1), np.empty((3, 3))
     for b in range(len(structure.bodies.body)):
         body = structure.bodies.body[b]
-        for j in range(len(J)):
-            for a in range(3):
-                pushed[6 * b + a, j] = J[j, 6 * b + a] * body.inverse_mass
-                for c in range(3):
-                    pushed[6 * b + 3 + a, j] += body.inverse_inertia[a, c] * J[j, 6 * b + 3 + c]
-    return pushed
+        if body.inverse_mass == 0.0:
+            continue
+        put_root(body.inverse_inertia, root)
+        for j in range(k):
+            for side in range(2):
+                if b != (points[listed[j]].master if side else points[listed[j]].slave):
+                    continue
+                sides[j, side] = b
+                for a in range(3):
+                    row = J[3 * j + a, 6 * b : 6 * b + 6]
+                    for c in range(3):
+                        levers[j, a, 6 * side + c] = np.sqrt(body.inverse_mass) * row[c]
+                        for e in range(3):
+                            levers[j, a, 6 * side + 3 + c] += root[e, c] * row[3 + e]
+    return coupling_by_levers(np.zeros((k, 3)), levers, sides)
 
 
 @njit
-def begin_impact(structure, work, start, end, dt, moment, booked, ledger):
+def begin_impact(structure, work, start, end, dt, moment, touched, booked, ledger):
     """Book the rigid loss of the impact that begins in a step, or goes on in it; `end` has the
     velocities before the impact.
 
-    moment: fraction of the step at which points land. booked: the ledger at the start of the step.
+    moment: fraction of the step at which points land. touched: (k,) points that carry at the start
+    or at the end of the step. booked: the ledger at the start of the step.
     """
-    listed = find_together(structure, work, end)
+    stiff = True
+    for b in range(len(structure.bodies.body)):
+        stiff &= structure.bodies.body[b].stiff
+    listed = touched if stiff else find_together(structure, work, end)
     k = len(listed)
     J = _velocities_by_motion(structure, work.points, work.poses[END], listed, end)
     friction, held, given = np.empty(k), np.empty(k, np.bool_), np.empty(3 * k)
@@ -197,9 +212,8 @@ def begin_impact(structure, work, start, end, dt, moment, booked, ledger):
         friction[j], held[j] = work.points[i].friction, work.before[i].force[2] > 0
         for a in range(3):
             given[3 * j + a] = dt * end.contact[i].force[a]
-    mobility = J @ _pushed(structure, J)
     loss, speed = plastic_impact(
-        mobility,
+        _mobility(structure, work.points, listed, J),
         friction,
         held,
         _velocities(J, work.points, listed, start),

@@ -425,7 +425,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
             arms[i, a] = points[i].arm[a] + elastic.point[END, i, a]
     if happens == LANDS:
         moment = landing_moment(union, before, end.contact, work.early, work.landing, scheme.dt)
-        begin_impact(structure, work, start, end, scheme.dt, moment, booked, ledger)
+        begin_impact(structure, work, start, end, scheme.dt, moment, union, booked, ledger)
     answer, pushed, impulses = find_impact(
         structure.bodies,
         base,

@@ -55,14 +55,16 @@ def structure_of(
         damping[b, :m] = 2 * ratio * body.frequencies
         shrink = 1 / (1 + squares[b, :m] * hht.stiffness_factor / hht.mass_factor)
         own = body.shapes * (2 * shrink - shrink**2)
-        static = (
-            node_matrix(body.flexibility) - modal_sum(own, 1 / squares[b, :m])
-            if body.flexibility.any()
-            else _least_give(body, hht.dt / parts_of_step, part.held)
-        )
+        deforms = body.flexibility.any()
+        static = node_matrix(body.flexibility)
+        if deforms:
+            static -= modal_sum(own, 1 / squares[b, :m])
         inertia = (0.0,) if part.held >= 0 else (float(body.mass), body.inertia)
         one = one_body(body.arms, static, modal_sum(own, np.ones(m)), *inertia)
         one.body["held"], one.body["airborne"] = part.held, part.airborne
+        if not deforms:
+            one.body["stiff"] = m == 0
+            one.body["gives"] = _least_give(body, hht.dt / parts_of_step, part.held)
         bodies.append(one)
         pushes.append(np.pad(own, ((0, 0), (0, 0), (0, modes - m))))
     whole, first = joined(bodies), np.cumsum([0] + [len(part.model.arms) for part in parts])
@@ -107,13 +109,13 @@ def structure_of(
     return structure, points
 
 
-def _least_give(body, dt: float, held: int) -> np.ndarray:
-    """Static compliance (3 n, 3 n) [m/N] of a BodyModel that does not deform, in steps dt [s]: each
-    contact point gives alone, RIGID_GIVE of what the body's points move on the mean; none of a
-    fixed one, `held` by a ground.
+def _least_give(body, dt: float, held: int) -> float:
+    """What each contact point of a BodyModel that does not deform gives alone in steps dt [s], in
+    m/N: RIGID_GIVE of what the body's points move on the mean; none of a fixed one, `held` by a
+    ground.
     """
     if held >= 0:
-        return np.zeros(2 * (3 * len(body.arms),))
+        return 0.0
     touching = np.unique(
         np.concatenate(
             [np.zeros(0, np.int64), *(surface.nodes for surface in body.surfaces.values())]
@@ -122,12 +124,8 @@ def _least_give(body, dt: float, held: int) -> np.ndarray:
     turning = np.linalg.inv(body.inertia)
     # trace of 1 / m + [a] J^-1 [a]^T
     turned = [np.trace(turning) * (arm @ arm) - arm @ turning @ arm for arm in body.arms[touching]]
-    static = np.zeros(2 * (3 * len(body.arms),))
-    rows = (3 * touching[:, None] + np.arange(3)).ravel()
-    static[rows, rows] = (
-        RIGID_GIVE * dt**2 / 2 * (1 / body.mass + np.sum(turned) / (3 * max(len(touching), 1)))
-    )
-    return static
+    moved = 1 / body.mass + np.sum(turned) / (3 * max(len(touching), 1))
+    return float(RIGID_GIVE * dt**2 / 2 * moved)
 
 
 def view_of(model, structure, weight: float, limits: Limits, cap: float = 0.0) -> View:

@@ -1,0 +1,317 @@
+"""How contact points move one another: by a whole matrix, or, where their bodies do not deform, by
+what each gives alone and its levers on two bodies.
+
+Then W = own + V V^T with six columns of V a body (Delassus 1917), and equations with W cost what
+the points are, not the third power of their number (Woodbury 1950).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from fecolumn.contact.arrays import flat, put_points
+from fecolumn.contact.blocks import Blocks, find_blocks, least_filling
+from fecolumn.contact.points import BASE, FLAT_GROUND
+from fecolumn.contact.pose import turns
+from fecolumn.foundation._compiled import njit
+
+
+class Coupling(NamedTuple):
+    """Compliance W of n points [m/N], or their mobility [1/kg].
+
+    whole: (3 n, 3 n), or (0, 0) where the rest tells it. own: (n, 3) of each point alone along the
+    axes of its frame; levers: (n, 3, 12) rows of V, six columns of the slave and six of the master,
+    these negative; bodies: (n, 2) slave and master, -1 of one that does not move. blocks: of the
+    points of a whole matrix; else of the bodies, their rows of V^T W^-1 V by their order of
+    elimination.
+    """
+
+    whole: np.ndarray
+    own: np.ndarray
+    levers: np.ndarray
+    bodies: np.ndarray
+    blocks: Blocks
+
+
+@njit
+def coupling_of(W):
+    """Of a matrix (3 n, 3 n)."""
+    return Coupling(
+        W,
+        np.empty((0, 3)),
+        np.empty((0, 3, 12)),
+        np.empty((0, 2), np.int64),
+        find_blocks(W),
+    )
+
+
+@njit
+def coupling_by_levers(own, levers, bodies):
+    """Of bodies that do not deform, by what Coupling has of them."""
+    return Coupling(np.empty((0, 0)), own, levers, bodies, _blocks_of_bodies(bodies))
+
+
+@njit
+def _blocks_of_bodies(bodies):
+    """Blocks of bodies, six rows each, coupled where they have a point in common."""
+    count, g = 0, 0
+    for j in range(len(bodies)):
+        count = max(count, bodies[j, 0] + 1, bodies[j, 1] + 1)
+    of = np.full(count, -1)
+    for j in range(len(bodies)):
+        for side in range(2):
+            if bodies[j, side] >= 0 and of[bodies[j, side]] < 0:
+                of[bodies[j, side]] = g
+                g += 1
+    coupled = np.zeros((g, g), np.bool_)
+    for k in range(g):
+        coupled[k, k] = True
+    for j in range(len(bodies)):
+        b, m = bodies[j, 0], bodies[j, 1]
+        if b >= 0 and m >= 0:
+            coupled[of[b], of[m]] = coupled[of[m], of[b]] = True
+    ranks = least_filling(np.arange(g + 1), coupled)
+    blocks = Blocks(ranks, 6 * np.arange(g + 1), of, np.empty((g, g), np.bool_))
+    rank = np.empty(g, np.int64)
+    for k in range(g):
+        rank[ranks[k]] = k
+        for l in range(g):
+            blocks.coupled[k, l] = coupled[ranks[k], ranks[l]]
+    for b in range(count):
+        if of[b] >= 0:
+            of[b] = rank[of[b]]
+    return blocks
+
+
+@njit
+def are_stiff(bodies, base, points, listed):
+    """Whether neither bodies nor grounds of the listed points (k,) deform."""
+    for i in listed:
+        if not bodies.body[points[i].slave].stiff:
+            return False
+        if points[i].master != BASE:
+            if not bodies.body[points[i].master].stiff:
+                return False
+        elif points[i].facet != FLAT_GROUND and not base.tops[points[i].ground].stiff:
+            return False
+    return True
+
+
+@njit
+def couple(bodies, points, arms, listed, poses, rigid, factor, own):
+    """Coupling of the listed points (k,) of bodies that do not deform; arguments as of
+    `compliance.assemble`.
+    """
+    k, nb = len(listed), len(bodies.body)
+    alone, levers, sides = np.empty((k, 3)), np.zeros((k, 3, 12)), np.full((k, 2), -1)
+    turned, roots, known = turns(poses), np.empty((nb, 3, 3)), np.zeros(nb, np.bool_)
+    for j in range(k):
+        i = listed[j]
+        for a in range(3):
+            alone[j, a] = factor * (own[i, a] + points[i].uneven[a, a])
+        for side in range(2):
+            b = points[i].master if side else points[i].slave
+            if b == BASE or bodies.body[b].inverse_mass == 0.0:
+                continue
+            if not known[b]:
+                put_root(bodies.body[b].inverse_inertia, roots[b])
+                known[b] = True
+            sides[j, side] = b
+            sign = np.sqrt(rigid) * (-1.0 if side else 1.0)
+            along = sign * np.sqrt(bodies.body[b].inverse_mass)
+            T, C = turned[points[i].interface, side], roots[b]
+            if side:
+                x, y, z = points[i].seat[0], points[i].seat[1], points[i].seat[2]
+            else:
+                x, y, z = arms[i, 0], arms[i, 1], arms[i, 2]
+            for a in range(3):
+                # t . (w x arm) = w . (arm x t)
+                u = y * T[a, 2] - z * T[a, 1]
+                v = z * T[a, 0] - x * T[a, 2]
+                w = x * T[a, 1] - y * T[a, 0]
+                for c in range(3):
+                    levers[j, a, 6 * side + c] = along * T[a, c]
+                    levers[j, a, 6 * side + 3 + c] = sign * (
+                        u * C[0, c] + v * C[1, c] + w * C[2, c]
+                    )
+    return coupling_by_levers(alone, levers, sides)
+
+
+@njit
+def put_root(matrix, root):
+    """Cholesky's factor C (3, 3) of a symmetric positive definite matrix, C C^T."""
+    for i in range(3):
+        for j in range(3):
+            root[i, j] = 0.0
+        for j in range(i + 1):
+            rest = matrix[i, j]
+            for k in range(j):
+                rest -= root[i, k] * root[j, k]
+            root[i, j] = np.sqrt(rest) if i == j else rest / root[j, j]
+
+
+@njit
+def times(coupling, forces):
+    """W times forces (n, 3), as (n, 3)."""
+    n, result = len(forces), np.empty((len(forces), 3))
+    if len(coupling.whole):
+        W = coupling.whole
+        if n > 8:
+            put_points(W @ flat(forces), result)
+            return result
+        # so small, a call of BLAS costs more than the product
+        for i in range(n):
+            for a in range(3):
+                line, total = W[3 * i + a], 0.0
+                for j in range(n):
+                    total += (
+                        line[3 * j] * forces[j, 0]
+                        + line[3 * j + 1] * forces[j, 1]
+                        + line[3 * j + 2] * forces[j, 2]
+                    )
+                result[i, a] = total
+        return result
+    levers, bodies = coupling.levers, coupling.bodies
+    motion = np.zeros((len(coupling.blocks.of), 6))
+    for i in range(n):
+        for side in range(2):
+            b = bodies[i, side]
+            if b >= 0:
+                for a in range(3):
+                    for c in range(6):
+                        motion[b, c] += levers[i, a, 6 * side + c] * forces[i, a]
+    for i in range(n):
+        for a in range(3):
+            total = coupling.own[i, a] * forces[i, a]
+            for side in range(2):
+                b = bodies[i, side]
+                if b >= 0:
+                    for c in range(6):
+                        total += levers[i, a, 6 * side + c] * motion[b, c]
+            result[i, a] = total
+    return result
+
+
+@njit
+def slips_under(coupling, q, forces):
+    """Slips and gaps (n, 3): W r + q."""
+    result = times(coupling, forces)
+    for i in range(len(q)):
+        for a in range(3):
+            result[i, a] += q[i, a]
+    return result
+
+
+@njit
+def whole_of(coupling):
+    """The matrix (3 n, 3 n)."""
+    if len(coupling.whole):
+        return coupling.whole
+    n, levers, bodies = len(coupling.own), coupling.levers, coupling.bodies
+    W = np.zeros((3 * n, 3 * n))
+    for i in range(n):
+        for j in range(i, n):
+            for side in range(2):
+                for other in range(2):
+                    if bodies[i, side] < 0 or bodies[i, side] != bodies[j, other]:
+                        continue
+                    for a in range(3):
+                        for b in range(3):
+                            total = 0.0
+                            for c in range(6):
+                                total += levers[i, a, 6 * side + c] * levers[j, b, 6 * other + c]
+                            W[3 * i + a, 3 * j + b] += total
+        for a in range(3):
+            W[3 * i + a, 3 * i + a] += coupling.own[i, a]
+    for i in range(3 * n):
+        for j in range(i + 1, 3 * n):
+            W[j, i] = W[i, j]
+    return W
+
+
+@njit
+def part_of(coupling, listed):
+    """Coupling of some of the points (k,)."""
+    k = len(listed)
+    if len(coupling.whole):
+        W = np.empty((3 * k, 3 * k))
+        for u in range(k):
+            for v in range(k):
+                for a in range(3):
+                    for b in range(3):
+                        W[3 * u + a, 3 * v + b] = coupling.whole[
+                            3 * listed[u] + a, 3 * listed[v] + b
+                        ]
+        return coupling_of(W)
+    return coupling_by_levers(
+        coupling.own[listed],
+        coupling.levers[listed],
+        coupling.bodies[listed],
+    )
+
+
+@njit
+def softened(coupling, give):
+    """Coupling of points that each give so much (n,) more, alone."""
+    whole, own = coupling.whole.copy(), coupling.own.copy()
+    for i in range(len(give)):
+        for a in range(3):
+            if len(whole):
+                whole[3 * i + a, 3 * i + a] += give[i]
+            else:
+                own[i, a] += give[i]
+    return Coupling(whole, own, coupling.levers, coupling.bodies, coupling.blocks)
+
+
+@njit
+def stiffnesses(coupling, together):
+    """Stiffness (n,) [N/m] of each point when it moves alone, or when all move: then it is less,
+    and with the other each would seem to slip to and fro.
+    """
+    W, n = coupling.whole, max(len(coupling.whole) // 3, len(coupling.own))
+    found = np.empty(n)
+    if len(W):
+        for i in range(n):
+            found[i] = stiffness_together(W, i) if together else stiffness_alone(W, i)
+        return found
+    levers, bodies = coupling.levers, coupling.bodies
+    # lengths of the rows of V, whose products are no larger than those of the lengths
+    length, total = np.empty((n, 2, 3)), np.zeros(len(coupling.blocks.of))
+    for i in range(n):
+        for side in range(2):
+            for a in range(3):
+                square = 0.0
+                for c in range(6):
+                    square += levers[i, a, 6 * side + c] ** 2
+                length[i, side, a] = np.sqrt(square)
+                if bodies[i, side] >= 0:
+                    total[bodies[i, side]] += length[i, side, a]
+    for i in range(n):
+        trace = 0.0
+        for a in range(3):
+            trace += coupling.own[i, a]
+            for side in range(2):
+                if bodies[i, side] >= 0:
+                    all_of_body = total[bodies[i, side]] if together else length[i, side, a]
+                    trace += length[i, side, a] * all_of_body
+        found[i] = 3 / trace
+    return found
+
+
+@njit
+def stiffness_alone(W, i):
+    """Stiffness [N/m] of point i of a compliance (3 n, 3 n) when it moves alone."""
+    return 3 / (W[3 * i, 3 * i] + W[3 * i + 1, 3 * i + 1] + W[3 * i + 2, 3 * i + 2])
+
+
+@njit(fastmath={"reassoc", "contract"})
+def stiffness_together(W, i):
+    """Stiffness [N/m] of point i of a compliance (3 n, 3 n) when all points move."""
+    total = 0.0
+    for a in range(3):
+        row = W[3 * i + a]
+        for j in range(len(row)):
+            total += abs(row[j])
+    return 3 / total
