@@ -66,15 +66,25 @@ def gauss_seidel(W, q, forces, friction, rho, sweeps, tolerance):
 
 
 @njit
-def frictionless(W, q, start):
+def frictionless(coupling, q, start):
     """Forces (n, 3) without friction by primal-dual active sets, or the last ones before they
     cycle: a guess of the points that press.
     """
+    if len(coupling.whole) == 0:
+        rho = stiffnesses(coupling, False)
+        forces, _, _ = newton_steps(
+            coupling, q, np.zeros(len(q)), start, 0.0, rho, rho, 0.0, tolerances.ACTIVE_SETS, 5
+        )
+        for i in range(len(q)):
+            forces[i, 0] = forces[i, 1] = 0.0
+            forces[i, 2] = max(forces[i, 2], 0.0)
+        return forces
+    W = coupling.whole
     n = len(q)
     forces, pressed = np.zeros((n, 3)), np.empty(n, np.bool_)
     for i in range(n):
         pressed[i] = start[i, 2] > 0
-    for _ in range(20):
+    for _ in range(tolerances.ACTIVE_SETS):
         listed = marked(pressed)
         k = len(listed)
         matrix, normal = np.empty((k, k)), np.empty(k)
@@ -133,11 +143,28 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
                 iterations += made
                 if residual < least:
                     best, least = forces, residual
+    if least > tolerance and len(coupling.whole) == 0:
+        # cheap by levers: many small steps, each held by a compliance against change
+        forces, residual, made = newton_steps(
+            coupling,
+            q,
+            friction,
+            best,
+            tolerance,
+            rho,
+            rho,
+            tolerances.HELD_GIVE / rho.min(),
+            tolerances.HELD_STEPS,
+            tolerances.HELD_STALLED,
+        )
+        iterations += made
+        if residual < least:
+            best, least = forces, residual
     if least <= tolerance:
         return best, least, iterations, others
     # few of many points carry: those that do without friction, and those that sink where these do
     forces, taken, grown, pressed = (
-        frictionless(whole_of(coupling), q, start),
+        frictionless(coupling, q, start),
         np.empty(n, np.bool_),
         True,
         0,

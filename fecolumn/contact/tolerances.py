@@ -41,6 +41,8 @@ ITERATIONS = 25
 
 # --- Friction solver: steps of Newton, then other ways; found by trial on 10^5 problems of rocking
 # columns ------------------------------------
+#: Active sets of the frictionless problem that are tried: most are found within six.
+ACTIVE_SETS = 20
 #: Newton steps from a good guess, and without a better residual, after which another way is tried.
 NEWTON_STEPS, NEWTON_STALLED = 25, 6
 #: The same from frictionless forces, from where Newton finds its way late rather than never.
