@@ -2,7 +2,7 @@
 impacts of the rocking podium; and what a step costs.
 
     ./containers/run python -m benchmarks.structures [forces planar rolled impacts rocking speed
-        large] [-o DIR]
+        shaken large] [-o DIR]
     ./containers/run mpirun -n 2 python -m benchmarks.structures large
 
 Writes the rows of what was asked for into DIR as CSV, draws structures.png (and .pdf) from all that
@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from mpi4py import MPI
 
-from benchmarks.structures import frame, large, podium, speed
+from benchmarks.structures import frame, large, podium, shaken, speed
 from benchmarks.structures.figure import draw
 from fecolumn.engines.rocking.podium_impact import LAWS
 from fecolumn.foundation.atomic import write_csv
@@ -179,6 +179,37 @@ def speeds(folder: Path) -> None:
     write_csv(folder / "speed.csv", [["structure", "number", "state", *found], *table])
 
 
+def shaken_costs(folder: Path) -> None:
+    """Of structures that slide, lift and land, rigid and with ten modes a body, beside MuJoCo."""
+    print(
+        "\n| structure | shaken, over uplift | rigid [us] | ten modes [us] | MuJoCo, default [us] "
+        "| stiff [us] | peak, rigid [m] | MuJoCo [m] | stiff [m] |\n"
+        "|---|---|---|---|---|---|---|---|---|"
+    )
+    table = []
+    for kind, number, factor in shaken.ROWS:
+        rigid, elastic = (
+            shaken.cost(kind, number, factor, engine) for engine in ("rigid", "reduced")
+        )
+        soft, stiff = (
+            shaken.mujoco_cost(kind, number, factor, settings) or dict(us=np.nan, peak_m=np.nan)
+            for settings in ("default", "stiff")
+        )
+        found = [one[key] for key in ("us", "peak_m") for one in (rigid, elastic, soft, stiff)]
+        table.append([kind, number, factor, *found])
+        print(
+            f"| {kind}, {number} | {factor or 'let go'} | "
+            + " | ".join(f"{us:.0f}" for us in found[:4])
+            + f" | {found[4]:.2g} | {found[6]:.2g} | {found[7]:.2g} |",
+            flush=True,
+        )
+    if np.isnan(table[0][5]):
+        print("MuJoCo is not installed: python -m benchmarks.peers --install")
+    names = ("rigid", "modes", "mujoco", "mujoco_stiff")
+    head = [f"{name}_{unit}" for unit in ("us", "peak_m") for name in names]
+    write_csv(folder / "shaken.csv", [["structure", "number", "factor", *head], *table])
+
+
 def large_costs(folder: Path) -> None:
     """Of a large structure in full order, on all ranks."""
     found = large.costs(MPI.COMM_WORLD)
@@ -199,6 +230,7 @@ def large_costs(folder: Path) -> None:
 
 PARTS = dict(
     speed=speeds,
+    shaken=shaken_costs,
     large=large_costs,
     forces=forces,
     planar=planar,

@@ -25,7 +25,7 @@ SHAKEN, RATE, LET_GO = 0.1, 3.0, 0.2
 _STUFF = dict(poissons_ratio=0.2, modes=10)
 
 
-def frame_case(columns: int, rocks: bool, dt: float = 1e-3):
+def frame_case(columns: int, rocks: bool, dt: float = 1e-3, engine: str = "reduced"):
     """A slab on so many columns of concrete, a power of two, in a square or two beside each
     other.
     """
@@ -58,10 +58,11 @@ def frame_case(columns: int, rocks: bool, dt: float = 1e-3):
         dict(feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")),
         dict(column=dict(tilt_rad=LET_GO * diameter / height)) if rocks else {},
         dt,
+        engine,
     )
 
 
-def stack_case(drums: int, rocks: bool, dt: float = 1e-3):
+def stack_case(drums: int, rocks: bool, dt: float = 1e-3, engine: str = "reduced"):
     """So many drums of marble on one another; all lean as one where they rock."""
     diameter, height = DRUM
     drum = dict(
@@ -80,17 +81,18 @@ def stack_case(drums: int, rocks: bool, dt: float = 1e-3):
         joints,
         dict(drum=dict(tilt_rad=LET_GO * diameter / (height * drums))) if rocks else {},
         dt,
+        engine,
     )
 
 
-def _case(bodies, interfaces, initial, dt):
+def _case(bodies, interfaces, initial, dt, engine):
     return case_from_tables(
         dict(
             bodies=bodies,
             interfaces=interfaces,
             contact=dict(friction_coefficient=0.7, interior_points=0),
             initial=initial,
-            integration=dict(dt_s=dt, duration_s=60.0),
+            integration=dict(dt_s=dt, duration_s=60.0, engine=engine),
         ),
         "speed",
     )

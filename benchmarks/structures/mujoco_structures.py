@@ -1,0 +1,176 @@
+"""MuJoCo (PyPI) on the structures of `shaken`, run in an environment of its own.
+
+    PYTHON -P mujoco_structures.py JOB.json
+
+The job: structure ("frame" or "drums"), number, dt, seconds, amplitude [m/s2] and rate [Hz] of the
+ground's sine, tilt [rad] at which columns or drums begin, points a face, settings. Prints a line
+of JSON.
+
+Bodies are cylinders and a box with their mass and inertia. As in the program beside it, each face
+touches at its points: balls of a hundredth of the radius on the rim of one face, which meet the
+other body. Settings: "default", MuJoCo's own, soft contact that creeps; or "stiff", as of
+`peers.mujoco` but for the solver's tolerance, which is MuJoCo's own (1e-8). The ground moves by its
+acceleration in the frame that moves with it.
+"""
+
+import json
+import math
+import sys
+import time
+
+import mujoco
+import numpy as np
+
+MODEL = """
+<mujoco>
+  <option timestep="{dt}" gravity="0 0 -9.81" {option}/>
+  <size memory="200M"/>
+  <default>
+    <geom contype="0" conaffinity="0"/>
+  </default>
+  <worldbody>
+    <geom name="ground" type="plane" size="50 50 1"/>
+    {bodies}
+  </worldbody>
+  <contact>{pairs}</contact>
+</mujoco>"""
+#: Of the solver, and of each contact, by settings
+OPTIONS = dict(
+    default=("", ""),
+    stiff=(
+        'cone="elliptic" solver="Newton" impratio="1000" integrator="implicitfast"',
+        'solref="{} 1" solimp="0.99 0.9999 1e-6 0.5 2"',
+    ),
+)
+
+
+def body(name, kind, size, density, place, turn, pins):
+    """One body with its middle at `place`; pins: (z, radius, count) of circles of balls."""
+    balls = "".join(
+        f'<geom name="{name}_{c}_{k}" type="sphere" size="{0.01 * radius}" density="0" '
+        f'pos="{radius * math.cos(a)} {radius * math.sin(a)} '
+        f'{z - math.copysign(0.01 * radius, z)}"/>'
+        for c, (z, radius, count) in enumerate(pins)
+        for k, a in enumerate(2 * math.pi * np.arange(count) / count)
+    )
+    return (
+        f'<body name="{name}" pos="{place[0]} {place[1]} {place[2]}" '
+        f'euler="0 {math.degrees(turn)} 0"><freejoint/>'
+        f'<geom name="{name}" type="{kind}" size="{size}" density="{density}"/>{balls}</body>'
+    )
+
+
+def model_of(job):
+    """Text of the model, and the body that is watched."""
+    bodies, pairs, n, points = [], [], job["number"], job["points"]
+    (diameter, height), tilt = job["size"], job["tilt"]
+    radius = diameter / 2
+    option, contact = OPTIONS[job["settings"]]
+    contact = contact.format(2 * job["dt"])
+
+    def touch(name, circle, other):
+        for k in range(points):
+            pairs.append(
+                f'<pair geom1="{name}_{circle}_{k}" geom2="{other}" condim="3" '
+                f'friction="{job["friction"]} {job["friction"]} 0 0 0" {contact}/>'
+            )
+
+    # about the edge on which it leans
+    lean = [radius - radius * math.cos(tilt), radius * math.sin(tilt)]
+    if job["structure"] == "drums":
+        for i in range(n):
+            middle = height * (i + 0.5)
+            bodies.append(
+                body(
+                    f"b{i}",
+                    "cylinder",
+                    f"{radius} {height / 2}",
+                    2700,
+                    [
+                        lean[0] + middle * math.sin(tilt),
+                        0,
+                        lean[1] + middle * math.cos(tilt),
+                    ],
+                    tilt,
+                    [(-height / 2, radius, points)],
+                )
+            )
+            touch(f"b{i}", 0, f"b{i - 1}" if i else "ground")
+        watched = f"b{n - 1}"
+    else:
+        rows = 2 ** (int(math.log2(n)) // 2)
+        many = n // rows
+        top = lean[1] + height * math.cos(tilt) + radius * math.sin(tilt)
+        for i in range(n):
+            x, y = 2.0 * (i % many - (many - 1) / 2), 2.0 * (i // many - (rows - 1) / 2)
+            bodies.append(
+                body(
+                    f"b{i}",
+                    "cylinder",
+                    f"{radius} {height / 2}",
+                    2500,
+                    [
+                        x + lean[0] + height / 2 * math.sin(tilt),
+                        y,
+                        lean[1] + height / 2 * math.cos(tilt),
+                    ],
+                    tilt,
+                    [(-height / 2, radius, points), (height / 2, radius, points)],
+                )
+            )
+            touch(f"b{i}", 0, "ground")
+            touch(f"b{i}", 1, "slab")
+        bodies.append(
+            body(
+                "slab",
+                "box",
+                f"{many} {rows} 0.2",
+                2500,
+                [height * math.sin(tilt), 0, top + 0.2],
+                0.0,
+                [],
+            )
+        )
+        watched = "slab"
+    text = MODEL.format(
+        dt=job["dt"],
+        option=option,
+        bodies="".join(bodies),
+        pairs="".join(pairs),
+    )
+    return text, watched
+
+
+def main(job_file):
+    job = json.load(open(job_file))
+    text, watched = model_of(job)
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    body, steps = model.body(watched).id, round(job["seconds"] / job["dt"])
+    start, peak, cpu, first = data.xpos[body].copy(), 0.0, 0.0, 20
+    times, iterations = np.empty(steps), 0
+    for step in range(steps):
+        t = (step + 1) * job["dt"]
+        model.opt.gravity[0] = -job["amplitude"] * math.sin(2 * math.pi * job["rate"] * t)
+        began = time.perf_counter()
+        mujoco.mj_step(model, data)
+        times[step] = time.perf_counter() - began
+        iterations += int(data.solver_niter[0])
+        peak = max(peak, float(np.linalg.norm(data.xpos[body][:2] - start[:2])))
+    cpu = times[first:]
+    print(
+        json.dumps(
+            dict(
+                us=1e6 * cpu.mean(),
+                median_us=1e6 * float(np.median(cpu)),
+                iterations=iterations / steps,
+                moved_m=float(np.linalg.norm(data.xpos[body] - start)),
+                peak_m=peak,
+            )
+        )
+    )
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
