@@ -46,7 +46,8 @@ SIDE_NODE = record(("node", "i8"), ("at", "f8"))
 #: slot, slots: first of its slots and their number. size: larger side of OWN [m]. arm: (2,)
 #: of the farthest corner of each face from the centre of mass of its body [m]. within: whether the
 #: outline of OWN lies within that of OTHER at the start of the step; plain: whether the points are
-#: laid as for such a one.
+#: laid as for such a one; left: whether no point takes part, as the faces were apart when they were
+#: laid last.
 OVERLAP = record(
     ("forward", "i8"),
     ("reverse", "i8"),
@@ -61,6 +62,7 @@ OVERLAP = record(
     ("arm", "f8", 2),
     ("within", "?"),
     ("plain", "?"),
+    ("left", "?"),
 )
 
 #: A place of contact that may be a point of the slave, `forward`, or a point of the master,

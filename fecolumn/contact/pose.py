@@ -69,12 +69,16 @@ def move_grounds(before, accelerations, dt, after):
 
 
 @njit
-def find_poses(interfaces, grounds, frames, rotation, poses):
+def find_poses(interfaces, grounds, frames, rotation, poses, rims=None):
     """Find poses (ni,) of POSE where the bodies have `frames` (nb,), of PLACE or with more fields,
-    and are turned by `rotation` (nb, 3, 3); grounds: (G,) of GROUND.
+    and are turned by `rotation` (nb, 3, 3); grounds: (G,) of GROUND. rims: (ni,) of RIM, None for
+    all interfaces, else those whose faces are apart in the step are left out.
     """
     place = np.empty(3)
     for k in range(len(interfaces)):
+        if rims is not None:
+            if rims[k].apart:
+                continue
         interface, pose, slave, b = (
             interfaces[k],
             poses[k],

@@ -53,6 +53,10 @@ def mark_unused(overlaps, interfaces, frames, poses, rims):
     slope, shift = np.empty((3, 2)), np.empty(3)
     for j in range(len(overlaps.joints)):
         joint = overlaps.joints[j]
+        if rims[joint.forward].apart and not rims[joint.forward].plain:
+            # `place_overlaps` asks for it where they come near
+            rims[joint.reverse].unused = joint.within = False
+            continue
         map_between(
             interfaces[joint.forward],
             interfaces[joint.reverse],
@@ -97,8 +101,14 @@ def place_overlaps(
         joint = overlaps.joints[j]
         if rims[joint.reverse].unused and joint.plain:
             continue
+        was_apart = rims[joint.forward].apart and rims[joint.forward].placed
         apart = _is_apart(overlaps, joint, interfaces, ways, frames, poses)
         rims[joint.forward].apart = rims[joint.reverse].apart = apart
+        if apart and was_apart and joint.left:
+            # nothing has changed: its points brought nothing, and none takes part
+            joint.plain = rims[joint.forward].plain = False
+            continue
+        joint.left = apart
         if apart:
             joint.plain = rims[joint.forward].plain = False
             rims[joint.forward].placed = True
@@ -110,7 +120,18 @@ def place_overlaps(
                     changed |= leave_out(slot.reverse, points, before)
             continue
         changed |= _place(
-            overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims, points, before
+            overlaps,
+            joint,
+            interfaces,
+            rim,
+            arms,
+            frames,
+            poses,
+            contact,
+            rims,
+            points,
+            before,
+            was_apart,
         )
         rims[joint.forward].placed = True
     return changed
@@ -138,14 +159,29 @@ def _leave_rim(interface, rim, points, before):
 
 
 @njit
-def _place(overlaps, joint, interfaces, rim, arms, frames, poses, contact, rims, points, before):
-    """`place_overlaps` of one joint."""
+def _place(
+    overlaps,
+    joint,
+    interfaces,
+    rim,
+    arms,
+    frames,
+    poses,
+    contact,
+    rims,
+    points,
+    before,
+    was_apart,
+):
+    """`place_overlaps` of one joint; was_apart: whether its faces were in the step before."""
     k, r, sides, size = joint.forward, joint.reverse, overlaps.sides, joint.size
     most = 2 * (joint.count[OWN] + joint.count[OTHER]) + joint.count[OTHER] + 3
     own, other, on = np.empty((most, 2)), np.empty((most, 2)), np.empty((most, 2), np.int64)
     slope, shift, back, back_shift = np.empty((3, 2)), np.empty(3), np.empty((3, 2)), np.empty(3)
     map_between(interfaces[k], interfaces[r], frames, poses[k], slope, shift)
     map_between(interfaces[r], interfaces[k], frames, poses[r], back, back_shift)
+    if was_apart:
+        joint.within = lies_within(joint, sides, slope, shift)
     count = find_corners(joint, sides, slope, shift, back, back_shift, own, other, on)
     slots, axes = overlaps.slots[joint.slot : joint.slot + joint.slots], interfaces[r].axes
     # where the slave's face inclines, in the plane of the master's

@@ -262,10 +262,6 @@ class FoundContact:
     friction: float
     restitution: float
 
-    def replaces(self, joint: Joint) -> bool:
-        """Whether what two bodies of a joint do to one another is found."""
-        return joint.slave in self.parts and joint.master in (GROUND, *self.parts)
-
 
 @dataclass(frozen=True)
 class StructureModel:
@@ -294,6 +290,16 @@ class StructureModel:
     def bases(self) -> tuple:
         """What each ground is to those that stand on it."""
         return (self.base, *self.more)
+
+    @property
+    def replaced(self) -> frozenset[int]:
+        """Places of the joints in whose stead contact is found."""
+        meet = frozenset(self.found.parts) if self.found else frozenset()
+        return frozenset(
+            place
+            for place, joint in enumerate(self.joints)
+            if joint.slave in meet and (joint.master == GROUND or joint.master in meet)
+        )
 
     def place(self, name: str) -> int:
         """Place of the part of a name."""

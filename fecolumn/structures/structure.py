@@ -247,8 +247,8 @@ def assembled(
         tuple(outlines[name] for name, _ in copies),
         found_contact(case, places, outlines, file),
     )
-    met = structure.found.replaces if structure.found else lambda joint: False
-    tell_of_gaps([joint for joint in joints if not met(joint)], standing, file)
+    replaced = structure.replaced
+    tell_of_gaps([one for n, one in enumerate(joints) if n not in replaced], standing, file)
     check_rest(case, structure, standing, file)
     return structure
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from fecolumn.contact.bodies import BODY
-from fecolumn.engines.reduced.rotation import turning
+from fecolumn.engines.reduced.rotation import Turning, turning
 
 
 @pytest.mark.parametrize("slender", [1.0, 0.1, 1 / 128])
@@ -18,7 +18,9 @@ def test_a_free_body_keeps_its_energy_whatever_its_turn(slender, angle):
     advance, rotation = angle * np.array([0.1, 1.0, 0.3]), Rotation.from_rotvec([0.2, 0.5, -0.3])
     turn, moment, halfway = advance.copy(), np.zeros(3), np.zeros((3, 3))
     still = np.zeros((3, 3))
-    turning(body[0], advance, rotation.as_matrix(), 0.0, still, np.zeros(3), turn, moment, halfway)
+    start = rotation.as_matrix()
+    given = Turning(body[0], advance, start, 0.0, still, np.zeros(3), moment, halfway)
+    turning(given, turn)
     after = Rotation.from_rotvec(-turn).as_matrix() @ inertia @ advance
     energy = advance @ inertia @ advance
     assert after @ np.linalg.solve(inertia, after) == pytest.approx(energy, rel=1e-11)

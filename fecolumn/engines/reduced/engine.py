@@ -32,6 +32,7 @@ from fecolumn.engines.dynamics.links import span
 from fecolumn.engines.dynamics.record import Record
 from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.equilibrium import work_of
+from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.ledger import N_PLACES
 from fecolumn.engines.reduced.model import scheme
 from fecolumn.engines.reduced.observe import ENERGY, outcome_of_row
@@ -47,10 +48,6 @@ _STOPS = {
     OFF_BASE: Stop.OFF_BASE,
     OFF_PATCH: Stop.OFF_PATCH,
 }
-
-
-class _NoRoom(Exception):
-    """More pairs of bodies are near each other than there is room for."""
 
 
 class Engine:
@@ -314,7 +311,7 @@ class Engine:
             while (answer := self._steps(hht, target[None], row, _NO_END, _NO_REST)[1]) == FAR_BASE:
                 self.extend_base(self.spare)
             if answer == NO_ROOM:
-                raise _NoRoom
+                raise NoRoom
             if answer not in (OK, ENDED):
                 raise StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
 
@@ -325,7 +322,7 @@ class Engine:
         except BaseException as error:
             motions.copy(saved, self.motion)
             self.ledger[:] = booked
-            if isinstance(error, _NoRoom):
+            if isinstance(error, NoRoom):
                 return False
             if isinstance(error, StepFailed):
                 raise StepFailed(error.stop, f"t = {self.motion.time:.6g} s: {error}") from None

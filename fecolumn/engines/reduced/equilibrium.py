@@ -137,7 +137,7 @@ def find_positions(structure, work, start, end):
     )
     all_of_them, reach, known = work.problem.flags[STICKS_STILL], np.zeros(len(end.frames)), True
     most = all_of_them or 2 * work.problem.count[0] > work.problem.count[2]
-    find_poses(interfaces, end.grounds, end.frames, end.rotation, poses)
+    find_poses(interfaces, end.grounds, end.frames, end.rotation, poses, end.rims)
     for b in range(len(end.frames)):
         for k in range(end.modal.shape[2]):
             reach[b] += structure.squares[b, k] * end.modal[b, COORDINATE, k] ** 2
@@ -147,7 +147,8 @@ def find_positions(structure, work, start, end):
             find_all_elastic(structure, b, end, elastic, END)
     turned, center = np.empty((len(interfaces), 3, 3)), np.empty((len(interfaces), 3))
     for k in range(len(interfaces)):
-        _slave_in_frame(interfaces[k], poses[k], end, turned[k], center[k])
+        if not end.rims[k].apart:
+            _slave_in_frame(interfaces[k], poses[k], end, turned[k], center[k])
     for i in present_points(work.problem):
         point = points[i]
         k, x, y, z = point.interface, point.arm[0], point.arm[1], point.arm[2]
@@ -237,7 +238,7 @@ def find_arms(structure, work, end):
     their moments depend.
     """
     points, elastic, poses, place = work.points, work.elastic, work.poses[END], np.empty(3)
-    find_poses(structure.interfaces, end.grounds, end.frames, end.rotation, poses)
+    find_poses(structure.interfaces, end.grounds, end.frames, end.rotation, poses, end.rims)
     for i in near_points(work.problem):
         if end.contact[i].force[2] > 0:
             find_elastic(structure, points, i, end, elastic, END)
@@ -275,10 +276,14 @@ def find_equilibrium(
         work.elastic,
         work.poses,
     )
-    carrying, foreseen = 0, False
-    find_poses(interfaces, start.grounds, start.frames, start.rotation, poses[START])
+    carrying, foreseen, found = 0, False, structure.found.interface
+    # of joints they are known
+    find_poses(
+        interfaces[found:], start.grounds, start.frames, start.rotation, poses[START][found:]
+    )
     for i in range(len(points)):
         end.contact[i] = before[i]
+    for i in present_points(problem):
         points[i].beyond = OVER
         if before[i].force[2] > 0:
             problem.near[carrying] = i

@@ -180,6 +180,14 @@ def _lay_row(structure, work, start, end, r):
 
 
 @njit
+def _place_of(found, first):
+    """Row, in tables of Found by pair, of the first of a pair: a body, or one of the grounds, which
+    are -1, -2, ... and come after all bodies.
+    """
+    return first if first >= 0 else len(found.reach) - 1 - first
+
+
+@njit
 def set_interface(structure, row, k):
     """Let interface k be that of a row of MEETING."""
     interface, found = structure.interfaces[k], structure.found
@@ -187,12 +195,12 @@ def set_interface(structure, row, k):
     interface.slave, interface.master = second, BASE
     interface.ground, interface.width = 0, found.hulls.thickness[second]
     if first < 0:
-        interface.ground, first = -1 - first, len(found.reach) - 1 - first
+        interface.ground = -1 - first
     else:
         interface.slave, interface.master = row.slave, row.master
         interface.width = min(interface.width, found.hulls.thickness[first])
         interface.reach = found.reach[max(row.master, 0)]
-    interface.restitution = found.restitution[first, second]
+    interface.restitution = found.restitution[_place_of(found, first), second]
     for a in range(3):
         interface.origin[a] = row.origin[a]
         for c in range(3):
@@ -203,14 +211,14 @@ def set_interface(structure, row, k):
 def _lay_point(structure, row, place, k, point):
     """Lay a point of interface k on a place; whether it took no part or was elsewhere before."""
     found, interface = structure.found, structure.interfaces[k]
-    moved, first = 0.0, row.pair[0] if row.pair[0] >= 0 else len(found.reach) - 1 - row.pair[0]
+    moved = 0.0
     for a in range(3):
         moved = max(moved, abs(point.arm[a] - place.arm[a]))
     changed = point.idle or point.slave != interface.slave or point.master != interface.master
     changed |= moved > SAME_PLACE * interface.width
     point.idle, point.rolls = False, False
     point.slave, point.master, point.ground = interface.slave, interface.master, interface.ground
-    point.friction = found.friction[first, row.pair[1]]
+    point.friction = found.friction[_place_of(found, row.pair[0]), row.pair[1]]
     put(place.arm, point.arm)
     for q in range(4):
         point.weights[q] = point.shares[q] = 0.0

@@ -15,6 +15,10 @@ from fecolumn.engines.reduced.found import Found
 from fecolumn.structures.hulls import HULL
 
 
+class NoRoom(Exception):
+    """More pairs of bodies are near each other than there is room for."""
+
+
 def found_of(model, first: np.ndarray, reach: np.ndarray, interface: int, point: int, rows: int):
     """Found of a model, of no body where its contact is not found.
 
@@ -31,11 +35,15 @@ def found_of(model, first: np.ndarray, reach: np.ndarray, interface: int, point:
     """
     parts, grounds, meet = model.parts, len(model.levels), model.found.parts if model.found else ()
     hulls, nodes, reaches = [no_hull()] * len(parts), [], np.zeros(len(parts))
+    made: dict[int, tuple] = {}
     for b in sorted(meet):
         body = parts[b].model
         own = body.surfaces[HULL].nodes
-        hulls[b] = hull_of(body.arms[own])
-        at = own[cKDTree(body.arms[own]).query(hulls[b].corners)[1]]
+        if id(body) not in made:
+            # copies share their model
+            hull = hull_of(body.arms[own])
+            made[id(body)] = hull, own[cKDTree(body.arms[own]).query(hull.corners)[1]]
+        hulls[b], at = made[id(body)]
         nodes.append(first[b] + at)
         reaches[b] = reach[first[b] + own].max()
     held = [b for b in meet if parts[b].held >= 0]
@@ -43,8 +51,10 @@ def found_of(model, first: np.ndarray, reach: np.ndarray, interface: int, point:
     joint = np.full(friction.shape, -1)
     if model.found:
         friction[:], restitution[:] = model.found.friction, model.found.restitution
-    for number, one in enumerate(model.joints):
-        if not model.found or not model.found.replaces(one) or one.pair >= 0:
+    replaced = sorted(model.replaced)
+    for number in replaced:
+        one = model.joints[number]
+        if one.pair >= 0:
             continue
         other = len(parts) + one.ground if one.master == BASE else one.master
         pairs = [(other, one.slave)] + [(one.slave, other)] * (one.master != BASE)
@@ -60,7 +70,7 @@ def found_of(model, first: np.ndarray, reach: np.ndarray, interface: int, point:
         friction,
         restitution,
         joint,
-        np.array([bool(model.found and model.found.replaces(one)) for one in model.joints], bool),
+        np.isin(np.arange(len(model.joints)), replaced),
         np.tile(np.eye(3), (grounds, 1, 1)),
         reaches,
         boxes_for(len(parts)),

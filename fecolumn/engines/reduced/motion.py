@@ -15,7 +15,7 @@ from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import FOUND_SLOTS
 from fecolumn.engines.dynamics.links import TIE, pull_links
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START
-from fecolumn.engines.reduced.rotation import turn_by, turning
+from fecolumn.engines.reduced.rotation import Turning, turn_by, turning
 from fecolumn.foundation._compiled import njit
 
 #: A body's frame: center of mass [m], its velocity [m/s] and the acceleration that HHT remembers,
@@ -163,7 +163,7 @@ def begin_frames(structure, start, free_center, advance, end, action):
     """First guess of what `follow` finds of frames that move and of links: bodies that are free."""
     moving, part = len(structure.links) > 0, np.empty(3)
     for k in range(len(structure.interfaces)):
-        moving |= structure.interfaces[k].master != BASE
+        moving |= structure.interfaces[k].master != BASE and not end.rims[k].apart
     if not moving:
         return
     for b in range(len(start.frames)):
@@ -175,11 +175,14 @@ def begin_frames(structure, start, free_center, advance, end, action):
 
 @njit
 def _turn_frames(structure, action):
-    """Find the frames of the interfaces in the middle of the step; the largest change."""
+    """Find the frames of the interfaces that carry, in the middle of the step; the largest change.
+
+    Nothing depends on the frame of one that carries nothing.
+    """
     change = 0.0
     for k in range(len(structure.interfaces)):
         b, axes = structure.interfaces[k].master, structure.interfaces[k].axes
-        if b == BASE:
+        if b == BASE or not action.total[k, 2] > 0.0:
             continue
         R = action.halfway[b]
         for a in range(3):
@@ -276,6 +279,8 @@ def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
             action.push[b, a] = 0.0
     for k in range(len(structure.interfaces)):
         Q, total = action.frames[k], action.total[k]
+        if not total[2] > 0.0:
+            continue
         for side in range(2):
             b, sign = (
                 structure.interfaces[k].master if side else structure.interfaces[k].slave,
@@ -307,15 +312,17 @@ def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
                 free_center[b, a] + scheme.half * action.push[b, a] * bodies[b].inverse_mass
             )
         turning(
-            bodies[b],
-            advance[b],
-            start.rotation[b],
-            scheme.half,
-            spread[b],
-            action.resistance[b],
+            Turning(
+                bodies[b],
+                advance[b],
+                start.rotation[b],
+                scheme.half,
+                spread[b],
+                action.resistance[b],
+                action.moment[b],
+                action.halfway[b],
+            ),
             action.turn[b],
-            action.moment[b],
-            action.halfway[b],
         )
         turn_by(start.rotation[b], action.turn[b], end.rotation[b])
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from fecolumn.foundation._compiled import njit
@@ -48,8 +50,29 @@ def orthonormal(rotation):
             )
 
 
+class Turning(NamedTuple):
+    """What turns a body in a step, in its frame at the start unless said otherwise, and what comes
+    of it.
+
+    body: of BODY. advance: (3,) dt times the spin at the start. rotation: (3, 3) at the start, into
+    the table frame. half: half of dt squared, or what stands for it [s2]. spread: (3, 3) sum of
+    arms times forces, arms in the body's frame and forces in the table frame [N m]. resistance:
+    (3,) added to the moment [N m]. moment: (3,) and halfway: (3, 3), rotation in the middle of the
+    step, are found.
+    """
+
+    body: np.ndarray
+    advance: np.ndarray
+    rotation: np.ndarray
+    half: float
+    spread: np.ndarray
+    resistance: np.ndarray
+    moment: np.ndarray
+    halfway: np.ndarray
+
+
 @njit
-def turning(body, advance, rotation, half, spread, resistance, turn, moment, halfway):
+def turning(given, turn):
     """Solve Th = advance/2 + J^-1 exp(-Th) (J advance/2 + half R0^T M) for the turn Th, and its
     moment M, in the column's frame.
 
@@ -58,40 +81,19 @@ def turning(body, advance, rotation, half, spread, resistance, turn, moment, hal
 
     Parameters
     ----------
-    body
-        of BODY.
-    advance
-        (3,) dt times the spin at the start.
-    spread
-        (3, 3) sum of A r^T, r in the table frame.
-    resistance
-        (3,) added to M.
+    given
+        Turning, which gets moment and rotation halfway.
     turn
-        first guess, and the result.
-    moment, halfway
-        results; the moment in the column's frame at the start.
+        (3,) first guess [rad], and the result.
     """
     momentum, value, change = np.empty(3), np.empty(3), 0.0
+    inertia, advance = given.body.inertia, given.advance
     for i in range(3):
         momentum[i] = 0.5 * (
-            body.inertia[i, 0] * advance[0]
-            + body.inertia[i, 1] * advance[1]
-            + body.inertia[i, 2] * advance[2]
+            inertia[i, 0] * advance[0] + inertia[i, 1] * advance[1] + inertia[i, 2] * advance[2]
         )
     for _ in range(50):
-        _turn_by_turn(
-            body,
-            advance,
-            momentum,
-            rotation,
-            half,
-            spread,
-            resistance,
-            turn,
-            moment,
-            halfway,
-            value,
-        )
+        _turn_by_turn(given, momentum, turn, value)
         change = 0.0
         for i in range(3):
             change = max(change, abs(value[i] - turn[i]))
@@ -105,36 +107,12 @@ def turning(body, advance, rotation, half, spread, resistance, turn, moment, hal
     for i in range(3):
         turn[i] = advance[i]
     for _ in range(50):
-        _turn_by_turn(
-            body,
-            advance,
-            momentum,
-            rotation,
-            half,
-            spread,
-            resistance,
-            turn,
-            moment,
-            halfway,
-            value,
-        )
+        _turn_by_turn(given, momentum, turn, value)
         most = 1e-17 + abs(turn[0]) + abs(turn[1]) + abs(turn[2])
         small, change = 1e-7 * most, 0.0
         for k in range(3):
             kept, turn[k] = turn[k], turn[k] + small
-            _turn_by_turn(
-                body,
-                advance,
-                momentum,
-                rotation,
-                half,
-                spread,
-                resistance,
-                turn,
-                moment,
-                halfway,
-                other,
-            )
+            _turn_by_turn(given, momentum, turn, other)
             turn[k] = kept
             for i in range(3):
                 slope[i, k] = (i == k) - (other[i] - value[i]) / small
@@ -146,17 +124,22 @@ def turning(body, advance, rotation, half, spread, resistance, turn, moment, hal
             turn[i] += found[i]
         if change <= 1e-14 * most:
             break
-    _turn_by_turn(
-        body, advance, momentum, rotation, half, spread, resistance, turn, moment, halfway, value
-    )
+    _turn_by_turn(given, momentum, turn, value)
 
 
 @njit
-def _turn_by_turn(
-    body, advance, momentum, rotation, half, spread, resistance, turn, moment, halfway, value
-):
-    """The right side of the equation of `turning` at a turn, put into value (3,)."""
-    part, inverse = np.empty(3), body.inverse_inertia
+def _turn_by_turn(given, momentum, turn, value):
+    """The right side of the equation of `turning` at a turn (3,), put into value (3,); momentum:
+    (3,) half of J advance.
+    """
+    part, inverse, advance, half = (
+        np.empty(3),
+        given.body.inverse_inertia,
+        given.advance,
+        given.half,
+    )
+    rotation, spread, resistance = given.rotation, given.spread, given.resistance
+    moment, halfway = given.moment, given.halfway
     x, y, z = turn[0], turn[1], turn[2]
     quarter = (x * x + y * y + z * z) / 4
     sinc = (

@@ -18,6 +18,7 @@ from fecolumn.engines.dynamics.gravity import (
 from fecolumn.engines.dynamics.links import end_links, fastest
 from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE
+from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.model import resting_scheme
 from fecolumn.foundation._compiled import interpreted
 
@@ -68,12 +69,8 @@ def _settled_with_room(engine, firmness: float) -> motions.MotionState:
     while True:
         try:
             return _settled(engine, firmness)
-        except _Crowded:
+        except NoRoom:
             engine.make_room(2 * len(engine.spare.meetings.rows))
-
-
-class _Crowded(Exception):
-    """More pairs of bodies are near each other than there is room for."""
 
 
 class _Diverged(NoEquilibrium):
@@ -97,7 +94,7 @@ def _settled(engine, firmness: float) -> motions.MotionState:
         while (answer := engine.settle(resting, start, end)) == FAR_BASE:
             engine.extend_base(end)
         if answer == NO_ROOM:
-            raise _Crowded
+            raise NoRoom
         if answer != OK:
             raise _Diverged("gravity equilibrium: contact does not converge")
         moved = max(

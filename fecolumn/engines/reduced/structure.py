@@ -78,9 +78,7 @@ def structure_of(
             for own, part in zip(pushes, parts)
         ]
     )
-    replaces = model.found.replaces if model.found else lambda joint: False
-    replaced = {k for k, joint in enumerate(model.joints) if replaces(joint)}
-    joints = joints_of(parts, model.joints, replaced)
+    joints = joints_of(parts, model.joints, model.replaced)
     for interface, joint in zip(joints.interfaces, model.joints):
         if joint.master != BASE:
             interface["reach"] = reach[
