@@ -69,7 +69,7 @@ def move_grounds(before, accelerations, dt, after):
 
 
 @njit
-def find_poses(interfaces, grounds, frames, rotation, poses, rims=None):
+def find_poses(interfaces, grounds, frames, rotation, poses, rims):
     """Find poses (ni,) of POSE where the bodies have `frames` (nb,), of PLACE or with more fields,
     and are turned by `rotation` (nb, 3, 3); grounds: (G,) of GROUND. rims: (ni,) of RIM, None for
     all interfaces, else those whose faces are apart in the step are left out.
@@ -132,7 +132,7 @@ def poses_of(
     GROUND.
     """
     poses = np.zeros(len(interfaces), POSE)
-    interpreted(find_poses)(interfaces, grounds, frames_at(centers), rotations, poses)
+    interpreted(find_poses)(interfaces, grounds, frames_at(centers), rotations, poses, None)
     return poses
 
 

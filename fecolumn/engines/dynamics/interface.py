@@ -115,7 +115,14 @@ class ContactInterface(Places):
         )
         compile_for(
             find_poses,
-            (self.interfaces, self._grounds, frames_at(np.zeros((1, 3))), np.eye(3)[None], poses),
+            (
+                self.interfaces,
+                self._grounds,
+                frames_at(np.zeros((1, 3))),
+                np.eye(3)[None],
+                poses,
+                None,
+            ),
         )
         if self.moving:
             compile_for(

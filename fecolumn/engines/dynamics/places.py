@@ -147,7 +147,8 @@ class Places:
     def poses(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """(ni,) of POSE of bodies at positions x (n_owned, 3) turned by `rotation`."""
         poses = np.zeros(len(self.interfaces), POSE)
-        find_poses(self.interfaces, self._grounds, frames_at(self.centers(x)), rotation, poses)
+        frames = frames_at(self.centers(x))
+        find_poses(self.interfaces, self._grounds, frames, rotation, poses, None)
         return poses
 
     def centers(self, x: np.ndarray) -> np.ndarray:

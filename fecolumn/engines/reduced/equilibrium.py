@@ -279,7 +279,12 @@ def find_equilibrium(
     carrying, foreseen, found = 0, False, structure.found.interface
     # of joints they are known
     find_poses(
-        interfaces[found:], start.grounds, start.frames, start.rotation, poses[START][found:]
+        interfaces[found:],
+        start.grounds,
+        start.frames,
+        start.rotation,
+        poses[START][found:],
+        None,
     )
     for i in range(len(points)):
         end.contact[i] = before[i]

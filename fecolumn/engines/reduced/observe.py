@@ -204,7 +204,7 @@ def _observe_all(structure, points, poses, eye, motion, row):
         row[place + _TURN], row[place + _TURN + 1] = factor * x, factor * y
         row[place + _TURN + 2] = factor * z
         place += PER_BODY
-    find_poses(structure.interfaces, motion.grounds, motion.frames, motion.rotation, poses)
+    find_poses(structure.interfaces, motion.grounds, motion.frames, motion.rotation, poses, None)
     first = place
     for k in range(len(eye.feet)):
         T, foot, normal = poses[k].turned[SLAVE], poses[k].foot, eye.normals[k]

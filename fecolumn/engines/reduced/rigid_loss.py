@@ -71,7 +71,7 @@ def find_together(structure, work, end):
     points, poses, before, give = work.points, work.poses[END], work.before, 0.0
     listed, count, place = present_points(work.problem), 0, np.empty(3)
     height, together = np.empty(len(listed)), np.empty(len(listed), np.int64)
-    find_poses(structure.interfaces, end.grounds, end.frames, end.rotation, poses)
+    find_poses(structure.interfaces, end.grounds, end.frames, end.rotation, poses, None)
     for j in range(len(listed)):
         point, pose = points[listed[j]], poses[points[listed[j]].interface]
         _place_of(point, end, place)

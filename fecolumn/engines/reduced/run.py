@@ -255,7 +255,12 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
         work.before[i] = motion.contact[i]
     for when in (START, END):
         find_poses(
-            structure.interfaces, motion.grounds, motion.frames, motion.rotation, work.poses[when]
+            structure.interfaces,
+            motion.grounds,
+            motion.frames,
+            motion.rotation,
+            work.poses[when],
+            None,
         )
     motions.copy_grounds(motion, spare)
     for k in range(len(structure.interfaces)):

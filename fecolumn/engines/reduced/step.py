@@ -97,13 +97,15 @@ def place_points_of_step(structure, dt, work, start, end, allowed):
     rims. Returns: whether any rim rolled.
     """
     rolled, part, halfway, poses = False, np.empty(3), work.action.halfway, work.poses
-    find_poses(structure.interfaces, start.grounds, start.frames, start.rotation, poses[START])
+    find_poses(
+        structure.interfaces, start.grounds, start.frames, start.rotation, poses[START], None
+    )
     for b in range(len(start.frames)):
         for a in range(3):
             part[a] = dt / 2 * start.frames[b].spin[a]
         turn_by(start.rotation[b], part, halfway[b])
     # turned alone: where the bodies go does not matter here
-    find_poses(structure.interfaces, start.grounds, start.frames, halfway, poses[END])
+    find_poses(structure.interfaces, start.grounds, start.frames, halfway, poses[END], None)
     for i in range(len(work.points)):
         work.before[i] = start.contact[i]
     for k in range(len(structure.interfaces)):
