@@ -1,5 +1,5 @@
 """The command line: fecolumn new | mesh | run | resume | study | compare | report | fragility |
-render | rocking | motions | keys | help | verify | prepare | doctor | completion.
+design | render | rocking | motions | keys | help | verify | prepare | doctor | completion.
 """
 
 from __future__ import annotations
@@ -97,6 +97,7 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn.study import key_tables as keys
     from fecolumn.study import motions_command as motions
     from fecolumn.study import rocking_command as rocking
+    from fecolumn.study.questions import design_command as design
     from fecolumn.study.report import command as report
     from fecolumn.study.report import fragility_command as fragility
     from fecolumn.verification import command as verify
@@ -149,6 +150,7 @@ def _parser() -> argparse.ArgumentParser:
         "of your own table",
         fragility,
     )
+    add("design", "the least or largest value of a key for which a limit state holds", design)
     add("render", "draw an analysis: movie, stills, sequence figure, ParaView's view", render)
     add(
         "rocking",
