@@ -1,5 +1,5 @@
 """The command line: fecolumn new | mesh | run | resume | study | compare | report | fragility |
-design | render | rocking | motions | keys | help | verify | prepare | doctor | completion.
+design | risk | render | rocking | motions | keys | help | verify | prepare | doctor | completion.
 """
 
 from __future__ import annotations
@@ -98,6 +98,7 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn.study import motions_command as motions
     from fecolumn.study import rocking_command as rocking
     from fecolumn.study.questions import design_command as design
+    from fecolumn.study.questions import risk_command as risk
     from fecolumn.study.report import command as report
     from fecolumn.study.report import fragility_command as fragility
     from fecolumn.verification import command as verify
@@ -151,6 +152,7 @@ def _parser() -> argparse.ArgumentParser:
         fragility,
     )
     add("design", "the least or largest value of a key for which a limit state holds", design)
+    add("risk", "how often a limit state is reached: fragility and hazard curve of a site", risk)
     add("render", "draw an analysis: movie, stills, sequence figure, ParaView's view", render)
     add(
         "rocking",
