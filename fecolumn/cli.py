@@ -1,5 +1,6 @@
 """The command line: fecolumn new | mesh | run | resume | study | compare | report | fragility |
-design | risk | render | rocking | motions | keys | help | verify | prepare | doctor | completion.
+design | risk | screen | render | rocking | motions | keys | help | verify | prepare | doctor |
+completion.
 """
 
 from __future__ import annotations
@@ -99,6 +100,7 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn.study import rocking_command as rocking
     from fecolumn.study.questions import design_command as design
     from fecolumn.study.questions import risk_command as risk
+    from fecolumn.study.questions import screen_command as screen
     from fecolumn.study.report import command as report
     from fecolumn.study.report import fragility_command as fragility
     from fecolumn.verification import command as verify
@@ -153,6 +155,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     add("design", "the least or largest value of a key for which a limit state holds", design)
     add("risk", "how often a limit state is reached: fragility and hazard curve of a site", risk)
+    add("screen", "rank a list of objects by how likely they overturn or slide", screen)
     add("render", "draw an analysis: movie, stills, sequence figure, ParaView's view", render)
     add(
         "rocking",
