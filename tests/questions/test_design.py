@@ -113,6 +113,23 @@ def test_what_was_killed_goes_on_to_the_same_answer(pulses):
     assert answers[0] == answers[1]
 
 
+def test_folder_of_another_question_is_refused(pulses, capsys):
+    assert design(pulses, "taken", "--steps", "2") == 0
+    capsys.readouterr()
+    assert design(pulses, "taken", "--steps", "4") == 2
+    told = capsys.readouterr().err
+    assert "holds another study" in told and told.count("\n") == 1
+
+
+def test_motions_that_tell_nothing_of_the_size_are_said_to(pulses, capsys):
+    """Of six motions two more or less are chance."""
+    motions = ("--motions", f"{pulses / 'p.h5'}#17-22")
+    vary = ("block.width_m", "0.55:0.63")
+    assert design(pulses, "few", "--steps", "4", *motions, vary=vary) == 0
+    said = capsys.readouterr().out
+    assert "every value of the range may be the size" in said
+
+
 def bisected(k, n, share):
     """The place and its interval from counts at every place of a grid."""
     values = GradedValues(len(k), {})
@@ -213,6 +230,7 @@ def test_limit_that_cannot_be_used_is_refused_in_a_line(limit, said):
         ({"--vary": ("block.widht_m", "0.3:0.9")}, "did you mean block.width_m"),
         ({"--vary": ("block.width_m", "0.9:0.3")}, "did you mean 0.3:0.9?"),
         ({"--vary": ("block.width_m", "0.3:0.3")}, "must be a range LO:HI that rises"),
+        ({"--vary": ("block.width_m", "0_1:0_3")}, "must be a range LO:HI of two numbers"),
         ({"--vary": ("block.width_m", "0.3")}, "must be a range LO:HI of two numbers"),
         ({"--vary": ("block.width_m", "0:0.3")}, "--vary block.width_m = 0.0: must be greater"),
         ({"--vary": ("integration.engine", "0.1:0.3")}, "only a number has a range"),

@@ -155,11 +155,13 @@ class DesignQuestion:
         kept = self.looked[found.kept]
         low, high = kept.interval
         resolution = abs(self.grid[found.kept] - self.grid[found.broken])
+        open_ends = found.least is None and found.most is None
+        nothing = "; every value of the range may be the size" if open_ends else ""
         return (
             f"{self.limit.text} needs {self.key} of at {'least' if rising else 'most'} "
             f"{kept.value:g}{unit}, 95 % interval {self._interval(found)} ({kept.n} motions, the "
             f"same at each value; values {resolution:.3g}{unit} apart; P there "
-            f"{100 * kept.k / kept.n:.1f} % [{100 * low:.1f}, {100 * high:.1f}])."
+            f"{100 * kept.k / kept.n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]){nothing}."
         )
 
     def _interval(self, found: CrossingPlace) -> str:

@@ -57,7 +57,7 @@ def read_range(key: str, text: str, option: str, command: str) -> tuple[float, f
     """
     low, _, high = text.partition(":")
     try:
-        ends = [float(low), float(high)]
+        ends = [math.nan, math.nan] if "_" in text else [float(low), float(high)]
     except ValueError:
         ends = [math.nan, math.nan]
     told = f"{option} {key}"

@@ -115,11 +115,10 @@ class LimitEvent:
             engine = summary.get("engine", "")
             there = f"; there are {', '.join(parts)}" if parts else f" of engine {engine!r}"
             raise InputError(
-                "fecolumn",
+                "summary.json",
                 "--limit",
                 self.text,
-                f"no {self.quantity}{f'[{self.part}]' if self.part else ''} in the summaries"
-                f"{there}",
+                f"holds no {self.quantity}{f'[{self.part}]' if self.part else ''}{there}",
             )
         return float(max(found))
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -48,18 +47,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class KnownFragility:
-    """A lognormal fragility: its median and dispersion, r of them (r, 2) that say how well they are
-    known, and the least and the largest intensity of its runs, None where they are not known.
-    """
-
-    median: float
-    beta: float
-    drawn: Any
-    runs: tuple[float, float] | None = None
-
-
 def main(args: argparse.Namespace) -> int:
     """Integrate, tell and draw; returns 0.
 
@@ -71,105 +58,19 @@ def main(args: argparse.Namespace) -> int:
     from fecolumn.foundation.folder import written
     from fecolumn.foundation.schema import InputError
     from fecolumn.statistics.hazard_table import read_hazard
+    from fecolumn.study.questions.fragilities import fragilities_of
 
     if not 0 < args.years <= 1e6:
         raise InputError(_COMMAND, "--years", args.years, "must be greater than 0, at most 1e6")
     curve = read_hazard(args.hazard, args.site)
-    sets = _fragilities(args.source, args.limit, curve.measure)
+    sets = fragilities_of(args.source, args.limit, curve.measure)
     with written(args.output, "risk", names=("risk.csv",)) as draft:
         _write(sets, curve, args, draft)
     print(f"wrote {args.output}")
     return 0
 
 
-def _fragilities(source: str, limit: str, measure: str) -> dict[str, KnownFragility]:
-    """Fragility over the hazard's measure of each setting of the source."""
-    from fecolumn.foundation.schema import InputError
-    from fecolumn.statistics.fragility import DegenerateData, bootstrap, lognormal
-    from fecolumn.study.questions.limit import read_event
-    from fecolumn.study.report.fragility_command import runs_by_setting
-
-    if not Path(source).is_dir() and (found := _stated(source, measure)):
-        return found
-    event = read_event(limit, _COMMAND)
-    happened = None if event.quantity == "overturn" else event.happened
-    fitted, refused = {}, {}
-    for label, table in runs_by_setting(source, (measure,), happened).items():
-        im = table.measures[measure]
-        try:
-            fit = lognormal(im, table.overturned, table.records)
-            drawn = bootstrap(im, table.overturned, lognormal, table.records)
-        except DegenerateData as error:
-            refused[label] = str(error)
-            continue
-        fitted[label] = KnownFragility(
-            fit.median, fit.beta, drawn.parameters, (float(im.min()), float(im.max()))
-        )
-        if drawn.refused > 0.05 * (drawn.refused + len(drawn.parameters)):
-            print(
-                f"fecolumn: warning: {label + ': ' if label else ''}{drawn.refused} of "
-                f"{drawn.refused + len(drawn.parameters)} samples of the bootstrap bound no "
-                "fragility: the interval is too narrow; more runs are needed",
-                file=sys.stderr,
-            )
-    for label, reason in refused.items():
-        print(f"{label + ': ' if label else ''}no fragility: {reason}")
-    if not fitted:
-        raise InputError(
-            source,
-            "",
-            None,
-            f"its runs bound no fragility over {measure}, the measure of the hazard: "
-            + "; ".join(dict.fromkeys(refused.values())),
-        )
-    return fitted
-
-
-def _stated(source: str, measure: str) -> dict[str, KnownFragility]:
-    """Fragilities of a file that `fecolumn fragility` wrote; none of another table."""
-    from fecolumn.foundation.schema import InputError
-    from fecolumn.statistics.csv_table import check_row, read_csv
-    from fecolumn.statistics.hazard import drawn_parameters
-
-    header, rows = read_csv(Path(source), "runs, or what fecolumn fragility writes")
-    medians = [name for name in header if name.startswith("median_")]
-    if not {"beta", "beta_low", "beta_high", "low", "high"} <= set(header) or len(medians) != 1:
-        return {}
-    if medians[0] != f"median_{measure}":
-        raise InputError(
-            source,
-            "header",
-            medians[0],
-            f"must be median_{measure}, over the measure of the hazard curve",
-        )
-    found = {}
-    for number, row in rows:
-        check_row(Path(source), header, number, row)
-        cells = dict(zip(header, row))
-        values = []
-        for name in (medians[0], "low", "high", "beta", "beta_low", "beta_high"):
-            try:
-                values.append(float(cells[name]))
-            except ValueError:
-                values.append(math.nan)
-            if not 0 < values[-1] < math.inf:
-                raise InputError(
-                    source, f"line {number}, {name}", cells[name], "must be a number above 0"
-                )
-        for (value, low, high), name in ((values[:3], medians[0]), (values[3:], "beta")):
-            if not low <= value <= high:
-                raise InputError(
-                    source, f"line {number}, {name}", value, f"must lie in [{low:g}, {high:g}]"
-                )
-        median, beta = (values[0], values[1], values[2]), (values[3], values[4], values[5])
-        name = cells.get("setting", "")
-        found["" if name == "all" else name] = KnownFragility(
-            median[0], beta[0], drawn_parameters(median, beta)
-        )
-    return found
-
-
-def _write(sets: dict[str, KnownFragility], curve: Any, args: Any, folder: Path) -> None:
+def _write(sets: dict[str, Any], curve: Any, args: Any, folder: Path) -> None:
     """Sentences, tables and a figure for each setting."""
     import numpy as np
 
@@ -232,7 +133,7 @@ def _write(sets: dict[str, KnownFragility], curve: Any, args: Any, folder: Path)
     write_csv(folder / "deaggregation.csv", parts)
 
 
-def _outside(curve: Any, one: KnownFragility, value: float) -> float:
+def _outside(curve: Any, one: Any, value: float) -> float:
     """Share of the frequency from intensities that no run had."""
     import numpy as np
 
