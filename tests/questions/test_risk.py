@@ -242,3 +242,31 @@ def test_frequency_from_intensities_that_no_run_had_is_told(tmp_path, capsys):
     assert "comes from intensities that no run had" in capsys.readouterr().err
     (row,) = rows(tmp_path / "out" / "risk.csv")
     assert float(row["outside_runs_share"]) > 0.1
+
+
+def test_folder_of_a_study_is_asked_for_any_limit_state(tmp_path, capsys):
+    """Runs of pulses of two periods: the fragility and the frequency of the folder are those of
+    its own runs.
+    """
+    amplitudes = [f"{one:g}" for one in np.linspace(1.5, 9.0, 16)]
+    pulses = tmp_path / "p.h5"
+    arguments = ["--amplitudes", *amplitudes, "--periods", "0.5", "1.0", "-o", str(pulses)]
+    assert main(["motions", "make", "pulses", "symmetric_ricker", *arguments]) == 0
+    (tmp_path / "study.toml").write_text(
+        "[case.block]\nwidth_m = 0.4\nheight_m = 2.0\n[case.integration]\ndt_s = 0.005\n"
+        f'[axes]\n"motion.source" = ["{pulses}#*"]\n'
+    )
+    out = tmp_path / "study"
+    assert main(["study", str(tmp_path / "study.toml"), "-o", str(out), "-j", "1"]) == 0
+    hazard = hazard_file(tmp_path, POWER)
+    found = {}
+    for limit in ("top > 100 mm", "top > 250 mm"):
+        folder = tmp_path / limit.split()[2]
+        options = ["--hazard", str(hazard), "--limit", limit, "-o", str(folder)]
+        assert main(["risk", str(out), *options]) == 0
+        (row,) = rows(folder / "risk.csv")
+        found[limit] = float(row["annual_frequency"])
+        assert float(row["low"]) <= found[limit] <= float(row["high"])
+    assert found["top > 100 mm"] > found["top > 250 mm"] > 0
+    assert main(["risk", str(out), "--hazard", str(hazard), "--limit", "slide > 5 mm", "-o", "x"])
+    assert "holds no slide of engine 'housner'" in capsys.readouterr().err

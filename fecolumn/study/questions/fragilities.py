@@ -46,7 +46,12 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
             fit = lognormal(im, table.overturned, table.records)
             drawn = bootstrap(im, table.overturned, lognormal, table.records)
         except DegenerateData as error:
-            refused[label] = str(error)
+            told = str(error)
+            if event.quantity != "overturn":
+                told = told.replace("that overturned", "beyond the limit")
+                told = told.replace("overturned", "are beyond the limit")
+                told = told.replace("that stood", "within it")
+            refused[label] = told
             continue
         fitted[label] = KnownFragility(
             fit.median, fit.beta, drawn.parameters, (float(im.min()), float(im.max()))
