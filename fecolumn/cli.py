@@ -1,5 +1,6 @@
 """The command line: fecolumn new | mesh | run | resume | study | compare | report | fragility |
-render | rocking | motions | keys | help | verify | prepare | doctor | completion.
+design | risk | screen | calibrate | render | rocking | motions | keys | help | verify | prepare |
+doctor | completion.
 """
 
 from __future__ import annotations
@@ -97,6 +98,10 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn.study import key_tables as keys
     from fecolumn.study import motions_command as motions
     from fecolumn.study import rocking_command as rocking
+    from fecolumn.study.questions import calibrate_command as calibrate
+    from fecolumn.study.questions import design_command as design
+    from fecolumn.study.questions import risk_command as risk
+    from fecolumn.study.questions import screen_command as screen
     from fecolumn.study.report import command as report
     from fecolumn.study.report import fragility_command as fragility
     from fecolumn.verification import command as verify
@@ -149,6 +154,10 @@ def _parser() -> argparse.ArgumentParser:
         "of your own table",
         fragility,
     )
+    add("design", "the least or largest value of a key for which a limit state holds", design)
+    add("risk", "how often a limit state is reached: fragility and hazard curve of a site", risk)
+    add("screen", "rank a list of objects by how likely they overturn or slide", screen)
+    add("calibrate", "fit keys of a case to a measured free-rocking test", calibrate)
     add("render", "draw an analysis: movie, stills, sequence figure, ParaView's view", render)
     add(
         "rocking",

@@ -119,8 +119,8 @@ def refuse_degenerate(x: NDArray[Any], yes: NDArray[Any]) -> None:
     k, n = int(yes.sum()), yes.size
     if k in (0, n):
         raise DegenerateData(
-            f"{'none' if k == 0 else 'all'} of {n} runs overturned: only a bound of "
-            "P(overturn) can be told: proportion_interval"
+            f"{'none' if k == 0 else 'all'} of {n} runs overturned: that bounds "
+            "P(overturn), but no curve"
         )
     # columns alike but for one part in 1e5, such as peaks of pulses of one shape, leave the
     # information singular to rounding

@@ -30,6 +30,7 @@ from typing import Any
 
 from fecolumn.case.case import type_of
 from fecolumn.case.model_names import TABLES as TABLES_OF_MODELS
+from fecolumn.case.model_names import model_class
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.schema import InputError, build, meant
 from fecolumn.motions.chosen import chosen_motions
@@ -126,7 +127,7 @@ def _lists(table: dict[str, Any], name: str, path: Path) -> dict[str, tuple[Any,
         )
     lists = {}
     for key, values in _flat(table):
-        _known(key, name, path)
+        _known(key, f"{name}.{key}", path)
         if not isinstance(values, list) or not values:
             raise InputError(path, f"{name}.{key}", values, "must be a list of at least one value")
         if key == "motion.source":
@@ -194,18 +195,9 @@ def _latin_hypercube(table: dict[str, Any], path: Path) -> AxisFactor:
             "needs a range [low, high] for a key at least, such as "
             '"contact.friction_coefficient" = [0.2, 0.8]',
         )
-    kinds = _known_keys()
-    for key, values in ranges.items():
-        _known(key, name, path)
-        kinds.setdefault(key, type_of(key) or _of_model(key))
-        if kinds[key] not in (int, float):
-            raise InputError(
-                path,
-                f"{name}.{key}",
-                values,
-                "only a number has a range; give its values under [axes]",
-            )
-        _refuse_range(values, f"{name}.{key}", path)
+    kinds = {
+        key: kind_of_range(key, values, f"{name}.{key}", path) for key, values in ranges.items()
+    }
     draws = qmc.LatinHypercube(len(ranges), seed=table.get("seed", 0)).random(table["samples"])
     columns = [
         [_drawn(share, values, kinds[key]) for share in column]
@@ -214,7 +206,33 @@ def _latin_hypercube(table: dict[str, Any], path: Path) -> AxisFactor:
     return AxisFactor(name, tuple(ranges), tuple(zip(*columns)))
 
 
-def _refuse_range(values: Any, key: str, path: Path) -> None:
+def kind_of_range(key: str, values: Any, told: str, path: Path | str) -> type:
+    """Type, int or float, of a dotted key of a case that takes values of a range.
+
+    Parameters
+    ----------
+    values
+        [low, high] or [low, high, "log"].
+    told, path
+        the key and the file as messages name them.
+
+    Raises
+    ------
+    InputError
+        no such key, one that is no number, or no range.
+    """
+    _known(key, told, path)
+    found = _known_keys().get(key) or type_of(key) or _of_model(key)
+    kind = next((one for one in (found, *typing.get_args(found)) if one in (int, float)), None)
+    if kind is None:
+        raise InputError(
+            path, told, values, "only a number has a range; give its values under [axes]"
+        )
+    _refuse_range(values, told, path)
+    return typing.cast(type, kind)
+
+
+def _refuse_range(values: Any, key: str, path: Path | str) -> None:
     numbers = values[:2] if isinstance(values, list) else []
     fits = (
         len(numbers) == 2
@@ -255,11 +273,10 @@ def _flat(table: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
             yield prefix + key, value
 
 
-def _known(key: str, table: str, path: Path) -> None:
+def _known(key: str, told: str, path: Path | str) -> None:
     if key not in (known := _known_keys()) and type_of(key) is None and _of_model(key) is None:
-        raise InputError(
-            path, f"{table}.{key}", None, f"unknown key of a case{hint(key, tuple(known))}"
-        )
+        names = _keys_of_model(key.partition(".")[0]) or tuple(known)
+        raise InputError(path, told, None, f"unknown key of a case{hint(key, names)}")
 
 
 def _of_model(key: str) -> Any:
@@ -269,6 +286,14 @@ def _of_model(key: str) -> Any:
     from fecolumn.case import model_table
 
     return model_table.model_key_type(key)
+
+
+def _keys_of_model(table: str) -> tuple[str, ...]:
+    """Dotted keys of a rocking model's own table; none of any other."""
+    if table not in TABLES_OF_MODELS:
+        return ()
+    section = model_class(TABLES_OF_MODELS[table]).SECTION
+    return tuple(f"{table}.{field.name}" for field in dataclasses.fields(section))
 
 
 def _known_keys(section: Any = ShortForm, prefix: str = "") -> dict[str, type]:

@@ -193,7 +193,13 @@ def _run(
     and whether it was stopped.
     """
     from fecolumn.study.plan import read_plan
-    from fecolumn.study.run import ENTRY, StudyError, check_motions, complete_study
+    from fecolumn.study.run import (
+        ENTRY,
+        StudyError,
+        check_motions,
+        complete_study,
+        stop_code,
+    )
 
     plan = read_plan(args.study)
     # an analysis function of the user's may read motions this package does not know
@@ -227,20 +233,8 @@ def _run(
 
     try:
         verdicts, rows = _until_decided(plan, rule, work) if rule else ([], work())
-    except KeyboardInterrupt:
-        print(
-            "stopped; what is done is kept, the same command does the rest",
-            file=sys.stderr,
-            flush=True,
-        )
-        return 130, True
-    except StudyError as error:
-        print(
-            f"{error}; nothing done is lost, the same command does the rest",
-            file=sys.stderr,
-            flush=True,
-        )
-        return 1, True
+    except (KeyboardInterrupt, StudyError) as error:
+        return stop_code(error), True
     code = _show(plan, rows, args.output, share)
     if rule:
         for verdict in verdicts:

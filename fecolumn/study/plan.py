@@ -138,8 +138,18 @@ def read_plan(path) -> Plan:
         anything that would keep one of the analyses from starting: unknown key, value out of range,
         missing file, two combinations that are the same analysis.
     """
-    path = Path(path)
-    tables = read_toml(path)
+    return plan_of(read_toml(path), Path(path))
+
+
+def plan_of(tables: dict[str, Any], path: Path) -> Plan:
+    """Plan of the tables of a study; paths in them are relative to the folder of `path`, the file
+    that messages name.
+
+    Raises
+    ------
+    InputError
+        as of `read_plan`.
+    """
     for key in tables:
         if key not in _KEYS:
             raise InputError(

@@ -107,6 +107,21 @@ class LocalPool:
         self._workers = []
 
 
+class LastingPool(LocalPool):
+    """A pool whose processes wait for more when a driver is done with them, until `end`: work that
+    comes round by round does not start them anew.
+    """
+
+    def stop(self) -> None:
+        """Kill the processes only where they have something in hand."""
+        if self.at_work:
+            super().stop()
+
+    def end(self) -> None:
+        """Kill the processes."""
+        super().stop()
+
+
 class _Worker:
     """Handle of a worker process.
 

@@ -18,10 +18,10 @@ from fecolumn.study.plan import Plan, PlannedAnalysis
 from fecolumn.study.pool import LocalPool
 from fecolumn.study.preparation import preparation
 from fecolumn.study.progress import StudyProgress, analysis_s
-from fecolumn.study.store import FAILED, RUNNING, Store
+from fecolumn.study.store import FAILED, PLANNED, RUNNING, Store
 from fecolumn.study.team import StudyError, Team
 
-__all__ = ["ENTRY", "StudyError", "check_motions", "complete_study"]
+__all__ = ["ENTRY", "StudyError", "check_motions", "complete_study", "stop_code"]
 
 ENTRY = "fecolumn.simulation:run"
 
@@ -116,8 +116,11 @@ def drive(store: Store, team: Team, stream: TextIO, only: set[str] | None = None
     queue = collections.deque(
         analysis for analysis in store.missing(team.size) if only is None or analysis.id in only
     )
+    counts = store.ledger.counts()
+    if only is not None:  # what nobody asks for yet is not counted
+        counts[PLANNED] = len(queue)
     progress = StudyProgress(
-        store.ledger.counts(), sum(a.effort for a in queue), min(team.size, len(queue)), stream
+        counts, sum(a.effort for a in queue), min(team.size, len(queue)), stream
     )
     try:
         _work_off(store, queue, team, progress)
@@ -127,6 +130,14 @@ def drive(store: Store, team: Team, stream: TextIO, only: set[str] | None = None
         store.ledger.plan_again(state=RUNNING)  # what a stop has left
         store.ledger.commit()
     return progress
+
+
+def stop_code(error: KeyboardInterrupt | StudyError) -> int:
+    """Tell the user what ended the work before its end; the exit code."""
+    by_hand = isinstance(error, KeyboardInterrupt)
+    said = "stopped; what is done is kept" if by_hand else f"{error}; nothing done is lost"
+    print(f"{said}, the same command does the rest", file=sys.stderr, flush=True)
+    return 130 if by_hand else 1
 
 
 def check_motions(plan: Plan) -> None:

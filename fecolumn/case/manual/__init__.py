@@ -12,6 +12,7 @@ TOPICS = (
     "keys",
     "motions",
     "studies",
+    "questions",
     "statistics",
     "outputs",
     "pictures",

@@ -51,15 +51,38 @@ def main(args) -> int:
             ", ".join(wanted),
             "must be one measure, or two different ones",
         )
-    sets = (
-        _of_study(args.source, wanted or ("pgv_m_s",))
-        if Path(args.source).is_dir()
-        else _of_file(args.source, wanted)
-    )
+    sets = runs_by_setting(args.source, wanted)
     with written(args.output, "fragility", names=("fragility.csv",)) as draft:
         _write(sets, draft, args.source)
     print(f"wrote {args.output}")
     return 0
+
+
+def runs_by_setting(source: str, wanted, happened=None) -> dict:
+    """Runs with their intensities and outcomes, an `IntensityTable` by the name of each setting, of
+    a study's folder or a table.
+
+    Parameters
+    ----------
+    wanted
+        names of the intensity measures; none: as `fecolumn fragility` chooses.
+    happened
+        of a study, what is asked of each summary; overturning unless given.
+
+    Raises
+    ------
+    InputError
+        the source cannot be used.
+    """
+    from fecolumn.foundation.schema import InputError
+
+    if Path(source).is_dir():
+        return _of_study(source, wanted or ("pgv_m_s",), happened)
+    if happened is not None:
+        raise InputError(
+            source, "", None, "is a table, which tells of overturning alone; give a study's folder"
+        )
+    return _of_file(source, wanted)
 
 
 def _of_file(source: str, wanted) -> dict:
@@ -72,7 +95,7 @@ def _of_file(source: str, wanted) -> dict:
     return {"": table}
 
 
-def _of_study(folder: str, wanted) -> dict:
+def _of_study(folder: str, wanted, happened=None) -> dict:
     """Runs of every setting over all scales of its motions, by its name."""
     import numpy as np
 
@@ -106,7 +129,8 @@ def _of_study(folder: str, wanted) -> dict:
         for name in wanted:
             if name not in found[0]:
                 raise InputError(folder, "--im", name, f"must be one of {', '.join(found[0])}")
-        fallen = np.array([bool(run["overturned"]) for run in runs])
+        asked = happened or (lambda run: bool(run["overturned"]))
+        fallen = np.array([asked(run) for run in runs])
         sets[sweep.words(values)] = IntensityTable(
             {name: np.array([one[name] for one in found]) for name in wanted},
             fallen,

@@ -23,19 +23,18 @@ from fecolumn.study.report.document import (
     PageSection,
     PageTable,
     Paragraph,
-    numbered,
-    referenced,
 )
 from fecolumn.study.report.explorer import explorer
 from fecolumn.study.report.fragility import fragility
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.histories import read_histories
+from fecolumn.study.report.html import page_html
 from fecolumn.study.report.incremental import incremental
 from fecolumn.study.report.individual import individual
 from fecolumn.study.report.individual_claims import individual_claims
 from fecolumn.study.report.intensity import Intensities
 from fecolumn.study.report.models import models
-from fecolumn.study.report.notation import axis_name, count, percent, typeset
+from fecolumn.study.report.notation import axis_name, count, percent
 from fecolumn.study.report.pair import ComparedPair, read_pairs
 from fecolumn.study.report.podium import podium
 from fecolumn.study.report.power import power
@@ -80,7 +79,8 @@ def write_report(folder, output=None, files=("pdf", "png")) -> Path:
             for block in section.blocks:
                 if isinstance(block, (PageTable, ClaimList)):
                     block.write_csv(draft / "tables")
-        write_bytes(draft / "index.html", _html(sweep, sections).encode())
+        html = page_html(sweep.title, _byline(sweep), _abstract(sweep, sections), sections)
+        write_bytes(draft / "index.html", html.encode())
     return target / "index.html"
 
 
@@ -150,33 +150,6 @@ def _claims_section(sweep: Sweep, claims: list[Claim]) -> PageSection:
     return PageSection(
         "The paper’s findings",
         [Paragraph(text), power(sweep, MARGIN, ", those of the paper"), table, ClaimList(claims)],
-    )
-
-
-def _html(sweep: Sweep, sections: list[PageSection]) -> str:
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-    from markupsafe import Markup
-
-    pages = Environment(
-        loader=PackageLoader("fecolumn.study.report", "."),
-        autoescape=True,
-        undefined=StrictUndefined,
-    )
-    labels = numbered(sections)
-
-    def files(*names: str) -> Markup:
-        return Markup("\n".join((Path(__file__).parent / name).read_text() for name in names))
-
-    return pages.get_template("page.html").render(
-        title=sweep.title,
-        byline=_byline(sweep),
-        abstract=_abstract(sweep, sections),
-        sections=sections,
-        labels=labels,
-        style=files("page.css", "explorer.css"),
-        script=files("chart.js", "explorer.js"),
-        plain=lambda words: referenced(words, labels),
-        text=lambda words: typeset(referenced(words, labels)),
     )
 
 

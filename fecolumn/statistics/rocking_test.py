@@ -1,0 +1,89 @@
+"""Tilt over time of a free-rocking or pull-release test, from a CSV file."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fecolumn.foundation.schema import InputError
+from fecolumn.statistics.csv_table import check_row, read_csv
+
+_TIMES = {"time_s": 1.0, "time_ms": 1e-3}
+_TILTS = {"tilt_rad": 1.0, "tilt_mrad": 1e-3, "tilt_deg": math.pi / 180}
+_NEEDED = f"one column of {', '.join(_TIMES)} and one of {', '.join(_TILTS)}"
+_FEWEST = 20  # samples
+
+
+@dataclass(frozen=True, slots=True)
+class RockingTest:
+    """Times (n,) [s] from the release on, rising from 0, and the size of the tilt (n,) [rad]."""
+
+    time: NDArray[Any]
+    tilt: NDArray[Any]
+
+
+def read_rocking_test(path: Path | str) -> RockingTest:
+    """A test whose first line is the moment of release from rest; the tilt's sign is not used.
+
+    Raises
+    ------
+    InputError
+        no such file or column, a value that cannot be, times that do not rise, no tilt at the
+        release.
+    """
+    path = Path(path)
+    header, rows = read_csv(path, _NEEDED)
+    columns = []
+    for units in (_TIMES, _TILTS):
+        there = [(place, units[name]) for place, name in enumerate(header) if name in units]
+        if len(there) != 1:
+            raise InputError(path, "header", ", ".join(header), f"must have {_NEEDED}")
+        columns.append(there[0])
+    values: list[list[float]] = []
+    for number, row in rows:
+        check_row(path, header, number, row)
+        cells = []
+        for place, factor in columns:
+            text = row[place].strip()
+            try:
+                cell = math.nan if "_" in text else factor * float(text)
+            except ValueError:
+                cell = math.nan
+            if not math.isfinite(cell):
+                raise InputError(
+                    path, f"line {number}, {header[place]}", text, "must be a finite number"
+                )
+            cells.append(cell)
+        if values and cells[0] <= values[-1][0]:
+            raise InputError(
+                path,
+                f"line {number}, {header[columns[0][0]]}",
+                row[columns[0][0]].strip(),
+                "must be later than the line before",
+            )
+        if abs(cells[1]) >= math.pi / 2:
+            raise InputError(
+                path,
+                f"line {number}, {header[columns[1][0]]}",
+                row[columns[1][0]].strip(),
+                "must be below a quarter of a turn: check its unit",
+            )
+        values.append(cells)
+    if len(values) < _FEWEST:
+        raise InputError(
+            path, "", None, f"has {len(values)} samples; at least {_FEWEST} are needed"
+        )
+    time, tilt = np.array(values).T
+    if not abs(tilt[0]) > 0:
+        raise InputError(
+            path,
+            f"line {rows[0][0]}, {header[columns[1][0]]}",
+            float(tilt[0]),
+            "must not be 0: the first line is the release, cut off what is before it",
+        )
+    return RockingTest(time - time[0], np.abs(tilt))

@@ -1,0 +1,200 @@
+"""`fecolumn design`: the least, or largest, value of a key for which a limit state holds."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+_COMMAND = "fecolumn design"
+_STEPS = 64  # of the range: finer than any interval of some hundred motions
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `fecolumn design`."""
+    parser.add_argument("case", metavar="CASE.toml", help="the case; its own motion is left out")
+    parser.add_argument(
+        "--vary",
+        nargs=2,
+        metavar=("KEY", "LO:HI"),
+        required=True,
+        help="any number of the case and its range, such as column.width_m 0.3:0.9",
+    )
+    add_motions_and_jobs(parser)
+    parser.add_argument(
+        "--limit",
+        metavar="LIMIT",
+        required=True,
+        help='"P(overturn) < 0.1"; for overturn also lost, top > 50 mm, tilt > 2 deg, '
+        "slide > 5 mm, slide[JOINT] > 5 mm, force > 20 kN, tension[LINK] > 20 kN ...",
+    )
+    parser.add_argument(
+        "--steps",
+        metavar="N",
+        type=int,
+        default=_STEPS,
+        help=f"steps of the range between which the answer lies (default: {_STEPS})",
+    )
+
+
+def add_motions_and_jobs(parser: argparse.ArgumentParser) -> None:
+    """Arguments of every question that runs ensembles."""
+    parser.add_argument(
+        "--motions",
+        nargs="+",
+        metavar="SET",
+        required=True,
+        help="motions that every analysis gets: lick:1-40, ensemble.h5#*, or several files",
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        required=True,
+        help="folder of the runs and the answer; an unfinished one is gone on with",
+    )
+    parser.add_argument(
+        "-j",
+        "--jobs",
+        metavar="N",
+        type=int,
+        default=None,
+        help="analyses at a time (default: one a core)",
+    )
+
+
+def main(args: argparse.Namespace) -> int:
+    """Look for the size; 0 when it is answered, 1 when analyses failed or the disk is full, 130
+    after Ctrl-C.
+
+    Raises
+    ------
+    InputError
+        case, key, range, motions, limit or folder cannot be used.
+    """
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.study.pool import LastingPool
+    from fecolumn.study.questions.design import DesignQuestion, grid_of
+    from fecolumn.study.questions.given import (
+        asked_plan,
+        case_tables,
+        engine_asked,
+        motion_sources,
+        read_range,
+    )
+    from fecolumn.study.questions.limit import read_limit
+    from fecolumn.study.run import ENTRY, StudyError, check_motions, stop_code
+
+    check_jobs(args.jobs, _COMMAND)
+    if not 2 <= args.steps <= 1024:
+        raise InputError(_COMMAND, "--steps", args.steps, "must lie in [2, 1024]")
+    key, text = args.vary
+    limit = read_limit(args.limit, _COMMAND, engine_asked(case_tables(args.case)))
+    low, high, kind = read_range(key, text, "--vary", _COMMAND)
+    if key.partition(".")[0] == "motion" and key != "motion.scale" and "time_scale" not in key:
+        raise InputError(
+            _COMMAND, f"--vary {key}", text, "must be no key of the motion but its scales"
+        )
+    axes: dict[str, list[Any]] = {
+        key: grid_of(low, high, kind, args.steps),
+        "motion.source": motion_sources(args.motions, _COMMAND),
+    }
+    plan = asked_plan(
+        f"{key} for {limit.text}",
+        args.case,
+        axes,
+        {key: f"--vary {key}", "motion.source": "--motions"},
+    )
+    check_motions(plan)
+    question = DesignQuestion(plan, key, limit)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    pool = LastingPool(args.jobs or os.cpu_count() or 1, ENTRY, plan.file)
+    try:
+        failed = _look(question, args.output, pool)
+    except (KeyboardInterrupt, StudyError) as error:
+        return stop_code(error)
+    finally:
+        pool.end()
+    _tell(question, Path(args.output))
+    return 1 if failed else 0
+
+
+def check_jobs(jobs: int | None, command: str) -> None:
+    """InputError where -j is below 1."""
+    from fecolumn.foundation.schema import InputError
+
+    if jobs is not None and jobs < 1:
+        raise InputError(command, "-j", jobs, "must be at least 1")
+
+
+def _look(question: Any, folder: str, pool: Any) -> int:
+    """Look at values until bisection wants no more; the number of analyses that failed."""
+    from fecolumn.foundation.progress import clock
+    from fecolumn.study.run import StudyError, complete_study
+    from fecolumn.study.store import FAILED
+
+    places = [0, len(question.grid) // 2, len(question.grid) - 1]
+    asked, spent = set(), 0.0
+    while places:
+        ids = question.ids(places)
+        asked |= ids
+        began = time.monotonic()
+        rows = complete_study(question.plan, folder, workers=pool, only=ids, stream=sys.stderr)
+        spent += time.monotonic() - began
+        try:
+            question.take(places, rows)
+        except ValueError as error:
+            if type(error) is not ValueError:  # an InputError of the limit
+                raise
+            reason = next((row["reason"] for row in rows if row["state"] == FAILED), "")
+            raise StudyError(f"{error}: {reason}") from None
+        left = question.graded.looks_left()
+        each = spent / len(question.looked)
+        told = f"; at most {left} more, {clock(each * left)}" if left else ""
+        for place in places:
+            one = question.looked[place]
+            print(
+                f"{question.key} = {one.value:g}{question.unit}: {one.k} of {one.n} beyond "
+                f"{question.limit.event.text}{told}",
+                file=sys.stderr,
+                flush=True,
+            )
+        places = [place for place in question.graded.wanted() if place not in question.looked]
+    failed = [row for row in rows if row["id"] in asked and row["state"] == FAILED]
+    for row in failed:
+        print(f"failed: {row['axes']}: {row['reason']}", file=sys.stderr)
+    return len(failed)
+
+
+def _tell(question: Any, folder: Path) -> None:
+    """Table, figure and sentence."""
+    from fecolumn.foundation.atomic import write_csv, write_json
+    from fecolumn.pictures.figures.design_figure import design_figure
+
+    found, rows = question.place(), question.table()
+    write_csv(folder / "design.csv", rows)
+    ends: dict[str, Any] = {"size": None, "interval": [None, None]}
+    if found:
+        ends["size"] = question.grid[found.kept]
+        ends["interval"] = [
+            None if place is None else question.grid[place] for place in (found.least, found.most)
+        ]
+    write_json(
+        folder / "design.json",
+        {"key": question.key, "limit": question.limit.text, **ends, "answer": question.answer()},
+    )
+    files = design_figure(
+        [[float(cell) for cell in row] for row in rows[1:]],
+        f"{question.key}{' [' + question.unit.strip() + ']' if question.unit else ''}",
+        question.limit,
+        ends,
+        folder / "design",
+    )
+    print(question.answer())
+    for note in question.notes():
+        print(f"fecolumn: warning: {note}", file=sys.stderr)
+    print("\n".join(f"wrote {file}" for file in [folder / "design.csv", *files]))

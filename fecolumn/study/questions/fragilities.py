@@ -1,0 +1,120 @@
+"""Fragilities for `fecolumn risk`: of runs, with a bootstrap, or as they are stated in a table."""
+
+from __future__ import annotations
+
+import math
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+
+@dataclass(frozen=True, slots=True)
+class KnownFragility:
+    """A lognormal fragility: its median and dispersion, r of them (r, 2) that say how well they are
+    known, and the least and the largest intensity of its runs, None where they are not known.
+    """
+
+    median: float
+    beta: float
+    drawn: Any
+    runs: tuple[float, float] | None = None
+
+
+def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFragility]:
+    """Fragility over the hazard's measure of each setting of a study's folder, a table of runs, or
+    what `fecolumn fragility` wrote.
+
+    Raises
+    ------
+    InputError
+        the source cannot be used, or bounds no fragility.
+    """
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.statistics.fragility import DegenerateData, bootstrap, lognormal
+    from fecolumn.study.questions.limit import read_event
+    from fecolumn.study.report.fragility_command import runs_by_setting
+
+    if not Path(source).is_dir() and (found := _stated(source, measure)):
+        return found
+    event = read_event(limit, "fecolumn risk")
+    happened = None if event.quantity == "overturn" else event.happened
+    fitted, refused = {}, {}
+    for label, table in runs_by_setting(source, (measure,), happened).items():
+        im = table.measures[measure]
+        try:
+            fit = lognormal(im, table.overturned, table.records)
+            drawn = bootstrap(im, table.overturned, lognormal, table.records)
+        except DegenerateData as error:
+            told = str(error)
+            if event.quantity != "overturn":
+                told = told.replace("that overturned", "beyond the limit")
+                told = told.replace("overturned", "are beyond the limit")
+                told = told.replace("that stood", "within it")
+            refused[label] = told
+            continue
+        fitted[label] = KnownFragility(
+            fit.median, fit.beta, drawn.parameters, (float(im.min()), float(im.max()))
+        )
+        if drawn.refused > 0.05 * (drawn.refused + len(drawn.parameters)):
+            print(
+                f"fecolumn: warning: {label + ': ' if label else ''}{drawn.refused} of "
+                f"{drawn.refused + len(drawn.parameters)} samples of the bootstrap bound no "
+                "fragility: the interval is too narrow; more runs are needed",
+                file=sys.stderr,
+            )
+    for label, reason in refused.items():
+        print(f"{label + ': ' if label else ''}no fragility: {reason}")
+    if not fitted:
+        raise InputError(
+            source,
+            "",
+            None,
+            f"its runs bound no fragility over {measure}, the measure of the hazard: "
+            + "; ".join(dict.fromkeys(refused.values())),
+        )
+    return fitted
+
+
+def _stated(source: str, measure: str) -> dict[str, KnownFragility]:
+    """Fragilities of a file that `fecolumn fragility` wrote; none of another table."""
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.statistics.csv_table import check_row, read_csv
+    from fecolumn.statistics.hazard import drawn_parameters
+
+    header, rows = read_csv(Path(source), "runs, or what fecolumn fragility writes")
+    medians = [name for name in header if name.startswith("median_")]
+    if not {"beta", "beta_low", "beta_high", "low", "high"} <= set(header) or len(medians) != 1:
+        return {}
+    if medians[0] != f"median_{measure}":
+        raise InputError(
+            source,
+            "header",
+            medians[0],
+            f"must be median_{measure}, over the measure of the hazard curve",
+        )
+    found = {}
+    for number, row in rows:
+        check_row(Path(source), header, number, row)
+        cells = dict(zip(header, row))
+        values = []
+        for name in (medians[0], "low", "high", "beta", "beta_low", "beta_high"):
+            try:
+                values.append(float(cells[name]))
+            except ValueError:
+                values.append(math.nan)
+            if not 0 < values[-1] < math.inf:
+                raise InputError(
+                    source, f"line {number}, {name}", cells[name], "must be a number above 0"
+                )
+        for (value, low, high), name in ((values[:3], medians[0]), (values[3:], "beta")):
+            if not low <= value <= high:
+                raise InputError(
+                    source, f"line {number}, {name}", value, f"must lie in [{low:g}, {high:g}]"
+                )
+        median, beta = (values[0], values[1], values[2]), (values[3], values[4], values[5])
+        name = cells.get("setting", "")
+        found["" if name == "all" else name] = KnownFragility(
+            median[0], beta[0], drawn_parameters(median, beta)
+        )
+    return found

@@ -1,0 +1,216 @@
+"""Limit states in words, such as "P(overturn) < 0.1" or "P(slide > 5 mm) < 10 %", and whether a run
+reached them, by its summary.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from fecolumn.case.sections import MODEL_ENGINES
+from fecolumn.engines.ending import lost
+from fecolumn.foundation.schema import InputError, meant
+
+_LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
+_ANGLES = {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180}
+_FORCES = {"N": 1.0, "kN": 1e3, "MN": 1e6}
+
+_EVENT = re.compile(r"([A-Za-z][A-Za-z_ ]*?)\s*(?:\[([^\]]+)\])?\s*>=?\s*(\S+)\s*(\S*)")
+_LIMIT = re.compile(r"\s*P\s*\((.+)\)\s*(<=?)\s*([^\s%]+)\s*(%?)\s*")
+
+
+@dataclass(frozen=True, slots=True)
+class PeakQuantity:
+    """A largest value that summaries hold.
+
+    Attributes
+    ----------
+    units
+        factor to SI by the word of the unit.
+    whole
+        entry of the summary for the observed body; "" where only parts have it.
+    table, entry
+        the summary's table of parts by name, and the entry of each.
+    """
+
+    units: dict[str, float]
+    whole: str
+    table: str
+    entry: str
+
+
+QUANTITIES = {
+    "top": PeakQuantity(_LENGTHS, "u_max_m", "", ""),
+    "tilt": PeakQuantity(_ANGLES, "tilt_max_rad", "bodies", "tilt_max_rad"),
+    "slide": PeakQuantity(_LENGTHS, "", "interfaces", "slide_max_m"),
+    "residual slide": PeakQuantity(_LENGTHS, "", "interfaces", "residual_slide_m"),
+    "rise": PeakQuantity(_LENGTHS, "", "interfaces", "rise_max_m"),
+    "force": PeakQuantity(_FORCES, "", "interfaces", "force_max_n"),
+    "tension": PeakQuantity(_FORCES, "", "links", "tension_max_n"),
+    "drift": PeakQuantity(_LENGTHS, "", "storeys", "drift_max_m"),
+    "shear": PeakQuantity(_FORCES, "", "storeys", "shear_max_n"),
+}
+_ENDINGS: dict[str, Callable[[dict[str, Any]], bool]] = {
+    "overturn": lambda summary: bool(summary["overturned"]),
+    "slide off": lambda summary: bool(summary.get("slid_off")),
+    "lost": lost,
+}
+_KNOWN = (
+    "overturn, slide off, lost (either), or one of "
+    f"{', '.join(QUANTITIES)} with a value and its unit, such as top > 50 mm, tilt > 2 deg, "
+    "slide[foot] > 5 mm, tension[tendon] > 20 kN"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class LimitEvent:
+    """What may happen in a run.
+
+    Attributes
+    ----------
+    text
+        in the user's words.
+    quantity
+        name in QUANTITIES, or of how an analysis ends.
+    part
+        how the name of the joint, body, link or storey begins; "" for any of them.
+    threshold
+        beyond which the event has happened, in SI units; 0 of an ending.
+    """
+
+    text: str
+    quantity: str
+    part: str = ""
+    threshold: float = 0.0
+
+    def happened(self, summary: dict[str, Any]) -> bool:
+        """Whether a run reached it.
+
+        What overturned or slid off is beyond every limit: its peaks are only where the analysis
+        stopped.
+
+        Raises
+        ------
+        InputError
+            the summary does not hold the quantity, or the part.
+        """
+        if self.quantity in _ENDINGS:
+            return _ENDINGS[self.quantity](summary)
+        peak = self.peak(summary)
+        return lost(summary) or peak > self.threshold
+
+    def peak(self, summary: dict[str, Any]) -> float:
+        """Largest value of the quantity in a run, in SI units; InputError as of `happened`."""
+        kind = QUANTITIES[self.quantity]
+        if kind.whole and not self.part:
+            return float(summary[kind.whole])
+        parts = summary.get(kind.table) or {}
+        found = [
+            part[kind.entry] for name, part in parts.items() if name.startswith(self.part or "")
+        ]
+        if not found:
+            engine = summary.get("engine", "")
+            there = f"; there are {', '.join(parts)}" if parts else f" of engine {engine!r}"
+            raise InputError(
+                "summary.json",
+                "--limit",
+                self.text,
+                f"holds no {self.quantity}{f'[{self.part}]' if self.part else ''}{there}",
+            )
+        return float(max(found))
+
+
+@dataclass(frozen=True, slots=True)
+class ShareLimit:
+    """P(event) below a share of all motions; `strict`: at it does not do."""
+
+    event: LimitEvent
+    share: float
+    strict: bool = True
+
+    @property
+    def text(self) -> str:
+        """Such as "P(overturn) < 0.1"."""
+        return f"P({self.event.text}) {'<' if self.strict else '<='} {self.share:g}"
+
+
+def read_event(text: str, command: str, engine: str | None = None) -> LimitEvent:
+    """The event of a text such as "overturn" or "slide[foot] > 5 mm".
+
+    Parameters
+    ----------
+    command
+        for messages, such as "fecolumn design".
+    engine
+        of the analyses: rocking models know no joints.
+
+    Raises
+    ------
+    InputError
+        unknown quantity, unit or value.
+    """
+
+    def refuse(allowed: str) -> InputError:
+        return InputError(command, "--limit", text, allowed)
+
+    plain = " ".join(text.replace("_", " ").split())
+    if plain in _ENDINGS:
+        return LimitEvent(plain, plain)
+    found = _EVENT.fullmatch(text.strip())
+    name = " ".join((found[1] if found else plain).replace("_", " ").split())
+    if name == "acceleration" or name.endswith("acceleration"):
+        raise refuse(f"no summary holds accelerations; must be {_KNOWN}")
+    if found is None or name not in QUANTITIES:
+        raise refuse(f"must be {_KNOWN}{meant(name, [*QUANTITIES, *_ENDINGS])}")
+    kind, (_, part, value, unit) = QUANTITIES[name], found.groups()
+    words = ", ".join(kind.units)
+    if unit not in kind.units:
+        what = f"{unit!r} is no unit of {name}" if unit else f"{name} has no unit here"
+        raise refuse(f"{what}; must be one of {words}, such as {name} > 5 {next(iter(kind.units))}")
+    number = _number(value)
+    if not 0 < number < math.inf:
+        raise refuse(f"{value!r} must be a number greater than 0 [{unit}]")
+    if engine in MODEL_ENGINES and not (kind.whole and not part):
+        raise refuse(
+            f"rocking models have no joints, links and storeys: choose integration.engine = "
+            f"'rigid' or 'reduced' instead of {engine!r}, or a limit of overturn, top or tilt"
+        )
+    inner = f"[{part}]" if part else ""
+    return LimitEvent(
+        f"{name}{inner} > {number:g} {unit}", name, part or "", number * kind.units[unit]
+    )
+
+
+def read_limit(text: str, command: str, engine: str | None = None) -> ShareLimit:
+    """The limit state of a text such as "P(overturn) < 0.1".
+
+    Raises
+    ------
+    InputError
+        the text is none, or its event or its probability cannot be used.
+    """
+    found = _LIMIT.fullmatch(text)
+    if found is None:
+        raise InputError(
+            command,
+            "--limit",
+            text,
+            'must be "P(EVENT) < SHARE", such as "P(overturn) < 0.1"; EVENT: ' + _KNOWN,
+        )
+    event, less, value, percent = found.groups()
+    share = _number(value) / (100 if percent else 1)
+    if not 0 < share < 1:
+        raise InputError(
+            command, "--limit", text, "its probability must lie between 0 and 1 (0 and 100 %)"
+        )
+    return ShareLimit(read_event(event, command, engine), share, less == "<")
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text) if "_" not in text else math.nan
+    except ValueError:
+        return math.nan

@@ -1,0 +1,212 @@
+"""fecolumn calibrate: recovers what is known, says plainly what is not, refuses what cannot be."""
+
+import csv
+import os
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+
+import numpy as np
+import pytest
+
+from fecolumn.cli import main
+from fecolumn.engines.dynamics.history import read_history
+from fecolumn.foundation.schema import InputError
+from fecolumn.statistics.profile import THRESHOLD, effective_number, profiled_fit
+from fecolumn.statistics.rocking_test import read_rocking_test
+from fecolumn.study.questions.calibration import usual_ranges
+
+BLOCK = "[block]\nwidth_m = 0.25\nheight_m = 1.0\n[integration]\ndt_s = 0.005\n"
+RESTITUTION, TILT, NOISE = 0.925, 0.12, 0.002
+
+
+@pytest.fixture(scope="module")
+def test_of_block(tmp_path_factory):
+    """A folder with a block, and a test of it with noise: restitution and first tilt are known."""
+    folder = tmp_path_factory.mktemp("calibrate")
+    (folder / "block.toml").write_text(BLOCK)
+    (folder / "true.toml").write_text(
+        'extends = "block.toml"\n[block]\nrestitution = 0.925\n[initial]\ntilt_rad = 0.12\n'
+        "[integration]\nduration_s = 3.0\n"
+    )
+    assert main(["run", str(folder / "true.toml"), "-o", str(folder / "true"), "-q"]) == 0
+    rows, times = read_history(folder / "true" / "history.h5"), np.arange(0, 3, 0.025)
+    tilt = np.interp(times, rows["time"], np.abs(rows["tilt"]))
+    tilt += np.random.default_rng(7).normal(0, NOISE, times.size)
+    (folder / "free.csv").write_text(
+        "time_s,tilt_deg\n" + "".join(f"{t:.4f},{np.degrees(y):.6f}\n" for t, y in zip(times, tilt))
+    )
+    return folder
+
+
+def calibrate(folder, out, *fits):
+    options = [word for fit in fits for word in ("--fit", *fit)]
+    case, test = str(folder / "block.toml"), str(folder / "free.csv")
+    return main(["calibrate", case, "--test", test, *options, "-o", str(folder / out)])
+
+
+def rows(file):
+    with open(file) as text:
+        return list(csv.DictReader(text))
+
+
+def test_known_restitution_and_first_tilt_are_recovered_from_noise(test_of_block, capsys):
+    fits = (("block.restitution", "0.8:1"), ("initial.tilt_rad", "0.11:0.13"))
+    assert calibrate(test_of_block, "both", *fits) == 0
+    restitution, tilt = rows(test_of_block / "both" / "calibrate.csv")
+    for row, known in ((restitution, RESTITUTION), (tilt, TILT)):
+        low, value, high = (float(row[name]) for name in ("low", "value", "high"))
+        assert low < value < high and row["identified"] == "1"
+        # twice the interval: one in 20 intervals misses, and the two hang together
+        assert abs(value - known) < high - low
+    assert float(restitution["high"]) - float(restitution["low"]) < 0.01
+    fitted = tomllib.loads((test_of_block / "both" / "fitted.toml").read_text())
+    assert fitted["block"]["restitution"] == pytest.approx(float(restitution["value"]), rel=1e-5)
+    said = capsys.readouterr().out
+    assert "block.restitution = 0.92" in said and "mrad rms" in said
+    assert (test_of_block / "both" / "calibrate.png").stat().st_size > 5000
+
+
+def test_key_that_the_test_does_not_feel_is_said_not_to_be_identified(test_of_block, capsys):
+    assert calibrate(test_of_block, "free", ("block.friction_coefficient", "0.3:0.9")) == 0
+    (row,) = rows(test_of_block / "free" / "calibrate.csv")
+    assert (row["low"], row["high"], row["identified"]) == ("", "", "0")
+    said = capsys.readouterr().out
+    assert "block.friction_coefficient is not identified" in said
+    assert "It does not describe the test" in said  # Housner's own restitution is not 0.925
+
+
+def test_what_was_killed_goes_on_from_its_runs(test_of_block):
+    command = [
+        *(sys.executable, "-m", "fecolumn.cli", "calibrate", str(test_of_block / "block.toml")),
+        *("--test", str(test_of_block / "free.csv"), "--fit", "block.restitution", "0.8:1"),
+    ]
+    killed, whole = ("-o", str(test_of_block / "killed")), ("-o", str(test_of_block / "whole"))
+    runs = test_of_block / "killed" / "runs"
+    with subprocess.Popen([*command, *killed], stderr=subprocess.DEVNULL) as work:
+        while work.poll() is None and not (runs.is_dir() and len(list(runs.iterdir())) > 5):
+            time.sleep(0.05)
+        os.kill(work.pid, signal.SIGKILL)
+    # all but that in hand
+    old = {file: file.stat().st_mtime_ns for file in runs.glob("*/summary.json")}
+    assert len(old) >= 4
+    for out in (killed, whole):
+        assert subprocess.run([*command, *out], capture_output=True).returncode == 0
+    answers = [
+        (test_of_block / name / "calibrate.csv").read_bytes() for name in ("killed", "whole")
+    ]
+    assert answers[0] == answers[1]
+    # what was done is not made again
+    assert all(file.stat().st_mtime_ns == at for file, at in old.items())
+
+
+def line(x, y):
+    """Residuals of y = 4 (u0 - 1/2) + 4 (u1 - 1/2) x."""
+    return lambda u: y - 4 * (u[0] - 0.5) - 4 * (u[1] - 0.5) * x
+
+
+def test_profile_of_a_straight_line_is_that_of_linear_regression():
+    rng, x = np.random.default_rng(1), np.linspace(-1, 2, 80)
+    y = 0.3 + 0.8 * x + rng.normal(0, 0.1, x.size)
+    fit = profiled_fit(line(x, y), 2)
+    design = np.column_stack([np.ones_like(x), x])
+    exact, left, *_ = np.linalg.lstsq(design, y, rcond=None)
+    assert 4 * (fit.best - 0.5) == pytest.approx(exact, abs=2e-3)
+    number = fit.independent
+    covariance = np.linalg.inv(design.T @ design)
+    for one, value, spread in zip(fit.parameters, exact, np.sqrt(np.diag(covariance))):
+        # n ln(1 + d^2 / (spread^2 S)) = 3.84
+        reach = spread * np.sqrt(left[0] * np.expm1(THRESHOLD / number))
+        found = 4 * (np.array([one.low, one.high]) - 0.5)
+        assert found == pytest.approx([value - reach, value + reach], abs=0.08 * reach)
+
+
+def test_intervals_hold_the_truth_as_often_as_they_say():
+    rng, x, inside = np.random.default_rng(4), np.linspace(-1, 2, 60), 0
+    for _ in range(60):
+        y = 0.8 * x + rng.normal(0, 0.1, x.size)
+        (one,) = profiled_fit(lambda u, y=y: y - 2 * u[0] * x, 1).parameters
+        inside += one.low <= 0.4 <= one.high
+    assert inside >= 52
+
+
+def test_parameters_that_only_their_sum_matters_are_not_identified():
+    x = np.linspace(0, 1, 40)
+    y = 0.9 * x + np.random.default_rng(2).normal(0, 0.01, x.size)
+    fit = profiled_fit(lambda u: y - (u[0] + u[1]) * x, 2)
+    assert all(not one.identified for one in fit.parameters)
+
+
+def test_neighbours_alike_count_for_fewer_samples():
+    rng, noise = np.random.default_rng(0), np.zeros(20000)
+    for place, draw in enumerate(rng.normal(size=noise.size - 1), 1):
+        noise[place] = 0.8 * noise[place - 1] + draw
+    assert effective_number(noise) == pytest.approx(noise.size * 0.2 / 1.8, rel=0.05)
+    assert effective_number(rng.normal(size=5000)) > 4500
+
+
+def test_usual_keys_are_those_that_the_case_has():
+    assert list(usual_ranges({"block": {}}, "")) == ["block.restitution"]
+    tables = {
+        "bodies": {"drum": {"kind": "cylinder", "edge_radius_m": 0.01}},
+        "grounds": {"ground": {"stiffness_n_m3": 1e9}},
+    }
+    assert set(usual_ranges(tables, "")) == {
+        "contact.restitution",
+        "contact.friction_coefficient",
+        "grounds.ground.stiffness_n_m3",
+        "bodies.drum.edge_radius_m",
+    }
+    with pytest.raises(InputError, match="--fit"):
+        usual_ranges({"frame": {}}, "frame.toml")
+
+
+def samples(*, unit="tilt_rad", change=None):
+    lines = [f"{0.1 * n:.1f},{0.1 * np.exp(-0.1 * n):.5f}" for n in range(30)]
+    for place, text in (change or {}).items():
+        lines[place] = text
+    return "\n".join([f"time_s,{unit}", *lines]) + "\n"
+
+
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        (None, "test.csv: no such file"),
+        ("", "holds no line below its header"),
+        (samples(unit="tilt_grad"), "must have one column of time_s, time_ms and one of tilt_rad"),
+        (samples(change={5: "0.35,0.05"}), "line 7, time_s = '0.35': must be later than the line"),
+        (samples(change={5: "0.5,nan"}), "line 7, tilt_rad = 'nan': must be a finite number"),
+        (samples(change={5: "0.5,0_1"}), "line 7, tilt_rad = '0_1': must be a finite number"),
+        (samples(change={5: "0.5,7.2"}), "must be below a quarter of a turn: check its unit"),
+        (samples(change={0: "0.0,0"}), "line 2, tilt_rad = 0.0: must not be 0"),
+        (samples(change={5: "0.5"}), "line 7: has 1 columns where the header has 2"),
+        ("time_s,tilt_rad\n0,0.1\n1,0.1\n", "has 2 samples; at least 20 are needed"),
+    ],
+)
+def test_test_that_cannot_be_used_is_refused_in_a_line(tmp_path, text, said):
+    if text is not None:
+        (tmp_path / "test.csv").write_text(text)
+    with pytest.raises(InputError) as error:
+        read_rocking_test(tmp_path / "test.csv")
+    assert said in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "fits, said",
+    [
+        ([("block.restitutoin", "0.5:1")], "did you mean block.restitution"),
+        ([("block.restitution", "1:0.5")], "did you mean 0.5:1?"),
+        ([("block.restitution", "0.5:1.5")], "block.restitution = "),
+        ([("block.restitution", "-0.5:1")] * 2, "--fit = 'block.restitution': stands twice"),
+        ([("block.sides", "1:2")], "must be a number that varies continuously"),
+        ([("motion.scale", "1:2")], "must be a number that varies continuously"),
+    ],
+)
+def test_keys_that_cannot_be_fitted_are_refused_in_a_line(test_of_block, capsys, fits, said):
+    if fits[0][1].startswith("-"):  # a range that begins with a minus is an option to argparse
+        fits = [(key, "0.5:1") for key, _ in fits]
+    assert calibrate(test_of_block, "refused", *fits) == 2
+    told = capsys.readouterr().err
+    assert said in told and told.count("\n") == 1

@@ -1,0 +1,272 @@
+"""fecolumn risk: the closed form of a lognormal fragility and a power law, what is carried through,
+and what cannot be used.
+"""
+
+import csv
+import math
+
+import numpy as np
+import pytest
+from scipy.special import ndtr
+
+from fecolumn.cli import main
+from fecolumn.statistics.fragility import bootstrap, lognormal
+from fecolumn.statistics.hazard import (
+    HazardCurve,
+    annual_frequency,
+    lognormal_probabilities,
+    probability_in_years,
+)
+from fecolumn.statistics.hazard_table import read_hazard
+
+K0, K = 2e-4, 2.5
+
+
+def power_law(low, high, points):
+    im = np.geomspace(low, high, points)
+    return HazardCurve("pga_m_s2", im, K0 * im**-K)
+
+
+@pytest.mark.parametrize("beta", [0.1, 0.3, 0.6, 1.0])
+@pytest.mark.parametrize("points", [2, 40])
+def test_lognormal_fragility_and_power_law_have_the_closed_form(beta, points):
+    median = 3.0
+    found = annual_frequency(power_law(1e-4, 1e5, points), lognormal_probabilities(median, beta))
+    exact = K0 * median**-K * math.exp(0.5 * (K * beta) ** 2)
+    assert found.value == pytest.approx(exact, rel=1e-7)
+    assert found.parts.sum() == pytest.approx(exact, rel=1e-7)
+    assert found.below < 1e-3 and found.beyond < 1e-9 * exact
+
+
+def test_deaggregation_is_the_lognormal_of_the_closed_form():
+    """P(x) |dL| is, in ln x, a normal density integrated by parts: the share of failures above x
+    has a closed form, too.
+    """
+    median, beta, curve = 3.0, 0.4, power_law(1e-3, 1e3, 3)
+    found = annual_frequency(curve, lognormal_probabilities(median, beta))
+    x = found.edges[1:-1]
+    # integral from x to infinity, by parts: P(x) L(x) + integral of L dP
+    z = np.log(x / median) / beta
+    exact = K0 * median**-K * math.exp(0.5 * (K * beta) ** 2)
+    above = ndtr(z) * K0 * x**-K + exact * ndtr(-(z + K * beta))
+    # bins take whole points of the quadrature
+    assert found.parts[0][::-1].cumsum()[::-1][1:] == pytest.approx(above, rel=0.08)
+
+
+def test_step_fragility_gives_the_hazard_at_the_step():
+    curve = power_law(0.5, 50, 5)  # the step is at one of its points
+    found = annual_frequency(curve, lambda im: (np.asarray(im) > 5.0).astype(float))
+    assert found.value[0] == pytest.approx(float(curve.at(5.0)), rel=1e-8)
+    assert probability_in_years(0.01, 50) == pytest.approx(1 - math.exp(-0.5))
+
+
+def hazard_file(folder, text, name="hazard.csv"):
+    (folder / name).write_text(text)
+    return folder / name
+
+
+def runs_file(folder, n=200, median=3.0, beta=0.5):
+    rng = np.random.default_rng(5)
+    im = np.exp(rng.normal(math.log(3.0), 0.8, n))
+    fallen = rng.random(n) < ndtr(np.log(im / median) / beta)
+    rows = "".join(f"{a:.8g},{int(over)}\n" for a, over in zip(im, fallen))
+    (folder / "runs.csv").write_text("pga_m_s2,overturned\n" + rows)
+    return folder / "runs.csv", np.array([float(f"{a:.8g}") for a in im]), fallen
+
+
+def rows(file):
+    with open(file) as text:
+        return list(csv.DictReader(text))
+
+
+POWER = "pga_g,annual_frequency\n" + "".join(
+    f"{im:.10g},{K0 * (im * 9.80665) ** -K:.10g}\n" for im in np.geomspace(1e-3, 100, 30)
+)
+
+
+def test_runs_give_frequency_and_interval_of_the_bootstrap(tmp_path, capsys):
+    runs, im, fallen = runs_file(tmp_path)
+    hazard = hazard_file(tmp_path, "# of a test\n" + POWER)
+    out = tmp_path / "out"
+    assert main(["risk", str(runs), "--hazard", str(hazard), "-o", str(out)]) == 0
+    (row,) = rows(out / "risk.csv")
+    fit, drawn = lognormal(im, fallen), bootstrap(im, fallen).parameters
+
+    def exact(median, beta):
+        return K0 * median**-K * np.exp(0.5 * (K * beta) ** 2)
+
+    assert float(row["annual_frequency"]) == pytest.approx(exact(fit.median, fit.beta), rel=1e-4)
+    ends = np.quantile(exact(*drawn.T), (0.025, 0.975))
+    assert [float(row["low"]), float(row["high"])] == pytest.approx(ends, rel=1e-3)
+    assert float(row["p_50_years"]) == pytest.approx(
+        1 - math.exp(-50 * float(row["annual_frequency"])), rel=1e-4
+    )
+    parts = rows(out / "deaggregation.csv")
+    assert sum(float(one["share"]) for one in parts) == pytest.approx(1, abs=1e-4)
+    assert "% [" in capsys.readouterr().out
+    assert (out / "risk.png").stat().st_size > 5000
+
+
+def test_what_fragility_wrote_will_do(tmp_path):
+    runs, *_ = runs_file(tmp_path)
+    hazard = hazard_file(tmp_path, POWER)
+    assert main(["fragility", str(runs), "--im", "pga_m_s2", "-o", str(tmp_path / "f")]) == 0
+    for source, out in ((runs, "a"), (tmp_path / "f" / "fragility.csv", "b")):
+        out = str(tmp_path / out)
+        assert main(["risk", str(source), "--hazard", str(hazard), "-o", out]) == 0
+    (a,), (b,) = rows(tmp_path / "a" / "risk.csv"), rows(tmp_path / "b" / "risk.csv")
+    assert float(a["annual_frequency"]) == pytest.approx(float(b["annual_frequency"]), rel=1e-3)
+    for end in ("low", "high"):
+        assert float(a[end]) == pytest.approx(float(b[end]), rel=0.25)
+
+
+def test_interval_holds_the_true_frequency_as_often_as_it_says():
+    """Bootstrap of 60 samples of 150 runs; 95 % of them should hold the truth."""
+    rng, curve, inside = np.random.default_rng(2), power_law(1e-2, 1e3, 20), 0
+    truth = K0 * 3.0**-K * math.exp(0.5 * (K * 0.5) ** 2)
+    for _ in range(60):
+        im = np.exp(rng.normal(math.log(3.0), 0.7, 150))
+        fallen = rng.random(150) < ndtr(np.log(im / 3.0) / 0.5)
+        drawn = bootstrap(im, fallen, resamples=60).parameters
+        found = annual_frequency(curve, lognormal_probabilities(*drawn.T)).value
+        low, high = np.quantile(found, (0.025, 0.975))
+        inside += low <= truth <= high
+    assert 50 <= inside <= 60
+
+
+def test_units_and_kinds_of_hazard_are_one_curve(tmp_path):
+    frequency = -math.log(1 - 0.1) / 50
+    texts = (
+        f"pga_g,annual_frequency\n0.1,{frequency!r}\n0.5,1e-5\n",
+        f"pga_cm_s2,return_period_years\n98.0665,{1 / frequency!r}\n490.3325,100000\n",
+        f"probability_50_years,pga_m_s2\n0.1,0.980665\n{-math.expm1(-5e-4)!r},4.903325\n",
+    )
+    for text in texts:
+        curve = read_hazard(hazard_file(tmp_path, text))
+        assert curve.measure == "pga_m_s2"
+        assert curve.im == pytest.approx([0.980665, 4.903325])
+        assert curve.frequency == pytest.approx([frequency, 1e-5])
+
+
+OPENQUAKE = (
+    "#,,,,,\"generated_by='OpenQuake engine 3.16.3', start_date='2026-01-01', checksum=1, "
+    "kind='mean', investigation_time=50.0, imt='PGA'\"\n"
+    "lon,lat,depth,poe-0.0050000,poe-0.0500000,poe-0.5000000,poe-2.0000000\n"
+    "8.5,47.3,0.0,1.0,4.0E-01,5.0E-03,0.0\n9.0,47.3,0.0,9.0E-01,3.0E-01,4.0E-03,1.0E-07\n"
+)
+
+
+def test_export_of_openquake_is_read(tmp_path):
+    file = hazard_file(tmp_path, OPENQUAKE)
+    first, second = read_hazard(file), read_hazard(file, 2)
+    assert first.im == pytest.approx(9.80665 * np.array([0.05, 0.5]))
+    assert first.frequency == pytest.approx(-np.log1p(-np.array([0.4, 5e-3])) / 50)
+    assert second.im.size == 4
+
+
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        (None, "absent.csv: no such file"),
+        ("", "holds no line below its header"),
+        ("pga_g,rate\n0.1,1e-2\n", "must be a column of the intensity"),
+        ("pga,annual_frequency\n0.1,1e-2\n0.2,1e-3\n", "header = 'pga': must end in its unit"),
+        ("pga_kg,annual_frequency\n0.1,1e-2\n0.2,1e-3\n", "must end in its unit"),
+        ("pga_g,annual_frequency\n0.2,1e-3\n0.1,1e-2\n", "line 3, pga_g = 0.1: must be larger"),
+        ("pga_g,annual_frequency\n0.1,1e-3\n0.2,1e-2\n", "line 3, annual_frequency = '1e-2'"),
+        ("pga_g,annual_frequency\n0.1,-1e-3\n0.2,1e-4\n", "line 2, annual_frequency = '-1e-3'"),
+        ("pga_g,annual_frequency\n-0.1,1e-3\n0.2,1e-4\n", "line 2, pga_g = '-0.1': must be a num"),
+        ("pga_g,annual_frequency\n0.1,nan\n0.2,1e-4\n", "line 2, annual_frequency = 'nan'"),
+        ("pga_g,annual_frequency\n0.1,1_0\n0.2,1e-4\n", "line 2, annual_frequency = '1_0'"),
+        ("pga_g,annual_frequency\n0.1,1e-3\n", "has 1 intensities"),
+        ("pga_g,annual_frequency\n0.1,1e-3,4\n", "has 3 columns where the header has 2"),
+        ("pga_g,probability_50_years\n0.1,10\n0.2,2\n", "a share, not percent"),
+        ("pga_g,probability_0_years\n0.1,0.1\n0.2,0.02\n", "more than 0 years"),
+        (OPENQUAKE.replace("'PGA'", "'SA(0.5)'"), "imt = 'SA(0.5)': must be one of PGA, PGV"),
+        (OPENQUAKE.replace("#,", "x,"), "has 7 columns where the header has 6"),
+        (OPENQUAKE.replace("4.0E-01", "1.4"), "poe-0.0500000 = '1.4': must be at most 1"),
+        ("sa1_g,annual_frequency\n0.1,1e-2\n0.2,1e-3\n", "must have one column sa1_m_s2"),
+    ],
+)
+def test_hazard_that_cannot_be_used_is_refused_in_a_line(tmp_path, capsys, text, said):
+    runs, *_ = runs_file(tmp_path, 60)
+    file = tmp_path / "absent.csv" if text is None else hazard_file(tmp_path, text)
+    assert main(["risk", str(runs), "--hazard", str(file), "-o", str(tmp_path / "out")]) == 2
+    told = capsys.readouterr().err
+    assert said in told and told.count("\n") == 1
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    "options, said",
+    [
+        (["--years", "-1"], "--years = -1.0: must be greater than 0"),
+        (["--site", "2"], "--site = 2: is for a file of OpenQuake"),
+        (["--limit", "top > 5 mm"], "tells of overturning alone"),
+        (["--limit", "top > 5 lb"], "'lb' is no unit of top"),
+    ],
+)
+def test_options_that_cannot_be_used_are_refused_in_a_line(tmp_path, capsys, options, said):
+    runs, *_ = runs_file(tmp_path, 60)
+    hazard, out = hazard_file(tmp_path, POWER), str(tmp_path / "out")
+    assert main(["risk", str(runs), "--hazard", str(hazard), *options, "-o", out]) == 2
+    told = capsys.readouterr().err
+    assert said in told and told.count("\n") == 1
+
+
+def test_runs_that_bound_no_curve_are_refused(tmp_path, capsys):
+    (tmp_path / "runs.csv").write_text("pga_m_s2,overturned\n1,0\n2,0\n3,1\n4,1\n")
+    hazard, out = hazard_file(tmp_path, POWER), str(tmp_path / "out")
+    assert main(["risk", str(tmp_path / "runs.csv"), "--hazard", str(hazard), "-o", out]) == 2
+    assert "bound no fragility over pga_m_s2" in capsys.readouterr().err
+
+
+def test_curve_that_ends_too_soon_or_begins_too_late_is_told(tmp_path, capsys):
+    runs, *_ = runs_file(tmp_path)
+    lines = POWER.splitlines()
+    for part, said in (
+        (lines[1:15], "above the hazard curve's last"),
+        (lines[16:], "the hazard curve begins at"),
+    ):
+        hazard = hazard_file(tmp_path, "\n".join([lines[0], *part]) + "\n")
+        assert main(["risk", str(runs), "--hazard", str(hazard), "-o", str(tmp_path / "out")]) == 0
+        assert said in capsys.readouterr().err
+
+
+def test_frequency_from_intensities_that_no_run_had_is_told(tmp_path, capsys):
+    runs, im, _ = runs_file(tmp_path, median=3.0)
+    lines = [line for line in runs.read_text().splitlines()[1:] if float(line.split(",")[0]) > 2.5]
+    runs.write_text("\n".join(["pga_m_s2,overturned", *lines]) + "\n")
+    hazard = hazard_file(tmp_path, POWER)
+    assert main(["risk", str(runs), "--hazard", str(hazard), "-o", str(tmp_path / "out")]) == 0
+    assert "comes from intensities that no run had" in capsys.readouterr().err
+    (row,) = rows(tmp_path / "out" / "risk.csv")
+    assert float(row["outside_runs_share"]) > 0.1
+
+
+def test_folder_of_a_study_is_asked_for_any_limit_state(tmp_path, capsys):
+    """Runs of pulses of two periods: the fragility and the frequency of the folder are those of
+    its own runs.
+    """
+    amplitudes = [f"{one:g}" for one in np.linspace(1.5, 9.0, 16)]
+    pulses = tmp_path / "p.h5"
+    arguments = ["--amplitudes", *amplitudes, "--periods", "0.5", "1.0", "-o", str(pulses)]
+    assert main(["motions", "make", "pulses", "symmetric_ricker", *arguments]) == 0
+    (tmp_path / "study.toml").write_text(
+        "[case.block]\nwidth_m = 0.4\nheight_m = 2.0\n[case.integration]\ndt_s = 0.005\n"
+        f'[axes]\n"motion.source" = ["{pulses}#*"]\n'
+    )
+    out = tmp_path / "study"
+    assert main(["study", str(tmp_path / "study.toml"), "-o", str(out), "-j", "1"]) == 0
+    hazard = hazard_file(tmp_path, POWER)
+    found = {}
+    for limit in ("top > 100 mm", "top > 250 mm"):
+        folder = tmp_path / limit.split()[2]
+        options = ["--hazard", str(hazard), "--limit", limit, "-o", str(folder)]
+        assert main(["risk", str(out), *options]) == 0
+        (row,) = rows(folder / "risk.csv")
+        found[limit] = float(row["annual_frequency"])
+        assert float(row["low"]) <= found[limit] <= float(row["high"])
+    assert found["top > 100 mm"] > found["top > 250 mm"] > 0
+    assert main(["risk", str(out), "--hazard", str(hazard), "--limit", "slide > 5 mm", "-o", "x"])
+    assert "holds no slide of engine 'housner'" in capsys.readouterr().err
