@@ -236,6 +236,19 @@ def test_sliding_is_told_with_its_time_and_only_where_friction_does_not_suffice(
     assert slides.peaks["friction demanded along x [-]"] > needed * (1 - 1e-2)
 
 
+def test_no_friction_is_told_of_a_block_that_leaves_the_ground():
+    """Thrown up by the ground: what is written of it are numbers."""
+    one = block()
+    states = one.respond(sample(Pulse("one_sine", 0.5 * GRAVITY, 0.5), 1e-3))
+    assert all(math.isfinite(value) for value in states.peaks.values())
+    up = np.zeros((400, 3))
+    up[100:200, 2] = -2.0 * GRAVITY
+    up[:200, 0] = 0.6 * GRAVITY
+    thrown = one.respond(GroundMotion(up, 1e-3, "thrown", "made"))
+    assert "leave the ground" in thrown.notes[0]
+    assert "friction demanded along x [-]" not in thrown.peaks
+
+
 def test_overturned_block_ends_flat_with_its_rows():
     found = block().respond(sample(Pulse("one_sine", 1.5 * GRAVITY, 1.5), 2e-3))
     assert found.overturned and found.outcome == "overturned"

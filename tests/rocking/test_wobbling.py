@@ -208,4 +208,7 @@ def test_keys_that_do_not_fit_are_named(keys, words):
 def test_more_friction_than_there_is_is_told():
     model = column(outer_diameter_m=1.6, height_m=1.0, friction_coefficient=0.3)
     found = model.respond(shaken(1, 2.0 * GRAVITY * math.tan(model.slenderness)))
-    assert found.peaks["friction demanded [-]"] > 0.3 and "it would slide" in found.notes[0]
+    assert "friction coefficient of more than any" in found.notes[0]
+    assert "it would slide" in found.notes[0]
+    # no number says it, and a summary cannot hold infinity
+    assert all(math.isfinite(value) for value in found.peaks.values())

@@ -310,7 +310,9 @@ def _forces(one: PlaneResponse, ground, peaks: dict) -> list[str]:
     upward = np.abs(one.states[:, TILT]) < math.pi / 4  # what has fallen slides as it likes
     with np.errstate(divide="ignore", invalid="ignore"):
         demanded = np.where(force[:, 1] > 0, np.abs(force[:, 0]) / force[:, 1], math.inf)[upward]
-    peaks[f"friction demanded along {name} [-]"] = float(demanded.max())
+    if np.isfinite(demanded.max()):
+        # of one that leaves the ground there is none
+        peaks[f"friction demanded along {name} [-]"] = float(demanded.max())
     if any(restraint.tendons for restraint in one.plane.restraints):
         lean = np.abs(one.states[:, TILT])
         peaks[f"tension of the tendons, {name} [N]"] = float(

@@ -297,7 +297,10 @@ class Wobbling:
             demanded = np.where(
                 foot[:, 2] > 0, np.hypot(foot[:, 0], foot[:, 1]) / foot[:, 2], math.inf
             )
-        peaks = {"friction demanded [-]": float(demanded.max())}
+        # of one that leaves the ground there is none
+        peaks = (
+            {"friction demanded [-]": float(demanded.max())} if np.isfinite(demanded.max()) else {}
+        )
         if not demanded.max() > self.friction:
             return [], peaks
         most = "more than any" if math.isinf(demanded.max()) else f"{demanded.max():.3g}"
