@@ -303,7 +303,8 @@ class Initial(Section):
     spin_rad_s: tuple[float, ...] = parameter(
         (0.0, 0.0, 0.0),
         doc="angular velocity [x, y, z], right-handed: y > 0 tips the top towards +x; "
-        "about the point of the rim on which the column stands or over which it tips",
+        "about the point of the rim on which the column stands or over which it tips, "
+        "of a body that stands on nothing about its centre of mass",
         unit="rad/s",
         low=-1000,
         high=1000,
