@@ -44,7 +44,8 @@ class Bodies(NamedTuple):
     static: (3 N, 3 n) [m/N] displacement that follows forces at once, mobility: (3 N, 3 n) [1/kg]
     velocity per impulse beside that of rigid motion:
         rows by node, columns by node of the same body, in its frame.
-    facets: of FACET, of the surfaces on which others stand.
+    facets: of FACET, of the surfaces on which others stand. pushes: (N, 3, m) [1/sqrt(kg)] root of
+    that mobility where it is of m modes a body; (0, 3, 0) where it is not.
     """
 
     body: np.ndarray
@@ -52,6 +53,7 @@ class Bodies(NamedTuple):
     static: np.ndarray
     mobility: np.ndarray
     facets: np.ndarray = np.zeros(0, FACET)
+    pushes: np.ndarray = np.zeros((0, 3, 0))
 
 
 def one_body(arms, static, mobility, mass: float = np.inf, inertia=None) -> Bodies:

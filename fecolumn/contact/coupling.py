@@ -1,8 +1,8 @@
-"""How contact points move one another: by a whole matrix, or, where their bodies do not deform, by
-what each gives alone and its levers on two bodies.
+"""How contact points move one another: by a whole matrix, or, where their bodies do not deform or
+move in few modes only, by what each gives alone and its levers on two bodies.
 
-Then W = own + V V^T with six columns of V a body (Delassus 1917), and equations with W cost what
-the points are, not the third power of their number (Woodbury 1950).
+Then W = own + V V^T with six columns of V a body, and one for each of its modes (Delassus 1917),
+and equations with W cost what the points are, not the third power of their number (Woodbury 1950).
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ class Coupling(NamedTuple):
     """Compliance W of n points [m/N], or their mobility [1/kg].
 
     whole: (3 n, 3 n), or (0, 0) where the rest tells it. own: (n, 3) of each point alone along the
-    axes of its frame; levers: (n, 3, 12) rows of V, six columns of the slave and six of the master,
-    these negative; bodies: (n, 2) slave and master, -1 of one that does not move. blocks: of the
-    points of a whole matrix; else of the bodies, their rows of V^T W^-1 V by their order of
-    elimination.
+    axes of its frame; levers: (n, 3, 2 w) rows of V, w columns of the slave and w of the master,
+    these negative: six of rigid motion and those of modes; bodies: (n, 2) slave and master, -1 of
+    one that does not move. blocks: of the points of a whole matrix; else of the bodies, their rows
+    of V^T W^-1 V by their order of elimination.
     """
 
     whole: np.ndarray
@@ -49,13 +49,14 @@ def coupling_of(W):
 
 @njit
 def coupling_by_levers(own, levers, bodies):
-    """Of bodies that do not deform, by what Coupling has of them."""
-    return Coupling(np.empty((0, 0)), own, levers, bodies, _blocks_of_bodies(bodies))
+    """Of bodies that move in few ways, by what Coupling has of them."""
+    blocks = _blocks_of_bodies(bodies, levers.shape[2] // 2)
+    return Coupling(np.empty((0, 0)), own, levers, bodies, blocks)
 
 
 @njit
-def _blocks_of_bodies(bodies):
-    """Blocks of bodies, six rows each, coupled where they have a point in common."""
+def _blocks_of_bodies(bodies, width):
+    """Blocks of bodies, `width` rows each, coupled where they have a point in common."""
     count, g = 0, 0
     for j in range(len(bodies)):
         count = max(count, bodies[j, 0] + 1, bodies[j, 1] + 1)
@@ -73,7 +74,7 @@ def _blocks_of_bodies(bodies):
         if b >= 0 and m >= 0:
             coupled[of[b], of[m]] = coupled[of[m], of[b]] = True
     ranks = least_filling(np.arange(g + 1), coupled)
-    blocks = Blocks(ranks, 6 * np.arange(g + 1), of, np.empty((g, g), np.bool_))
+    blocks = Blocks(ranks, width * np.arange(g + 1), of, np.empty((g, g), np.bool_))
     rank = np.empty(g, np.int64)
     for k in range(g):
         rank[ranks[k]] = k
@@ -100,22 +101,25 @@ def are_stiff(bodies, base, points, listed):
 
 
 @njit
-def couple(bodies, points, arms, listed, poses, rigid, factor, own):
-    """Coupling of the listed points (k,) of bodies that do not deform; arguments as of
-    `compliance.assemble`.
+def couple(bodies, points, arms, listed, poses, rigid, factor, own, modes):
+    """Coupling of the listed points (k,) of bodies that do not deform, or whose compliance is the
+    mobility of their first `modes` modes; other arguments as of `compliance.assemble`.
     """
-    k, nb = len(listed), len(bodies.body)
-    alone, levers, sides = np.empty((k, 3)), np.zeros((k, 3, 12)), np.full((k, 2), -1)
-    turned, roots, known = turns(poses), np.empty((nb, 3, 3)), np.zeros(nb, np.bool_)
+    k, nb, width = len(listed), len(bodies.body), 6 + modes
+    alone, levers, sides = np.empty((k, 3)), np.zeros((k, 3, 2 * width)), np.full((k, 2), -1)
+    turned, roots, known = turns(poses), np.zeros((nb, 3, 3)), np.zeros(nb, np.bool_)
     for j in range(k):
         i = listed[j]
         for a in range(3):
             alone[j, a] = factor * (own[i, a] + points[i].uneven[a, a])
         for side in range(2):
             b = points[i].master if side else points[i].slave
-            if b == BASE or bodies.body[b].inverse_mass == 0.0:
+            if b == BASE:
                 continue
-            if not known[b]:
+            floats = bodies.body[b].inverse_mass != 0.0
+            if not floats and (modes == 0 or bodies.body[b].stiff):
+                continue
+            if floats and not known[b]:
                 put_root(bodies.body[b].inverse_inertia, roots[b])
                 known[b] = True
             sides[j, side] = b
@@ -132,11 +136,32 @@ def couple(bodies, points, arms, listed, poses, rigid, factor, own):
                 v = z * T[a, 0] - x * T[a, 2]
                 w = x * T[a, 1] - y * T[a, 0]
                 for c in range(3):
-                    levers[j, a, 6 * side + c] = along * T[a, c]
-                    levers[j, a, 6 * side + 3 + c] = sign * (
+                    levers[j, a, width * side + c] = along * T[a, c]
+                    levers[j, a, width * side + 3 + c] = sign * (
                         u * C[0, c] + v * C[1, c] + w * C[2, c]
                     )
+            if modes > 0 and not bodies.body[b].stiff:
+                _add_modes(bodies.pushes, points[i], side, T, levers[j])
     return coupling_by_levers(alone, levers, sides)
+
+
+@njit
+def _add_modes(pushes, point, side, turn, levers):
+    """Put what the modes move the point by into its levers (3, 2 w): turn (3, 3) pushes, negative
+    on the master.
+    """
+    modes, width = pushes.shape[2], levers.shape[1] // 2
+    first = width * side + width - modes
+    for q in range(4):
+        node = point.below[q] if side else point.carriers[q]
+        share = -point.shares[q] if side else point.weights[q]
+        if share == 0.0:
+            continue
+        for a in range(3):
+            for c in range(3):
+                factor, row, target = share * turn[a, c], pushes[node, c], levers[a]
+                for m in range(modes):
+                    target[first + m] += factor * row[m]
 
 
 @njit
@@ -173,25 +198,44 @@ def times(coupling, forces):
                     )
                 result[i, a] = total
         return result
-    levers, bodies = coupling.levers, coupling.bodies
-    motion = np.zeros((len(coupling.blocks.of), 6))
+    result = moved_by(coupling, motion_by(coupling, forces))
     for i in range(n):
+        for a in range(3):
+            result[i, a] += coupling.own[i, a] * forces[i, a]
+    return result
+
+
+@njit
+def motion_by(coupling, forces):
+    """Motion (nb, w) of the bodies, V^T r, by forces (n, 3) of points that have levers."""
+    levers, bodies, width = coupling.levers, coupling.bodies, coupling.levers.shape[2] // 2
+    motion = np.zeros((len(coupling.blocks.of), width))
+    for i in range(len(forces)):
         for side in range(2):
             b = bodies[i, side]
             if b >= 0:
                 for a in range(3):
-                    for c in range(6):
-                        motion[b, c] += levers[i, a, 6 * side + c] * forces[i, a]
-    for i in range(n):
-        for a in range(3):
-            total = coupling.own[i, a] * forces[i, a]
-            for side in range(2):
-                b = bodies[i, side]
-                if b >= 0:
-                    for c in range(6):
-                        total += levers[i, a, 6 * side + c] * motion[b, c]
-            result[i, a] = total
-    return result
+                    row, force, target = levers[i, a], forces[i, a], motion[b]
+                    for c in range(width):
+                        target[c] += row[width * side + c] * force
+    return motion
+
+
+@njit
+def moved_by(coupling, motion):
+    """How far (n, 3) a motion (nb, w) of the bodies moves the points, V x."""
+    levers, bodies, width = coupling.levers, coupling.bodies, coupling.levers.shape[2] // 2
+    moved = np.zeros((len(levers), 3))
+    for i in range(len(levers)):
+        for side in range(2):
+            b = bodies[i, side]
+            if b >= 0:
+                for a in range(3):
+                    row, of_body, total = levers[i, a], motion[b], 0.0
+                    for c in range(width):
+                        total += row[width * side + c] * of_body[c]
+                    moved[i, a] += total
+    return moved
 
 
 @njit
@@ -210,7 +254,7 @@ def whole_of(coupling):
     if len(coupling.whole):
         return coupling.whole
     n, levers, bodies = len(coupling.own), coupling.levers, coupling.bodies
-    W = np.zeros((3 * n, 3 * n))
+    W, width = np.zeros((3 * n, 3 * n)), levers.shape[2] // 2
     for i in range(n):
         for j in range(i, n):
             for side in range(2):
@@ -220,8 +264,10 @@ def whole_of(coupling):
                     for a in range(3):
                         for b in range(3):
                             total = 0.0
-                            for c in range(6):
-                                total += levers[i, a, 6 * side + c] * levers[j, b, 6 * other + c]
+                            for c in range(width):
+                                total += (
+                                    levers[i, a, width * side + c] * levers[j, b, width * other + c]
+                                )
                             W[3 * i + a, 3 * j + b] += total
         for a in range(3):
             W[3 * i + a, 3 * i + a] += coupling.own[i, a]
@@ -279,12 +325,13 @@ def stiffnesses(coupling, together):
     levers, bodies = coupling.levers, coupling.bodies
     # lengths of the rows of V, whose products are no larger than those of the lengths
     length, total = np.empty((n, 2, 3)), np.zeros(len(coupling.blocks.of))
+    width = levers.shape[2] // 2
     for i in range(n):
         for side in range(2):
             for a in range(3):
                 square = 0.0
-                for c in range(6):
-                    square += levers[i, a, 6 * side + c] ** 2
+                for c in range(width):
+                    square += levers[i, a, width * side + c] ** 2
                 length[i, side, a] = np.sqrt(square)
                 if bodies[i, side] >= 0:
                     total[bodies[i, side]] += length[i, side, a]

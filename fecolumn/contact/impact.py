@@ -23,16 +23,23 @@ from fecolumn.contact.coupling import (
     times,
 )
 from fecolumn.contact.friction import iterate
+from fecolumn.contact.frozen_slips import find_impulses
+from fecolumn.contact.newton import newton_steps
 from fecolumn.contact.problem import IMPACT_FAILED, N_CONTACT, OK
 from fecolumn.contact.restitution import returned_share
 from fecolumn.contact.tolerances import (
     ARRIVES,
+    FROZEN_ENDS,
     FULL_FRICTION,
     IMPACT_GIVES,
     IMPACT_LEAST,
     IMPACT_LEFT,
+    IMPACT_MISSED,
     IMPACT_SOLVED,
+    NEWTON_STALLED,
+    NEWTON_STEPS,
     OPEN,
+    POINTS_A_LEVER,
     SHARP,
     SLIDE,
     SWEEPS_MOST,
@@ -204,6 +211,7 @@ def find_impact(
                 late[i, a],
             )
     pushed, speed = _jump(mobility, given), np.inf if lands else _fastest(start, end)
+    pressed = np.abs(pushed).max() if k > 0 else 0.0
     free = np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
@@ -223,14 +231,16 @@ def find_impact(
             for a in range(3):
                 carried_before[3 * j + a] = share * dt * before[union[j]].force[a]
         carried, solved = _held_impulses(
-            mobility, velocity, friction, held[:m], carried_before, speed, counts
+            mobility, velocity, friction, held[:m], carried_before, speed, pressed, counts
         )
         if not solved:
             return IMPACT_FAILED, False, impulses
         jump = _jump(mobility, carried)
         for j in range(3 * k):
             velocity[j], guess_of_all[j] = free[j] + jump[j], given[j] - carried[j]
-        second, solved = _flat_impulses(mobility, velocity, friction, guess_of_all, speed, counts)
+        second, solved = _flat_impulses(
+            mobility, velocity, friction, guess_of_all, speed, pressed, counts
+        )
         if not solved:
             return IMPACT_FAILED, False, impulses
         # judged by velocities relative to the master: whether contact takes energy must not depend
@@ -258,7 +268,7 @@ def find_impact(
         jump = _jump(mobility, carried)
         for j in range(3 * k):
             velocity[j] += jump[j]
-        blow, solved = _flat_impulses(mobility, velocity, friction, second, speed, counts)
+        blow, solved = _flat_impulses(mobility, velocity, friction, second, speed, pressed, counts)
         if not solved:
             return IMPACT_FAILED, False, impulses
         for j in range(3 * k):
@@ -280,8 +290,11 @@ def find_impact(
 @njit
 def _mobility(bodies, base, points, springs, union, arms, poses):
     """Coupling by mobility [1/kg] of the points `union` (k,)."""
-    if are_stiff(bodies, base, points, union):
-        return couple(bodies, points, arms, union, poses, 1.0, 0.0, springs.own)
+    modes = bodies.pushes.shape[2]
+    stiff = are_stiff(bodies, base, points, union)
+    if stiff or modes > 0 and len(union) > POINTS_A_LEVER * (6 + modes):
+        modes = 0 if stiff else modes
+        return couple(bodies, points, arms, union, poses, 1.0, 0.0, springs.own, modes)
     W = np.empty((3 * len(union), 3 * len(union)))
     assemble(bodies, base, points, arms, union, poses, 1.0, bodies.mobility, 0.0, springs.own, W)
     return coupling_of(W)
@@ -308,8 +321,9 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, counts)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
     _between(start, free, moment, velocity)
+    pressed = np.abs(pushed).max() if k > 0 else 0.0
     carried, solved = _held_impulses(
-        mobility, velocity, friction, marked(holds), np.zeros(3 * k), np.inf, counts
+        mobility, velocity, friction, marked(holds), np.zeros(3 * k), np.inf, pressed, counts
     )
     if not solved:
         return 0.0, 0.0
@@ -318,12 +332,12 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, counts)
         velocity[j] += jump[j]
     for j in range(k):
         approach = max(approach, -velocity[3 * j + 2])
-    blow, solved = _flat_impulses(mobility, velocity, friction, given, np.inf, counts)
+    blow, solved = _flat_impulses(mobility, velocity, friction, given, np.inf, pressed, counts)
     return (-_work(blow, velocity, _jump(mobility, blow)), approach) if solved else (0.0, 0.0)
 
 
 @njit
-def _held_impulses(mobility, velocity, friction, held, guess, speed, counts):
+def _held_impulses(mobility, velocity, friction, held, guess, speed, pressed, counts):
     """Impulses (3 k,) of the points `held` (m,) alone, as `_impulses`; guess: (3 k,)."""
     m, impulses = len(held), np.zeros(len(velocity))
     approach, start, mu = (
@@ -335,7 +349,7 @@ def _held_impulses(mobility, velocity, friction, held, guess, speed, counts):
         mu[i] = friction[held[i]]
         for a in range(3):
             approach[i, a], start[i, a] = velocity[3 * held[i] + a], guess[3 * held[i] + a]
-    found, solved = _impulses(part_of(mobility, held), approach, mu, start, speed, counts)
+    found, solved = _impulses(part_of(mobility, held), approach, mu, start, speed, pressed, counts)
     for i in range(m):
         for a in range(3):
             impulses[3 * held[i] + a] = found[i, a]
@@ -399,21 +413,21 @@ def _harmless(first, second, contact_work):
 
 
 @njit
-def _flat_impulses(mobility, velocity, friction, guess, speed, counts):
+def _flat_impulses(mobility, velocity, friction, guess, speed, pressed, counts):
     """As `_impulses`, with flat arrays (3 k,)."""
     k = len(friction)
     approach, start = np.empty((k, 3)), np.empty((k, 3))
     put_points(velocity, approach)
     put_points(guess, start)
-    found, solved = _impulses(mobility, approach, friction, start, speed, counts)
+    found, solved = _impulses(mobility, approach, friction, start, speed, pressed, counts)
     return flat(found), solved
 
 
 @njit
-def _impulses(mobility, velocity, friction, guess, speed, counts):
+def _impulses(mobility, velocity, friction, guess, speed, pressed, counts):
     """Impulses (k, 3) of points with velocities (k, 3) [m/s] without them, and whether they obey
     the laws, up to IMPACT_LEFT of the largest velocity; speed: of the velocities that points have,
-    in place of that where it is less.
+    in place of that where it is less; pressed: largest velocity that the step's contact gives.
 
     Where slip ends nothing approaches, and velocities without impulses tell no more than how hard
     bodies are pressed together: a share of them would carry a slip on for ever.
@@ -436,7 +450,14 @@ def _impulses(mobility, velocity, friction, guess, speed, counts):
             for a in range(3):
                 asked[i, a] = velocity[i, a] - give[i] * last[i, a]
         impulses, solved = _softened_impulses(
-            softened(mobility, give), asked, friction, impulses, IMPACT_SOLVED * free, counts
+            softened(mobility, give),
+            asked,
+            friction,
+            impulses,
+            IMPACT_SOLVED * free,
+            IMPACT_MISSED * min(speed, max(free, pressed)),
+            turns > 0,
+            counts,
         )
         if not solved:
             return last, turns > 0
@@ -451,10 +472,33 @@ def _impulses(mobility, velocity, friction, guess, speed, counts):
 
 
 @njit
-def _softened_impulses(compliance, velocity, friction, guess, allowed, counts):
+def _softened_impulses(compliance, velocity, friction, guess, allowed, usable, near, counts):
     """Impulses (k, 3) that obey the laws up to a velocity [m/s], and whether they do: where there
-    are several, those that Newton finds from the guess.
+    are several, those that Newton finds from the guess. Where it finds none, of bodies that move in
+    few ways, what convex problems find up to a larger velocity, `usable`. near: whether the guess
+    solves a problem close to this one.
     """
+    if len(compliance.whole) == 0 and len(guess) > 0:
+        impulses, residual, made = newton_steps(
+            compliance,
+            velocity,
+            friction,
+            guess,
+            SHARP * allowed,
+            stiffnesses(compliance, True),
+            stiffnesses(compliance, False),
+            0.0,
+            NEWTON_STEPS,
+            NEWTON_STALLED,
+        )
+        if residual > allowed:
+            impulses, residual, more = find_impulses(
+                compliance, velocity, friction, guess, near, SHARP * allowed, FROZEN_ENDS * usable
+            )
+            made, residual = made + more, residual * allowed / usable
+        counts[N_CONTACT] += made
+        if residual <= allowed:
+            return impulses, True
     impulses = guess
     for attempt in range(2):
         # a guess far off can trap the iteration: zero is the second

@@ -161,7 +161,7 @@ def _by_whole(coupling, q, forces, give, point, basis, test, stiffening):
 @njit
 def _by_levers(coupling, q, forces, relative, give, point, basis, test, stiffening, guess):
     """As `_by_whole`, by the formula of Woodbury (1950): (D + L R^T) y = b with D of each point
-    alone and six columns of L and R a body leaves equations of the bodies, 1 + R^T D^-1 L.
+    alone and w columns of L and R a body leaves equations of the bodies, 1 + R^T D^-1 L.
 
     Solved for the change of the unknowns from their guess (count,), so that rounding, which grows
     with L R^T over D, is that of a change that becomes small.
@@ -176,7 +176,8 @@ def _by_levers(coupling, q, forces, relative, give, point, basis, test, stiffeni
             same &= start[i, a] == forces[i, a]
     if not same:
         relative = slips_under(coupling, q, start)
-    solved, left, across = np.empty(count), np.empty((count, 12)), np.empty((count, 12))
+    width, columns = coupling.levers.shape[2] // 2, coupling.levers.shape[2]
+    solved, left, across = np.empty(count), np.empty((count, columns)), np.empty((count, columns))
     for u in range(count):
         i = point[u]
         solved[u] = -stiffening[u] * guess[u]
@@ -201,13 +202,13 @@ def _by_levers(coupling, q, forces, relative, give, point, basis, test, stiffeni
             if one[side] < 0:
                 continue
             top = blocks.first[blocks.of[one[side]]]
-            for a in range(6):
-                right[top + a] += along[6 * side + a]
+            for a in range(width):
+                right[top + a] += along[width * side + a]
                 for t in range(2):
                     if one[t] >= 0:
                         first = blocks.first[blocks.of[one[t]]]
-                        for c in range(6):
-                            matrix[top + a, first + c] += block[6 * side + a, 6 * t + c]
+                        for c in range(width):
+                            matrix[top + a, first + c] += block[width * side + a, width * t + c]
         begin = end
     if rows and not eliminate(matrix, right, blocks.first, blocks.coupled):
         return solved, False
@@ -217,22 +218,22 @@ def _by_levers(coupling, q, forces, relative, give, point, basis, test, stiffeni
             b = bodies[point[u], side]
             if b >= 0:
                 first = blocks.first[blocks.of[b]]
-                for c in range(6):
-                    solved[u] -= left[u, 6 * side + c] * right[first + c]
+                for c in range(width):
+                    solved[u] -= left[u, width * side + c] * right[first + c]
     return solved, True
 
 
 @njit
 def _along(levers, direction, target):
-    """Target (12,): levers (3, 12) along a direction (3,)."""
+    """Target (2 w,): levers (3, 2 w) along a direction (3,)."""
     x, y, z = direction[0], direction[1], direction[2]
-    for c in range(12):
+    for c in range(len(target)):
         target[c] = x * levers[0, c] + y * levers[1, c] + z * levers[2, c]
 
 
 @njit
 def _divide(coupling, give, point, basis, test, stiffening, right, left):
-    """Divide right (count,) and left (count, 12) by what each point gives alone: False where one
+    """Divide right (count,) and left (count, 2 w) by what each point gives alone: False where one
     gives nothing.
     """
     own, D, first = coupling.own, np.empty((2, 2)), 0
@@ -253,7 +254,7 @@ def _divide(coupling, give, point, basis, test, stiffening, right, left):
             x, y = right[first], right[last - 1]
             right[first] = (D[1, 1] * x - D[0, 1] * y) / size
             right[last - 1] = (D[0, 0] * y - D[1, 0] * x) / size
-            for c in range(12):
+            for c in range(left.shape[1]):
                 x, y = left[first, c], left[last - 1, c]
                 left[first, c] = (D[1, 1] * x - D[0, 1] * y) / size
                 left[last - 1, c] = (D[0, 0] * y - D[1, 0] * x) / size
@@ -266,7 +267,7 @@ def _divide(coupling, give, point, basis, test, stiffening, right, left):
                     return False
                 right[u] /= alone
                 inverse = 1 / alone
-                for c in range(12):
+                for c in range(left.shape[1]):
                     left[u, c] *= inverse
         first = last
     return True

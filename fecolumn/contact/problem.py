@@ -351,7 +351,7 @@ def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, pos
             arms[i, a] = points[i].arm[a]
     problem.flags[STIFF] = are_stiff(bodies, base, points, listed)
     if problem.flags[STIFF]:
-        coupling = couple(bodies, points, arms, listed, poses, rigid, 1.0, springs.own)
+        coupling = couple(bodies, points, arms, listed, poses, rigid, 1.0, springs.own, 0)
         alone = stiffnesses(coupling, False)
         for j in range(count):
             problem.rho[listed[j]] = alone[j]

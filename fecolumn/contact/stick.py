@@ -150,7 +150,7 @@ def find_stick(stick, bodies, base, points, listed, springs, dynamic, rigid, rim
         stick.poses[j], stick.angles[j] = poses[j], rims[j].angle
     stick.key[0], stick.key[1], stick.key[2] = rigid, 1.0, 0.0
     if are_stiff(bodies, base, points, listed):
-        coupling = couple(bodies, points, arms, listed, poses, rigid, 1.0, springs.own)
+        coupling = couple(bodies, points, arms, listed, poses, rigid, 1.0, springs.own, 0)
         if 2 * len(coupling.blocks.coupled) <= len(points):
             _take_levers(stick, coupling)
             return

@@ -129,6 +129,22 @@ IMPACT_SOLVED, IMPACT_LEAST = 1e-8, 1e-3
 #: of the largest: without impulses where points land, at the ends of the step where slip ends. Of
 #: 105 recorded impacts none then closes by more than 6e-4 of its approach.
 IMPACT_GIVES, IMPACT_LEFT = (1e-4, 1e-4, 1e-5, 1e-5, 1e-5), 1e-4
+#: What a solution by frozen slips may miss Coulomb's law by, over the largest velocity of the
+#: points, or over that which the step's contact gives them where it is larger: momentum and the
+#: cone are exact, and it takes energy, whatever it misses. And the share of that at which its
+#: rounds end: nine of ten get there. Ended at the whole of it, a shaken temple column was 0.8 % off
+#: at its third impact; so it is 2e-7.
+IMPACT_MISSED, FROZEN_ENDS = 1e-3, 1e-2
+#: Of impacts by frozen slips (`contact.frozen_slips`): rounds, Newton steps in one, searches along
+#: a step. An impact of shaken drums that Newton alone does not solve takes seven rounds in the
+#: mean; a round from the slips of the one before takes ten to twenty
+#: steps. Share of what is still missed to which a round is solved; slope along a step, over that
+#: at its start, at which a search ends.
+FROZEN_ROUNDS, FROZEN_STEPS, FROZEN_SEARCHES = 12, 60, 30
+FROZEN_SHARE, FROZEN_SLOPE = 0.1, 0.2
+#: Points, over the ways in which a body moves, rigid motion and modes, from which an impact of
+#: elastic bodies is solved by levers and not by the whole matrix: both cost the same there.
+POINTS_A_LEVER = 1.5
 #: For the energy that impacts take over that of rigid bodies (`reduced.rigid_loss`). Approach, over
 #: the largest before the impact, below which points no longer approach. Duration of an impact over
 #: the time until then: elastic faces give back for longer than they store. Least rigid loss that

@@ -1,4 +1,4 @@
-"""Points of bodies that do not deform, by their levers, against the whole matrix."""
+"""Points of bodies that move in few ways, by their levers, against the whole matrix."""
 
 import numpy as np
 import pytest
@@ -18,18 +18,19 @@ from fecolumn.contact.newton import newton_step
 JOINTS = {"stack": [(0, -1), (1, 0), (2, 1)], "frame": [(0, -1), (1, -1), (2, 0), (2, 1)]}
 
 
-def points_of(joints, count, own=1e-3, seed=1):
-    """So many points a joint of bodies of size 1, by random levers."""
+def points_of(joints, count, own=1e-3, seed=1, modes=0):
+    """So many points a joint of bodies of size 1, by random levers of rigid motion and modes."""
     rng = np.random.default_rng(seed)
     bodies = np.repeat(np.array(joints), count, axis=0)
-    levers = rng.standard_normal((len(bodies), 3, 12))
-    levers[bodies[:, 1] < 0, :, 6:] = 0.0
+    levers = rng.standard_normal((len(bodies), 3, 12 + 2 * modes))
+    levers[bodies[:, 1] < 0, :, 6 + modes :] = 0.0
     return coupling_by_levers(np.full((len(bodies), 3), own), levers, bodies)
 
 
+@pytest.mark.parametrize("modes", [0, 3])
 @pytest.mark.parametrize("joints", JOINTS)
-def test_levers_are_the_whole_matrix(joints):
-    coupling = points_of(JOINTS[joints], 5)
+def test_levers_are_the_whole_matrix(joints, modes):
+    coupling = points_of(JOINTS[joints], 5, modes=modes)
     W, n = whole_of(coupling), len(coupling.own)
     forces = np.random.default_rng(2).standard_normal((n, 3))
     assert np.linalg.eigvalsh(W).min() > 0.0

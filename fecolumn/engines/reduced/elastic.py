@@ -66,7 +66,9 @@ def find_all_elastic(structure, b, motion, elastic, when):
     one product.
     """
     first, count = structure.bodies.body[b].first, structure.bodies.body[b].count
-    flat = structure.pushes.reshape(3 * len(structure.pushes), structure.pushes.shape[2])
+    flat = structure.bodies.pushes.reshape(
+        3 * len(structure.bodies.pushes), structure.bodies.pushes.shape[2]
+    )
     moved = flat[3 * first : 3 * (first + count)] @ motion.modal[b, COORDINATE]
     for i in range(count):
         elastic.stamp[when, first + i] = elastic.now[when]
@@ -80,7 +82,7 @@ def _find_node(structure, node, b, motion, elastic, when):
     if elastic.stamp[when, node] != elastic.now[when]:
         elastic.stamp[when, node] = elastic.now[when]
         _node_displacement(
-            structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node]
+            structure.bodies.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node]
         )
 
 
@@ -94,7 +96,7 @@ def find_elastic(structure, points, i, motion, elastic, when):
         if elastic.stamp[when, node] != elastic.now[when]:
             elastic.stamp[when, node] = elastic.now[when]
             _node_displacement(
-                structure.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node]
+                structure.bodies.pushes, motion.modal[b, COORDINATE], node, elastic.node[when, node]
             )
         x += w * elastic.node[when, node, 0]
         y += w * elastic.node[when, node, 1]
@@ -206,7 +208,9 @@ def find_velocity(structure, points, i, motion, poses, elastic, when, target):
     R, w, moved = motion.rotation[b], motion.frames[b].spin, np.empty(3)
     v0 = v1 = v2 = 0.0
     for q in range(points[i].count):
-        _node_displacement(structure.pushes, motion.modal[b, RATE], points[i].carriers[q], moved)
+        _node_displacement(
+            structure.bodies.pushes, motion.modal[b, RATE], points[i].carriers[q], moved
+        )
         v0 += points[i].weights[q] * moved[0]
         v1 += points[i].weights[q] * moved[1]
         v2 += points[i].weights[q] * moved[2]
@@ -228,7 +232,9 @@ def find_velocity(structure, points, i, motion, poses, elastic, when, target):
     v0 = v1 = v2 = 0.0
     if motion.modal.shape[2] > 0:
         for q in range(3):
-            _node_displacement(structure.pushes, motion.modal[b, RATE], points[i].below[q], moved)
+            _node_displacement(
+                structure.bodies.pushes, motion.modal[b, RATE], points[i].below[q], moved
+            )
             v0 += points[i].shares[q] * moved[0]
             v1 += points[i].shares[q] * moved[1]
             v2 += points[i].shares[q] * moved[2]

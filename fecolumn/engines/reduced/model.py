@@ -19,9 +19,9 @@ class Structure(NamedTuple):
 
     With F = 2 s - s^2, s = 1 / (1 + beta (1 + alpha) w^2 dt^2) of each mode (`fem.foot`), w = 0
     where a body has fewer modes than another: bodies: static part of the nodes, flexibility - sum
-    F^2 phi phi / w^2, and mobility of the modes, sum F^2 phi phi. pushes: (N, 3, m) F phi, by which
-    contact forces drive modes and modes move the nodes. squares: (nb, m) w^2 [1/s2]; damping: (nb,
-    m) [1/s] damping force on a mode over its rate, 2 zeta w. reach: (N,) [m/sqrt(J)] largest
+    F^2 phi phi / w^2, and mobility of the modes, sum F^2 phi phi; its pushes: (N, 3, m) F phi, by
+    which contact forces drive modes and modes move the nodes. squares: (nb, m) w^2 [1/s2]; damping:
+    (nb, m) [1/s] damping force on a mode over its rate, 2 zeta w. reach: (N,) [m/sqrt(J)] largest
     displacement of a node by modes that store the energy 1/2 J. interfaces: (ni,) of INTERFACE;
     rim: points on the circles of all of them; overlaps: joints of two sides; links: (nl,) of LINK;
     gravity: (3,) [m/s2]. found: contact that is found, whose interfaces and
@@ -29,7 +29,6 @@ class Structure(NamedTuple):
     """
 
     bodies: Bodies
-    pushes: np.ndarray
     squares: np.ndarray
     damping: np.ndarray
     reach: np.ndarray
@@ -88,7 +87,7 @@ def _scheme(structure, points, dt, half, alpha, beta, gamma, stiffness) -> Schem
     for body, factors in zip(structure.bodies.body, shrink):
         nodes = slice(body["first"], body["first"] + body["count"])
         dynamic[3 * nodes.start : 3 * nodes.stop, : 3 * body["count"]] += half * modal_sum(
-            structure.pushes[nodes], factors
+            structure.bodies.pushes[nodes], factors
         )
     return Scheme(
         dt,

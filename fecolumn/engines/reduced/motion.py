@@ -350,7 +350,7 @@ def _push_modes(structure, points, listed, contact, action):
                         turned[k, side, a, c] = sign * (
                             R[0, a] * Q[0, c] + R[1, a] * Q[1, c] + R[2, a] * Q[2, c]
                         )
-    nodal, along = np.zeros((0 if few else len(structure.pushes), 3)), np.empty(3)
+    nodal, along = np.zeros((0 if few else len(structure.bodies.pushes), 3)), np.empty(3)
     for i in listed:
         force = contact[i].force
         if force[2] <= 0.0:
@@ -363,7 +363,13 @@ def _push_modes(structure, points, listed, contact, action):
                 along[a] = T[a, 0] * force[0] + T[a, 1] * force[1] + T[a, 2] * force[2]
             if few:
                 _add_modal(
-                    structure.pushes, points[i], side == 0, along[0], along[1], along[2], target[b]
+                    structure.bodies.pushes,
+                    points[i],
+                    side == 0,
+                    along[0],
+                    along[1],
+                    along[2],
+                    target[b],
                 )
                 continue
             # of whole feet: forces on their nodes first, then one product a body
@@ -378,7 +384,7 @@ def _push_modes(structure, points, listed, contact, action):
         return
     loads, flat = (
         nodal.reshape(3 * len(nodal)),
-        structure.pushes.reshape(3 * len(structure.pushes), target.shape[1]),
+        structure.bodies.pushes.reshape(3 * len(structure.bodies.pushes), target.shape[1]),
     )
     for b in range(len(target)):
         first, count = structure.bodies.body[b].first, structure.bodies.body[b].count
@@ -437,7 +443,7 @@ def push_bodies(structure, scheme, points, arms, poses, impulses, motion):
             moment[2] += arm[0] * b1 - arm[1] * b0
             if len(jump) == 0:
                 continue
-            _add_modal(structure.pushes, points[i], on, b0, b1, b2, jump)
+            _add_modal(structure.bodies.pushes, points[i], on, b0, b1, b2, jump)
         J = body.inverse_inertia
         for a in range(3):
             motion.frames[b].spin[a] += (

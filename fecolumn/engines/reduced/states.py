@@ -94,7 +94,7 @@ def state_of(engine) -> Snapshot:
     frames = poses["frame"][points["interface"]]
     moved = np.concatenate(
         [
-            structure.pushes[one["first"] : one["first"] + one["count"]] @ own
+            structure.bodies.pushes[one["first"] : one["first"] + one["count"]] @ own
             for one, own in zip(body, coordinates)
         ]
     )
@@ -120,11 +120,11 @@ def state_of(engine) -> Snapshot:
         np.where(moving[:, None], points["shares"], 0.0),
         motion.ties["broken"].copy(),
     )
-    at_nodes = state.at_nodes(len(structure.pushes))
+    at_nodes = state.at_nodes(len(structure.bodies.pushes))
     for one, R, modal, squares in zip(body, rotation, state.modal, structure.squares):
         nodes, own = slice(one["first"], one["first"] + one["count"]), squares > 0
         modal[own] -= (
-            np.einsum("iam,ia->m", structure.pushes[nodes][..., own], at_nodes[nodes] @ R)
+            np.einsum("iam,ia->m", structure.bodies.pushes[nodes][..., own], at_nodes[nodes] @ R)
             / squares[own]
         )
     return state

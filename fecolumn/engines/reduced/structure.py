@@ -92,8 +92,7 @@ def structure_of(
         interfaces = np.concatenate([interfaces, more[0]]).astype(INTERFACE)
         points = np.concatenate([points, more[1]]).astype(POINT)
     structure = Structure(
-        Bodies(*whole[:4], joints.facets),
-        np.ascontiguousarray(np.concatenate(pushes)),
+        Bodies(*whole[:4], joints.facets, np.ascontiguousarray(np.concatenate(pushes))),
         squares,
         damping,
         reach,

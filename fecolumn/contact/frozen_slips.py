@@ -1,0 +1,229 @@
+"""Impulses of an impact by convex problems, one after the other: in each the slips are those that
+the one before left (Acary, Cadoux, Lemarechal and Malick 2011, ZAMM 91).
+
+With W = give + V V^T and the slips g = mu |s_t| frozen, the motion x = V^T r that impulses r give
+the bodies is the least of |x|^2 / 2 + sum give |r(x)|^2 / 2. There r(x) is, of each point alone,
+what lies in Coulomb's cone nearest to -(V x + q + g n) / give. The function is strictly convex with
+a continuous gradient, so that Newton with a search along its steps finds its least from anywhere
+(Castro, Permenter and Han 2023, IEEE Transactions on Robotics 39).
+
+Whatever the frozen slips are, each solution is an impact that physics allows: impulses lie in
+Coulomb's cone, momentum is exact, and r.s = -g r_n takes energy. Slips that are not yet their own
+only let points part or close by what they miss.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.contact.arrays import largest
+from fecolumn.contact.blocks import eliminate
+from fecolumn.contact.coupling import motion_by, moved_by, slips_under
+from fecolumn.contact.tolerances import (
+    FROZEN_ROUNDS,
+    FROZEN_SEARCHES,
+    FROZEN_SHARE,
+    FROZEN_SLOPE,
+    FROZEN_STEPS,
+)
+from fecolumn.foundation._compiled import njit
+
+
+@njit
+def find_impulses(coupling, q, friction, start, near, exact, allowed):
+    """Impulses (n, 3) [N s] of points, how far they miss Coulomb's law [m/s], Newton steps made.
+
+    Parameters
+    ----------
+    coupling
+        by levers, of points that give alone, the same along each axis [1/kg].
+    q
+        (n, 3) velocities without the impulses [m/s].
+    start
+        (n, 3) first guess.
+    near
+        whether it is a good one, from whose slips to begin; else from none.
+    exact, allowed
+        velocities [m/s] to which a convex problem is solved at most, and by which the law may be
+        missed.
+    """
+    n, made, missed = len(q), 0, np.inf
+    slips, impulses, slopes = np.zeros(n), np.empty((n, 3)), np.empty((n, 3, 3))
+    motion = motion_by(coupling, start)
+    if near:
+        relative = slips_under(coupling, q, start)
+        for i in range(n):
+            slips[i] = friction[i] * np.hypot(relative[i, 0], relative[i, 1])
+    for _ in range(FROZEN_ROUNDS):
+        tolerance = max(exact, FROZEN_SHARE * min(missed, allowed))
+        made += _least(coupling, q, friction, slips, motion, impulses, slopes, tolerance)
+        relative, missed = moved_by(coupling, motion), 0.0
+        for i in range(n):
+            for a in range(3):
+                relative[i, a] += q[i, a] + coupling.own[i, a] * impulses[i, a]
+            slip = friction[i] * np.hypot(relative[i, 0], relative[i, 1])
+            wrong = abs(slip - slips[i]) if impulses[i, 2] > 0 else -relative[i, 2]
+            missed, slips[i] = max(missed, wrong), slip
+        if missed <= allowed:
+            break
+    return impulses, missed, made
+
+
+@njit
+def _least(coupling, q, friction, slips, motion, impulses, slopes, tolerance):
+    """Put the solution for frozen slips (n,) into motion (nb, w) and impulses (n, 3): Newton steps
+    made. slopes: (n, 3, 3) room.
+    """
+    blocks, width = coupling.blocks, coupling.levers.shape[2] // 2
+    rows, made = blocks.first[-1], 0
+    rest = _gradient(coupling, q, friction, slips, motion, impulses, slopes)
+    while made < FROZEN_STEPS and largest(moved_by(coupling, rest)) > tolerance:
+        matrix, right = _curvature(coupling, impulses, slopes), np.empty(rows)
+        for b in range(len(motion)):
+            if blocks.of[b] >= 0:
+                for c in range(width):
+                    right[blocks.first[blocks.of[b]] + c] = -rest[b, c]
+        if not eliminate(matrix, right, blocks.first, blocks.coupled):
+            break
+        step = np.zeros_like(motion)
+        for b in range(len(motion)):
+            if blocks.of[b] >= 0:
+                for c in range(width):
+                    step[b, c] = right[blocks.first[blocks.of[b]] + c]
+        made += 1
+        rest, descends = _search(coupling, q, friction, slips, motion, rest, step, impulses, slopes)
+        if not descends:
+            break
+    return made
+
+
+@njit
+def _search(coupling, q, friction, slips, motion, rest, step, impulses, slopes):
+    """Move the motion along a step to where the slope is a small share of what it was at its
+    start: the gradient there, and whether the step descends at all.
+    """
+    first = _product(rest, step)
+    low, low_slope, high, high_slope, way = 0.0, first, np.inf, 0.0, 1.0
+    moved = motion.copy()
+    for _ in range(FROZEN_SEARCHES):
+        for b in range(len(motion)):
+            for c in range(motion.shape[1]):
+                moved[b, c] = motion[b, c] + way * step[b, c]
+        rest = _gradient(coupling, q, friction, slips, moved, impulses, slopes)
+        slope = _product(rest, step)
+        if way == 1.0 and slope <= 0.0 or abs(slope) <= FROZEN_SLOPE * abs(first):
+            break
+        if slope > 0.0:
+            high, high_slope = way, slope
+        else:
+            low, low_slope = way, slope
+        # the chord's zero, not too near to either end
+        way = low - (high - low) * low_slope / (high_slope - low_slope)
+        margin = (high - low) / 20
+        way = min(max(way, low + margin), high - margin)
+    motion[:] = moved
+    return rest, first < 0.0
+
+
+@njit
+def _product(one, other):
+    """Sum of the products of two arrays (nb, w)."""
+    total = 0.0
+    for b in range(len(one)):
+        for c in range(one.shape[1]):
+            total += one[b, c] * other[b, c]
+    return total
+
+
+@njit
+def _gradient(coupling, q, friction, slips, motion, impulses, slopes):
+    """Gradient (nb, w) at a motion (nb, w); puts impulses (n, 3) and minus what they change by
+    with the velocities of their points (n, 3, 3).
+    """
+    velocity = moved_by(coupling, motion)
+    for i in range(len(q)):
+        give = coupling.own[i, 2]
+        x, y = -(velocity[i, 0] + q[i, 0]) / give, -(velocity[i, 1] + q[i, 1]) / give
+        z = -(velocity[i, 2] + q[i, 2] + slips[i]) / give
+        _nearest(x, y, z, friction[i], give, impulses[i], slopes[i])
+    given = motion_by(coupling, impulses)
+    rest = np.empty_like(motion)
+    for b in range(len(motion)):
+        for c in range(motion.shape[1]):
+            rest[b, c] = motion[b, c] - given[b, c]
+    return rest
+
+
+@njit
+def _nearest(x, y, z, mu, give, impulse, slope):
+    """Put the impulse (3,) of Coulomb's cone nearest to x, y, z, and its slope (3, 3) over give."""
+    for a in range(3):
+        impulse[a] = 0.0
+        for b in range(3):
+            slope[a, b] = 0.0
+    length = np.sqrt(x * x + y * y)
+    if length <= mu * z:
+        impulse[0], impulse[1], impulse[2] = x, y, z
+        for a in range(3):
+            slope[a, a] = 1 / give
+        return
+    if mu * length <= -z:
+        return
+    size = 1 + mu * mu
+    normal = (z + mu * length) / size
+    impulse[2] = normal
+    if mu == 0.0:
+        slope[2, 2] = 1 / give
+        return
+    u, v = x / length, y / length
+    impulse[0], impulse[1] = mu * normal * u, mu * normal * v
+    across = mu * normal / length
+    slope[0, 0] = (mu * mu * u * u / size + across * v * v) / give
+    slope[1, 1] = (mu * mu * v * v / size + across * u * u) / give
+    slope[0, 1] = slope[1, 0] = (mu * mu / size - across) * u * v / give
+    slope[0, 2] = slope[2, 0] = mu * u / size / give
+    slope[1, 2] = slope[2, 1] = mu * v / size / give
+    slope[2, 2] = 1 / size / give
+
+
+@njit
+def _curvature(coupling, impulses, slopes):
+    """Second derivatives (m, m): 1 + V^T slopes V, bodies in their order of elimination."""
+    bodies, blocks, levers = coupling.bodies, coupling.blocks, coupling.levers
+    rows, columns, n, begin = blocks.first[-1], levers.shape[2], len(levers), 0
+    width, matrix = columns // 2, np.zeros((rows, rows))
+    left, right = np.empty((3 * n, columns)), np.empty((3 * n, columns))
+    for j in range(rows):
+        matrix[j, j] = 1.0
+    while begin < n:
+        # the points between the same two bodies
+        one, end, count = bodies[begin], begin, 0
+        while end < n and bodies[end, 0] == one[0] and bodies[end, 1] == one[1]:
+            if impulses[end, 2] > 0:
+                _times_slope(levers[end], slopes[end], left[count : count + 3])
+                right[count : count + 3] = levers[end]
+                count += 3
+            end += 1
+        begin = end
+        if count == 0:
+            continue
+        block = right[:count].T @ left[:count]
+        for side in range(2):
+            for other in range(2):
+                if one[side] < 0 or one[other] < 0:
+                    continue
+                top = blocks.first[blocks.of[one[side]]]
+                first = blocks.first[blocks.of[one[other]]]
+                for a in range(width):
+                    for c in range(width):
+                        matrix[top + a, first + c] += block[width * side + a, width * other + c]
+    return matrix
+
+
+@njit
+def _times_slope(levers, slope, target):
+    """Target (3, 2 w): slope (3, 3) times levers (3, 2 w)."""
+    for a in range(3):
+        x, y, z = slope[a, 0], slope[a, 1], slope[a, 2]
+        for c in range(levers.shape[1]):
+            target[a, c] = x * levers[0, c] + y * levers[1, c] + z * levers[2, c]

@@ -1,0 +1,96 @@
+"""Impulses by frozen slips: they obey Coulomb's law but for what is said, and take energy wherever
+their rounds stop.
+"""
+
+import itertools
+
+import numpy as np
+import pytest
+
+from fecolumn.contact import frozen_slips
+from fecolumn.contact.coupling import coupling_by_levers, moved_by, softened, stiffnesses, times
+from fecolumn.contact.frozen_slips import find_impulses
+from fecolumn.foundation._compiled import interpreted
+
+FRICTION = 0.5
+
+
+def impact(blocks, seed):
+    """Coupling, velocities, friction and guess of the impact of so many blocks on one another, of
+    1 kg and 1 x 1 x 2 m, with eight points a joint that give little.
+    """
+    rng, levers, bodies = np.random.default_rng(seed), [], []
+    root = np.sqrt(12 / np.array([5.0, 5.0, 2.0]))
+    for b in range(blocks):
+        for x, y in itertools.product((-0.5, 0.0, 0.5), repeat=2):
+            if x == y == 0.0:
+                continue
+            row = np.zeros((3, 12))
+            for side, arm, sign in ((0, [x, y, -1.0], 1.0), (1, [x, y, 1.0], -1.0)):
+                if side == 0 or b > 0:
+                    turn = np.cross(arm, np.eye(3)) * root
+                    row[:, 6 * side : 6 * side + 6] = sign * np.hstack([np.eye(3), turn])
+            levers.append(row)
+            bodies.append((b, b - 1))
+    n = len(levers)
+    coupling = coupling_by_levers(np.zeros((n, 3)), np.array(levers), np.array(bodies))
+    coupling = softened(coupling, 1e-4 / stiffnesses(coupling, False))
+    motion = 0.3 * rng.standard_normal((blocks, 6))
+    motion[0, 2] -= 1.0
+    velocity = moved_by(coupling, motion)
+    return coupling, velocity, np.full(n, FRICTION), np.zeros((n, 3))
+
+
+@pytest.mark.parametrize("blocks", [1, 3])
+@pytest.mark.parametrize("seed", range(4))
+def test_coulombs_law_is_missed_by_no_more_than_is_said(blocks, seed):
+    coupling, velocity, friction, start = impact(blocks, seed)
+    impulses, missed, _ = find_impulses(coupling, velocity, friction, start, False, 1e-12, 1e-4)
+    after, presses = times(coupling, impulses) + velocity, impulses[:, 2] > 0
+    assert missed < 2e-3 and presses.sum() >= 2
+    assert (np.abs(after[presses, 2]) <= 1.2 * missed + 1e-10).all()
+    assert (after[~presses, 2] >= -1.2 * missed - 1e-10).all()
+    full = np.hypot(*impulses.T[:2]) > 0.999 * FRICTION * impulses[:, 2]
+    slips = np.hypot(*after.T[:2]) > missed
+    assert full[presses & slips].all()
+    assert ((impulses * after)[:, :2].sum(axis=1) <= 1e-8).all()
+
+
+def test_an_impact_that_stops_too_early_takes_energy_too(monkeypatch):
+    coupling, velocity, friction, start = impact(3, 1)
+    monkeypatch.setattr(frozen_slips, "FROZEN_ROUNDS", 2)
+    impulses, missed, _ = interpreted(find_impulses)(
+        coupling, velocity, friction, start, False, 1e-12, 1e-9
+    )
+    assert missed > 1e-3
+    assert (np.hypot(*impulses.T[:2]) <= FRICTION * impulses[:, 2] * (1 + 1e-12)).all()
+    jump = times(coupling, impulses)
+    assert (impulses * (velocity + jump / 2)).sum() < 0.0
+    assert (impulses * (velocity + jump)).sum() <= 0.0
+
+
+def test_a_good_guess_needs_fewer_steps():
+    coupling, velocity, friction, start = impact(3, 2)
+    impulses, missed, made = find_impulses(coupling, velocity, friction, start, False, 1e-12, 1e-4)
+    again, left, fewer = find_impulses(coupling, velocity, friction, impulses, True, 1e-12, 1e-4)
+    assert left <= max(missed, 1e-4) and missed < 2e-3 and fewer < made
+    np.testing.assert_allclose(times(coupling, again), times(coupling, impulses), atol=1e-2)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.4])
+def test_the_slope_of_the_nearest_impulse_of_the_cone_is_that_of_differences(mu):
+    rng, kinds = np.random.default_rng(5), set()
+    for _ in range(40):
+        place, give = rng.standard_normal(3), 0.3
+        impulse, slope = np.empty(3), np.empty((3, 3))
+        nearest = interpreted(frozen_slips._nearest)
+        nearest(*place, mu, give, impulse, slope)
+        differences, ahead, back = np.empty((3, 3)), np.empty(3), np.empty(3)
+        for a in range(3):
+            step = 1e-6 * np.eye(3)[a]
+            nearest(*(place + step), mu, give, ahead, np.empty((3, 3)))
+            nearest(*(place - step), mu, give, back, np.empty((3, 3)))
+            differences[:, a] = (ahead - back) / 2e-6 / give
+        np.testing.assert_allclose(slope, differences, atol=1e-8)
+        kinds.add((impulse[2] > 0, bool(np.hypot(*impulse[:2]) < mu * impulse[2] * 0.999)))
+    assert len(kinds) >= 2
