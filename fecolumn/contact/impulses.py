@@ -1,0 +1,150 @@
+"""Impulses of points that collide, by Coulomb's law in velocities.
+
+Each point gives a little against its impulse, without which many impulses on a stiff foot are not
+unique; what that leaves is taken off in the next of a series of solutions (proximal point,
+Rockafellar 1976).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.contact.arrays import flat, largest, put_points
+from fecolumn.contact.coupling import part_of, softened, stiffnesses
+from fecolumn.contact.friction import iterate
+from fecolumn.contact.frozen_slips import find_impulses
+from fecolumn.contact.newton import newton_steps
+from fecolumn.contact.problem import N_CONTACT
+from fecolumn.contact.tolerances import (
+    FROZEN_ENDS,
+    IMPACT_GIVES,
+    IMPACT_LEAST,
+    IMPACT_LEFT,
+    IMPACT_MISSED,
+    IMPACT_SOLVED,
+    NEWTON_STALLED,
+    NEWTON_STEPS,
+    SHARP,
+    SWEEPS_MOST,
+)
+from fecolumn.foundation._compiled import njit
+
+
+@njit
+def held_impulses(mobility, velocity, friction, held, guess, speed, pressed, counts):
+    """Impulses (3 k,) of the points `held` (m,) alone, as `_impulses`; guess: (3 k,)."""
+    m, impulses = len(held), np.zeros(len(velocity))
+    approach, start, mu = (
+        np.empty((m, 3)),
+        np.empty((m, 3)),
+        np.empty(m),
+    )
+    for i in range(m):
+        mu[i] = friction[held[i]]
+        for a in range(3):
+            approach[i, a], start[i, a] = velocity[3 * held[i] + a], guess[3 * held[i] + a]
+    found, solved = _impulses(part_of(mobility, held), approach, mu, start, speed, pressed, counts)
+    for i in range(m):
+        for a in range(3):
+            impulses[3 * held[i] + a] = found[i, a]
+    return impulses, solved
+
+
+@njit
+def all_impulses(mobility, velocity, friction, guess, speed, pressed, counts):
+    """As `_impulses`, with flat arrays (3 k,)."""
+    k = len(friction)
+    approach, start = np.empty((k, 3)), np.empty((k, 3))
+    put_points(velocity, approach)
+    put_points(guess, start)
+    found, solved = _impulses(mobility, approach, friction, start, speed, pressed, counts)
+    return flat(found), solved
+
+
+@njit
+def _impulses(mobility, velocity, friction, guess, speed, pressed, counts):
+    """Impulses (k, 3) of points with velocities (k, 3) [m/s] without them, and whether they obey
+    the laws, up to IMPACT_LEFT of the largest velocity; speed: of the velocities that points have,
+    in place of that where it is less; pressed: largest velocity that the step's contact gives.
+
+    Where slip ends nothing approaches, and velocities without impulses tell no more than how hard
+    bodies are pressed together: a share of them would carry a slip on for ever.
+
+    Each point gives a little against its impulse, a share of its own mobility, without which many
+    impulses on a stiff foot are not unique. The velocity that this leaves is taken off in the next
+    solution, which is close to the last one (proximal point, Rockafellar 1976).
+    """
+    k, free, turns = len(velocity), max(largest(velocity), IMPACT_LEAST), 0
+    alone, asked, impulses, last, give = (
+        stiffnesses(mobility, False),
+        velocity.copy(),
+        guess,
+        np.zeros((k, 3)),
+        np.empty(k),
+    )
+    for share in IMPACT_GIVES:
+        for i in range(k):
+            give[i] = share / alone[i]
+            for a in range(3):
+                asked[i, a] = velocity[i, a] - give[i] * last[i, a]
+        impulses, solved = _softened_impulses(
+            softened(mobility, give),
+            asked,
+            friction,
+            impulses,
+            IMPACT_SOLVED * free,
+            IMPACT_MISSED * min(speed, max(free, pressed)),
+            turns > 0,
+            counts,
+        )
+        if not solved:
+            return last, turns > 0
+        turns, left = turns + 1, 0.0
+        for i in range(k):
+            for a in range(3):
+                left = max(left, give[i] * abs(impulses[i, a] - last[i, a]))
+        if left <= IMPACT_LEFT * min(speed, free):
+            break
+        last = impulses
+    return impulses, True
+
+
+@njit
+def _softened_impulses(compliance, velocity, friction, guess, allowed, usable, near, counts):
+    """Impulses (k, 3) that obey the laws up to a velocity [m/s], and whether they do: where there
+    are several, those that Newton finds from the guess. Where it finds none, of bodies that move in
+    few ways, what convex problems find up to a larger velocity, `usable`. near: whether the guess
+    solves a problem close to this one.
+    """
+    if len(compliance.whole) == 0 and len(guess) > 0:
+        impulses, residual, made = newton_steps(
+            compliance,
+            velocity,
+            friction,
+            guess,
+            SHARP * allowed,
+            stiffnesses(compliance, True),
+            stiffnesses(compliance, False),
+            0.0,
+            NEWTON_STEPS,
+            NEWTON_STALLED,
+        )
+        if residual > allowed:
+            impulses, residual, more = find_impulses(
+                compliance, velocity, friction, guess, near, SHARP * allowed, FROZEN_ENDS * usable
+            )
+            made, residual = made + more, residual * allowed / usable
+        counts[N_CONTACT] += made
+        if residual <= allowed:
+            return impulses, True
+    impulses = guess
+    for attempt in range(2):
+        # a guess far off can trap the iteration: zero is the second
+        start = guess if attempt == 0 else np.zeros((len(guess), 3))
+        impulses, residual, newtons, others = iterate(
+            compliance, velocity, friction, start, SHARP * allowed, True, SWEEPS_MOST
+        )
+        counts[N_CONTACT] += newtons + others
+        if residual <= allowed:
+            return impulses, True
+    return impulses, False
