@@ -6,20 +6,21 @@ import re
 from pathlib import Path
 
 from benchmarks.tables import Table, read
+from fecolumn.foundation.sources import PHYSICS
 
 FOLDER = Path(__file__).parent
 RESULTS = FOLDER.parent / "RESULTS.md"
-#: {{table:NAME}} is a table with its source, {{NAME:row:column}} or {{NAME:row:column:.2f}} a cell.
+#: {{table:NAME}} is a table with its source, {{NAME:row:column}} or {{NAME:row:column:.2f}} a cell,
+#: {{physics}} the number of today.
 PLACE = re.compile(r"\{\{([^{}]+)\}\}")
 
 
 def source(table: Table) -> str:
     """Title of a table, and what made it."""
     about = table.about
-    old = "" if table.current else "; motions have changed since"
     return (
-        f"**{about['title']}** `{about['command']}`, {about['version']} ({about['commit']}), "
-        f"{about['date']}, {about['machine']}{old}"
+        f"**{about['title']}** `{about['command']}`; {about['version']} ({about['commit']}), "
+        f"{about['date']}, {about['machine']}, physics {about['physics']}."
     )
 
 
@@ -28,6 +29,8 @@ def filled(text: str) -> str:
 
     def content(found: re.Match) -> str:
         first, *rest = found[1].split(":")
+        if first == "physics":
+            return str(PHYSICS)
         if first == "table":
             table = read(rest[0])
             return f"{source(table)}\n\n{table.markdown()}"
