@@ -150,7 +150,7 @@ def means(rows) -> str:
 
 def extremes(rows) -> str:
     found = [float(row["rocking"]) for row in rows]
-    return f"{min(found):.1f} to {max(found):.1f}" if found else ""
+    return " to ".join(f"{loss:.1f}" for loss in sorted(found)[:: len(found) - 1 or 1])
 
 
 if __name__ == "__main__":

@@ -49,7 +49,9 @@ class FullRocker:
             build_system(case.short, MPI.COMM_SELF, specimen_mesh(case.short)),
             case.integration.alpha_hht,
         )
-        self.trial = Trial(self.system, lambda system: tilted(system, case.short.initial.tilt_rad, 0.0))
+        self.trial = Trial(
+            self.system, lambda system: tilted(system, case.short.initial.tilt_rad, 0.0)
+        )
 
     def steps(self, dt: float, count: int) -> np.ndarray:
         """As of `ReducedRocker`."""

@@ -151,7 +151,9 @@ def tables(found: dict[Setting, dict]) -> str:
                 sum(bool(run["overturned"]) for run in runs.values()),
                 np.mean([run["impacts"] for run in runs.values()]),
             )
-            cells = pair_cells(runs, found[SAMPLED]) if setting != SAMPLED else "- | - | - | - | - |"
+            cells = (
+                pair_cells(runs, found[SAMPLED]) if setting != SAMPLED else "- | - | - | - | - |"
+            )
             text.append(f"| {setting} | {over} | {cells} {impacts:.0f} | {joules:.3f} |")
     return "\n".join(text)
 

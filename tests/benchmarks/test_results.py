@@ -35,7 +35,7 @@ def test_a_table_tells_where_it_comes_from(name):
     first = [cells[0] for cells in table.rows]
     assert len(set(first)) == len(first) and re.fullmatch("none|[0-9]+", table.about["physics"])
     used = {quote["table"] for quote in QUOTED}
-    assert name in used or f"`{table.about['command']}`" in TEXT["RESULTS.md"]
+    assert name in used or table.about["title"] in TEXT["RESULTS.md"]
 
 
 @pytest.mark.parametrize("quote", QUOTED, ids=lambda quote: f"{quote['page']}: {quote['fragment']}")
