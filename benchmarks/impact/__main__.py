@@ -4,8 +4,8 @@ step, engine, modes, tilt, slenderness, bricks, damping.
     ./containers/run python -m benchmarks.impact [SERIES ...] [-o DIR]
 
 Each impact is one line of DIR/impact.csv (results/impact unless given); those there are not made
-again. Ends with two tables, and DIR/impact.png. All of it takes an hour and more on one core; SERIES
-are names of `SERIES`, all unless named. benchmarks/impact/impact.csv is the table behind the
+again. Ends with two tables, and DIR/impact.png. All of it takes an hour and more on one core;
+SERIES are names of `SERIES`, all unless named. benchmarks/impact/impact.csv is the table behind the
 manual's figure, which `python -m benchmarks.gallery impact` draws; copy a new one there.
 """
 

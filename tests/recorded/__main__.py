@@ -113,9 +113,9 @@ def record(chosen: dict, known: dict) -> int:
     print(f"{len(kept)} cases, {size / 1e3:.0f} kB in {recording.RECORD.name}")
     if moved:
         print(
-            f"{len(moved)} cases move otherwise than before: {', '.join(moved)}. Count PHYSICS up in "
-            "fecolumn/foundation/sources.py, once a version: it is "
-            f"{PHYSICS}, and measurements of it are no longer of this code"
+            f"{len(moved)} cases move otherwise than before: {', '.join(moved)}. Count PHYSICS "
+            f"({PHYSICS}) of fecolumn/foundation/sources.py up, once a version: what was measured "
+            "so far is not of this code"
         )
     return 0
 
