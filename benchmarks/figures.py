@@ -1,4 +1,4 @@
-"""The figures of RESULTS.md: each check against its closed form, as one table.
+"""The full-order engine against closed forms and itself: each check as a row of one table.
 
     ./containers/run python -m benchmarks.figures [NAME ...]
 
