@@ -1,4 +1,4 @@
-"""The figures of RESULTS.md: each check against its closed form, as one table.
+"""The full-order engine against closed forms and itself: each check as a row of one table.
 
     ./containers/run python -m benchmarks.figures [NAME ...]
 
@@ -21,7 +21,7 @@ from mpi4py import MPI
 
 from benchmarks.checks import print_checks
 from benchmarks.profile import shares
-from fecolumn.case.case import case_from_tables
+from fecolumn.case.short_form import short_form
 from fecolumn.fem.modes import free_modes
 from fecolumn.fem.tied_body import column_body
 from fecolumn.foundation._mpi import launch_environment
@@ -53,7 +53,7 @@ G = 9.80665
 def case_of(tables=None, coarse=True):
     """Case of the specimen, on the coarse mesh unless told otherwise."""
     base = merge(read_toml(SPECIMEN), COARSE) if coarse else read_toml(SPECIMEN)
-    return case_from_tables(merge(base, tables or {}), SPECIMEN)
+    return short_form(merge(base, tables or {}), SPECIMEN)
 
 
 def system_of(tables=None):

@@ -31,7 +31,7 @@ def literal():
     """Loss of the first impact from 0.4 of the critical tilt over Housner's in both schemes, least
     and most of the releases.
     """
-    case = read_plan(STUDY).analyses[0].case
+    case = read_plan(STUDY).analyses[0].case.short
     case = dataclasses.replace(
         case, contact=dataclasses.replace(case.contact, friction_coefficient=0.8)
     )

@@ -46,10 +46,12 @@ class FullRocker:
 
     def __init__(self, case):
         self.system, self.alpha = (
-            build_system(case, MPI.COMM_SELF, specimen_mesh(case)),
+            build_system(case.short, MPI.COMM_SELF, specimen_mesh(case.short)),
             case.integration.alpha_hht,
         )
-        self.trial = Trial(self.system, lambda system: tilted(system, case.initial.tilt_rad, 0.0))
+        self.trial = Trial(
+            self.system, lambda system: tilted(system, case.short.initial.tilt_rad, 0.0)
+        )
 
     def steps(self, dt: float, count: int) -> np.ndarray:
         """As of `ReducedRocker`."""
@@ -66,7 +68,7 @@ class FullRocker:
 
 def rigid_block(case) -> RigidRocking:
     """Housner's block of a case's own mesh."""
-    return RigidRocking(build_system(case, MPI.COMM_SELF, specimen_mesh(case)))
+    return RigidRocking(build_system(case.short, MPI.COMM_SELF, specimen_mesh(case.short)))
 
 
 def rocker(

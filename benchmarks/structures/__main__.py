@@ -182,9 +182,9 @@ def speeds(folder: Path) -> None:
 def shaken_costs(folder: Path) -> None:
     """Of structures that slide, lift and land, rigid and with ten modes a body, beside MuJoCo."""
     print(
-        "\n| structure | shaken, over uplift | rigid [us] | ten modes [us] | MuJoCo, default [us] "
-        "| stiff [us] | peak, rigid [m] | MuJoCo [m] | stiff [m] |\n"
-        "|---|---|---|---|---|---|---|---|---|"
+        "\n| structure | rigid [us] | ten modes [us] | MuJoCo [us] | MuJoCo, stiff [us] "
+        "| peak, rigid [m] | peak, MuJoCo [m] | peak, MuJoCo, stiff [m] |\n"
+        "|---|---|---|---|---|---|---|---|"
     )
     table = []
     for kind, number, factor in shaken.ROWS:
@@ -198,7 +198,7 @@ def shaken_costs(folder: Path) -> None:
         found = [one[key] for key in ("us", "peak_m") for one in (rigid, elastic, soft, stiff)]
         table.append([kind, number, factor, *found])
         print(
-            f"| {kind}, {number} | {factor or 'let go'} | "
+            f"| {kind} of {number}, {f'shaken by {factor} of uplift' if factor else 'let go'} | "
             + " | ".join(f"{us:.0f}" for us in found[:4])
             + f" | {found[4]:.2g} | {found[6]:.2g} | {found[7]:.2g} |",
             flush=True,

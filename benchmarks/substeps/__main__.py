@@ -105,8 +105,8 @@ def line(setting: Setting, runs: dict) -> str:
     )
     peak = f"{1e3 * median:.1f}" if np.isfinite(median) else "overturn"
     return (
-        f"| {setting} | {over} of {n} | {100 * over / n:.1f} % [{100 * low:.1f}, "
-        f"{100 * high:.1f}] | {peak} | {steps:.0f} | {parts:.0f} | {impacts:.0f} |"
+        f"| {setting} | {n} | {over} | {100 * over / n:.1f} | {100 * low:.1f} to "
+        f"{100 * high:.1f} | {peak} | {steps:.0f} | {parts:.0f} | {impacts:.0f} |"
     )
 
 
@@ -116,20 +116,21 @@ def told(p: float) -> str:
 
 def pair_cells(first: dict, second: dict) -> str:
     distance, p, alone, other, flips = compared(first, second)
-    return f"{distance:.3f} | {told(p)} | {alone} / {other} | {told(flips)} |"
+    return f"{distance:.3f} | {told(p)} | {alone} | {other} | {told(flips)} |"
 
 
 def tables(found: dict[Setting, dict]) -> str:
     """The three tables, of the settings that are done."""
     text = [
-        "| setting | overturned | P [95 %] | median u_max [mm] | steps | parts | impacts |",
-        "|---|---:|---|---:|---:|---:|---:|",
+        "| setting | motions | overturned | P [%] | 95 % interval [%] | median u_max [mm] | steps "
+        "| parts | impacts |",
+        "|---|---:|---:|---:|---|---:|---:|---:|---:|",
     ]
     text += [line(setting, runs) for setting, runs in found.items()]
     text += [
         "",
-        "| pair | D | p | overturns in one alone | McNemar p |",
-        "|---|---:|---:|---:|---:|",
+        "| pair | D | p | overturn in the first alone | in the second alone | McNemar p |",
+        "|---|---:|---:|---:|---:|---:|",
     ]
     text += [
         f"| {first}; {second} | {pair_cells(found[first], found[second])}"
@@ -141,16 +142,18 @@ def tables(found: dict[Setting, dict]) -> str:
         energy = taken(list(there.values()))
         text += [
             "",
-            f"| against {SAMPLED} | overturned | D | p | overturns in one alone | "
-            "McNemar p | impacts | J |",
-            "|---|---:|---:|---:|---:|---:|---:|---:|",
+            f"| against {SAMPLED} | overturned | D | p | overturn in it alone | in the other alone "
+            "| McNemar p | impacts | taken [J] |",
+            "|---|---:|---:|---:|---:|---:|---:|---:|---:|",
         ]
         for (setting, runs), joules in zip(there.items(), energy):
             over, impacts = (
                 sum(bool(run["overturned"]) for run in runs.values()),
                 np.mean([run["impacts"] for run in runs.values()]),
             )
-            cells = pair_cells(runs, found[SAMPLED]) if setting != SAMPLED else "- | - | - | - |"
+            cells = (
+                pair_cells(runs, found[SAMPLED]) if setting != SAMPLED else "- | - | - | - | - |"
+            )
             text.append(f"| {setting} | {over} | {cells} {impacts:.0f} | {joules:.3f} |")
     return "\n".join(text)
 

@@ -52,9 +52,9 @@ youngs_modulus_pa = {stiff:g}
 poissons_ratio = 0.2
 at_m = [0.0, 0.0, {height:.9g}]
 
-[interfaces]
-feet = {{slave = "column", on = "ground"}}
-heads = {{slave = "column", on = "slab"}}
+[joints]
+feet = {{between = ["column", "ground"]}}
+heads = {{between = ["column", "slab"]}}
 
 [links.tendon]
 kind = "tendon"

@@ -10,6 +10,10 @@ from pathlib import Path
 
 from fecolumn import __version__
 
+#: Counts up whenever the same case gives another motion; measurements state it, so that those of an
+#: older one are known. See "When motions change" in the manual's contributing.md.
+PHYSICS = 11
+
 _PACKAGE = Path(__file__).parents[1]
 # Folders and files of which results depend; what only reads, writes, waits or tells is left out
 DECIDING = (

@@ -1,0 +1,123 @@
+"""Measured numbers: CSV files, each with a header that tells what made it.
+
+A file begins with one comment line for each of `HEADER`, then the names of the columns, with their
+units, then the rows. Cells are kept as they were printed. The first column names the row.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import subprocess
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+
+from fecolumn import __version__
+from fecolumn.foundation.sources import PHYSICS
+
+FOLDER = Path(__file__).parent
+#: Not a table of measurements: which sentences of which pages print which numbers.
+QUOTED = "quoted"
+#: physics: PHYSICS of the code; "none": no motion computed by fecolumn enters.
+HEADER = ("title", "command", "version", "commit", "date", "machine", "physics")
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns and rows of text, and `about`, the header."""
+
+    name: str
+    about: dict[str, str]
+    columns: list[str]
+    rows: list[list[str]]
+
+    def cell(self, row: str, column: str, form: str = "") -> str:
+        """A cell; as a number where `form`, such as ".2f", tells how to print it.
+
+        Raises
+        ------
+        ValueError
+            there is no such row or column.
+        """
+        found = [cells for cells in self.rows if cells[0] == row]
+        if len(found) != 1 or column not in self.columns:
+            raise ValueError(f"{self.name}.csv has {len(found)} rows {row!r}, or no {column!r}")
+        text = found[0][self.columns.index(column)]
+        return format(float(text), form) if form else text
+
+    def markdown(self) -> str:
+        """The table as Markdown, numbers at the right."""
+        columns = list(zip(*self.rows))
+        right = ["---:" if all(map(_is_number, cells)) else "---" for cells in columns]
+        lines = [self.columns, right, *self.rows]
+        return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+    @property
+    def current(self) -> bool:
+        """Whether what this code computes is what was measured."""
+        return self.about["physics"] in ("none", str(PHYSICS))
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text.lstrip("<").replace(",", "") or 0)
+    except ValueError:
+        return text == "-"
+    return True
+
+
+def read(name: str) -> Table:
+    """The table of benchmarks/tables/NAME.csv.
+
+    Raises
+    ------
+    ValueError
+        a line of the header is missing or empty, or a row is longer or shorter than the columns.
+    """
+    lines = (FOLDER / f"{name}.csv").read_text(encoding="utf-8").splitlines()
+    head = [line[2:].partition(": ") for line in lines if line.startswith("# ")]
+    about = {key: value for key, _, value in head}
+    if missing := [key for key in HEADER if not about.get(key)]:
+        raise ValueError(f"{name}.csv: header without {', '.join(missing)}")
+    columns, *rows = csv.reader(line for line in lines if not line.startswith("# "))
+    if wrong := [row for row in rows if len(row) != len(columns)]:
+        raise ValueError(f"{name}.csv: {wrong[0]} has not {len(columns)} cells")
+    return Table(name, about, columns, rows)
+
+
+def names() -> list[str]:
+    """Of all tables."""
+    return sorted(file.stem for file in FOLDER.glob("*.csv") if file.stem != QUOTED)
+
+
+def write(name: str, columns, rows, title: str, command: str) -> None:
+    """Write a table as measured by this code, now, on this machine."""
+    about = (title, command, __version__, _commit(), date.today().isoformat(), _machine(), PHYSICS)
+    text = io.StringIO()
+    text.writelines(f"# {key}: {value}\n" for key, value in zip(HEADER, about))
+    csv.writer(text, lineterminator="\n").writerows([columns, *rows])
+    (FOLDER / f"{name}.csv").write_text(text.getvalue(), encoding="utf-8")
+
+
+def from_markdown(text: str) -> list[list[list[str]]]:
+    """Tables that a program printed as Markdown: rows of cells, the names of the columns first."""
+    found: list[list[list[str]]] = [[]]
+    for line in text.splitlines():
+        if line.startswith("|"):
+            found[-1].append([cell.strip() for cell in line.strip().strip("|").split("|")])
+        elif found[-1]:
+            found.append([])
+    return [[head, *rows] for head, _, *rows in (one for one in found if len(one) > 2)]
+
+
+def _commit() -> str:
+    command = ["git", "-C", str(FOLDER), "describe", "--always", "--dirty", "--exclude", "*"]
+    return subprocess.run(command, capture_output=True, text=True).stdout.strip() or "unknown"
+
+
+def _machine() -> str:
+    """Processor and number of cores."""
+    lines = Path("/proc/cpuinfo").read_text().splitlines()
+    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return f"{models[0] if models else 'unknown processor'}, {len(models)} cores"

@@ -1,0 +1,79 @@
+"""Measured numbers of RESULTS.md, README and manual are those of benchmarks/tables."""
+
+import csv
+import re
+from pathlib import Path
+
+import pytest
+
+from benchmarks import tables
+from benchmarks.results import RESULTS, filled, results
+from benchmarks.tables.__main__ import main as keep
+
+ROOT = Path(__file__).parents[2]
+PAGES = [ROOT / "README.md", RESULTS, *sorted((ROOT / "fecolumn/case/manual").glob("*.md"))]
+TEXT = {page.name: page.read_text(encoding="utf-8") for page in PAGES}
+with (tables.FOLDER / f"{tables.QUOTED}.csv").open(encoding="utf-8", newline="") as file:
+    QUOTED = list(csv.DictReader(file))
+
+
+def holds(number: str, text: str) -> bool:
+    """Whether a text has a number, and not as a part of a longer one."""
+    pattern = re.escape(number).replace("<", "< ?")
+    return re.search(rf"(?<![\d.]){pattern}(?!\d|[.,]\d)", text) is not None
+
+
+def test_results_are_what_the_tables_give():
+    assert TEXT["RESULTS.md"] == results(), "python -m benchmarks.results makes it anew"
+    assert len(TEXT["RESULTS.md"].splitlines()) <= 250
+
+
+@pytest.mark.parametrize("name", tables.names())
+def test_a_table_tells_where_it_comes_from(name):
+    """Rows are named once, and the table is printed somewhere or quoted."""
+    table = tables.read(name)
+    first = [cells[0] for cells in table.rows]
+    assert len(set(first)) == len(first) and re.fullmatch("none|[0-9]+", table.about["physics"])
+    used = {quote["table"] for quote in QUOTED}
+    assert name in used or table.about["title"] in TEXT["RESULTS.md"]
+
+
+@pytest.mark.parametrize("quote", QUOTED, ids=lambda quote: f"{quote['page']}: {quote['fragment']}")
+def test_pages_print_the_numbers_of_the_tables(quote):
+    """A fragment is in its page and has the number; row *: the page has the whole table."""
+    table, page = tables.read(quote["table"]), TEXT[quote["page"]]
+    if quote["row"] == "*":
+        assert table.markdown() in page, f"the table is now\n{table.markdown()}"
+    else:
+        number = table.cell(quote["row"], quote["column"], quote["format"])
+        assert quote["fragment"] in " ".join(page.split())
+        assert holds(number, quote["fragment"]), f"the number is now {number}"
+    assert quote["page"] != "README.md" or table.current, "a number of other motions"
+
+
+def test_no_number_is_left_over_from_an_older_version():
+    history = "changelog.md"
+    assert [name for name in TEXT if "not measured again" in TEXT[name] and name != history] == []
+
+
+def test_a_printed_table_is_kept_and_quoted(tmp_path, monkeypatch):
+    monkeypatch.setattr(tables, "FOLDER", tmp_path)
+    monkeypatch.setattr("benchmarks.tables.__main__.FOLDER", tmp_path)
+    printed = tmp_path / "printed.txt"
+    printed.write_text("words\n| a | b [m] |\n|---|---:|\n| x, y | 0.25 |\n\nmore\n")
+    command = ["tables", str(printed), "one", "--title", "T.", "--command", "python -m x"]
+    monkeypatch.setattr("sys.argv", command)
+    keep()
+    assert tables.read("one").rows == [["x, y", "0.25"]] and tables.read("one").current
+    assert filled("{{one:x, y:b [m]:.1f}} m") == "0.2 m"
+    monkeypatch.setattr("sys.argv", command[:3])  # title and command as they were
+    keep()
+    (tmp_path / "one.csv").write_text((tmp_path / "one.csv").read_text().replace("# date", "# day"))
+    with pytest.raises(ValueError, match="header without date"):
+        tables.read("one")
+
+
+@pytest.mark.parametrize("text, there", [("24 of", 1), ("124", 0), ("2.24", 0), ("24.5", 0)])
+def test_a_number_is_found_whole(text, there):
+    assert holds("24", text) == bool(there)
+    assert holds("<0.001", "p < 0.001)")
