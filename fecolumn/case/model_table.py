@@ -17,8 +17,9 @@ from fecolumn.case.model_names import TABLES, model_class, model_engine_of
 from fecolumn.case.sections import Contact, Initial, Integration, Motion, Output, Overturn, located
 from fecolumn.foundation.schema import InputError, Section, build, parameter
 
-#: Tables of a structure of [bodies] that a model of the same file passes over
-OF_BODIES = ("bodies", "materials", "joints", "links", "contact", "observed", "mesh")
+#: Tables of a structure of [bodies] that a model of the same file passes over, [interfaces] as the
+#: older name of [joints]
+OF_BODIES = ("bodies", "materials", "joints", "interfaces", "links", "contact", "observed", "mesh")
 
 
 @dataclass(frozen=True, slots=True)

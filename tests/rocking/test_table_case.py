@@ -149,6 +149,10 @@ def test_the_same_frame_in_bodies_and_as_a_model_is_told_apart_by_the_engine(tmp
         merge(both, {"integration": {"engine": "wobbling_frame"}, "initial": {"tilt_rad": 0.03}}),
         FRAME,
     )
+    # joints by their older name
+    older = {"interfaces" if name == "joints" else name: table for name, table in both.items()}
+    older = merge(older, {"integration": {"engine": "wobbling_frame"}})
+    assert case_from_tables(older, FRAME).integration.engine == "wobbling_frame"
     summary = run(model, tmp_path / "run", quiet=True)
     assert summary["engine"] == "wobbling_frame" and summary["u_max_m"] == pytest.approx(
         0.043, rel=0.05
