@@ -14,7 +14,7 @@ from fecolumn.contact.coupling import part_of, softened, stiffnesses
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.frozen_slips import find_impulses
 from fecolumn.contact.newton import newton_steps
-from fecolumn.contact.problem import N_CONTACT
+from fecolumn.contact.problem import N_IMPACT_CONTACT
 from fecolumn.contact.tolerances import (
     FROZEN_ENDS,
     IMPACT_GIVES,
@@ -134,7 +134,7 @@ def _softened_impulses(compliance, velocity, friction, guess, allowed, usable, n
                 compliance, velocity, friction, guess, near, SHARP * allowed, FROZEN_ENDS * usable
             )
             made, residual = made + more, residual * allowed / usable
-        counts[N_CONTACT] += made
+        counts[N_IMPACT_CONTACT] += made
         if residual <= allowed:
             return impulses, True
     impulses = guess
@@ -144,7 +144,7 @@ def _softened_impulses(compliance, velocity, friction, guess, allowed, usable, n
         impulses, residual, newtons, others = iterate(
             compliance, velocity, friction, start, SHARP * allowed, True, SWEEPS_MOST
         )
-        counts[N_CONTACT] += newtons + others
+        counts[N_IMPACT_CONTACT] += newtons + others
         if residual <= allowed:
             return impulses, True
     return impulses, False

@@ -61,8 +61,8 @@ from fecolumn.foundation._compiled import njit
     NO_ROOM,
 ) = range(10)
 # Places in a record of counts
-N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_PARTS, N_ASSEMBLED = range(6)
-N_COUNTS = 6
+N_ITERATIONS, N_CONTACT, N_IMPACTS, N_CUTS, N_PARTS, N_IMPACT_CONTACT, N_ASSEMBLED = range(7)
+N_COUNTS = 7
 
 
 class Problem(NamedTuple):

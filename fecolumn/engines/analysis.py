@@ -394,6 +394,7 @@ class Analysis:
             s_per_step=self.stepping_s / max(self.step, 1),
             iterations=record.iterations,
             contact_iterations=record.contact_iterations,
+            impact_iterations=record.impact_iterations,
             impacts=record.impacts,
             rigid_loss_share=self.rigid_loss_share(),
             cuts=record.cuts,

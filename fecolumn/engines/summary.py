@@ -20,6 +20,7 @@ _OPTIONAL = (
     "dofs",
     "iterations",
     "contact_iterations",
+    "impact_iterations",
     "impacts",
     "cuts",
     "parts",

@@ -68,6 +68,7 @@ def test_interrupted_analysis_goes_on_to_the_last_digit(tmp_path):
     assert resumed["rigid_loss_share"] == summary["rigid_loss_share"] > 0.5
     one, two = history(tmp_path / "one"), history(tmp_path / "two")
     assert len(one["time"]) == 1201 and summary["impacts"] > 0
+    assert summary["contact_iterations"] > 0 and summary["impact_iterations"] > 0
     for name in one:
         np.testing.assert_array_equal(one[name], two[name])
     assert not (tmp_path / "two" / "checkpoint.npz").exists()

@@ -102,6 +102,7 @@ def test_literal_hht_of_a_case_has_no_impacts(tmp_path):
 def test_energy_of_a_structure_in_full_order_is_accounted_for(leaning):
     _, summary, rows = leaning
     assert summary["impacts"] > 0 and summary["energy_closure_rel"] < 1e-9
+    assert summary["contact_iterations"] > 0 and summary["impact_iterations"] > 0
     assert rows["energy/impact"][-1] < 0
 
 

@@ -14,7 +14,7 @@ from fecolumn.contact.impact import (
     touched,
     what_happens,
 )
-from fecolumn.contact.problem import OK
+from fecolumn.contact.problem import N_IMPACT_CONTACT, OK
 from fecolumn.contact.work import book_impulses
 from fecolumn.engines.dynamics.booking import StepMade
 from fecolumn.engines.dynamics.cuts import StepFailed, Stop
@@ -96,7 +96,7 @@ def collide(system, made: StepMade, contact_work: float, booked: dict, ledger, r
         contact_work,
         interface.counts,
     )
-    record.contact_iterations += interface.spent()
+    record.impact_iterations += interface.spent(N_IMPACT_CONTACT)
     if answer != OK:
         raise StepFailed(Stop.CONTACT, f"{Stop.CONTACT.value}: the impulses of an impact")
     if not pushed:

@@ -378,7 +378,7 @@ class ContactInterface(Places):
         """Points (k,) that may carry at the end of the stage."""
         return near_points(self._problem)
 
-    def spent(self) -> int:
-        """Iterations of contact problems since the last call."""
-        count, self.counts[N_CONTACT] = int(self.counts[N_CONTACT]), 0
+    def spent(self, on: int = N_CONTACT) -> int:
+        """Iterations of contact problems, or of N_IMPACT_CONTACT, since the last call."""
+        count, self.counts[on] = int(self.counts[on]), 0
         return count

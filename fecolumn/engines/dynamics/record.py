@@ -8,7 +8,7 @@ from dataclasses import dataclass
 @dataclass(slots=True)
 class Record:
     """Iterations of positions and of contact problems, impacts, cuts of steps that fail, parts of
-    steps in which the rim rolls fast.
+    steps in which the rim rolls fast, iterations of the problems of impacts.
     """
 
     iterations: int = 0
@@ -16,3 +16,4 @@ class Record:
     impacts: int = 0
     cuts: int = 0
     parts: int = 0
+    impact_iterations: int = 0

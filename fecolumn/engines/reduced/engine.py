@@ -185,7 +185,7 @@ class Engine:
     @property
     def record(self) -> Record:
         """Counts as the full-order engine gives them."""
-        return Record(*self.counts[:5].tolist())
+        return Record(*self.counts[:6].tolist())
 
     def row(self) -> np.ndarray:
         """The present row (eye.width,) of the history."""
