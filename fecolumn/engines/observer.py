@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from fecolumn.contact.overturning import CAPPED, FELL, NO_RETURN, STANDS, gone, never_alone
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import BASE, OVER
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.engines.structure_analysis import of_both_sides
 from fecolumn.fem.rotation import tilt_angle, twist_angle
@@ -74,7 +74,8 @@ class Observer:
             state.forces,
             R[self.body],
         )
-        carries = forces[:, 2] > 0
+        carries, points = forces[:, 2] > 0, interface.points
+        over = state.contact["located"] & ~points["idle"] & (points["beyond"] == OVER)
         tops = [self._top(b, state.x) for b in range(len(structure.parts))]
         row = dict(
             time=state.time,
@@ -82,11 +83,9 @@ class Observer:
             tilt=tilt_angle(own),
             twist=twist_angle(own),
             slide=self._slid(state.x, moved)[:2],
-            contact_force=forces[carries & (interface.points["master"] == BASE)].sum(axis=0),
+            contact_force=forces[carries & (points["master"] == BASE)].sum(axis=0),
             active_nodes=int(carries.sum()),
-            penetration=max(
-                0.0, -float(state.relative[state.contact["located"], 2].min(initial=0.0))
-            ),
+            penetration=max(0.0, -float(state.relative[over, 2].min(initial=0.0))),
             ground=state.ground[:3],
         )
         for b, part in enumerate(structure.parts):
