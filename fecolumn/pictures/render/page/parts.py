@@ -24,6 +24,8 @@ class Part:
     ----------
     name, kind
         of the body, such as "column 2" and "column".
+    body
+        its number; the floors of a building follow its slab.
     points
         (n, 3) [m] from `rest`.
     triangles
@@ -40,6 +42,7 @@ class Part:
 
     name: str
     kind: str
+    body: int
     points: np.ndarray
     triangles: np.ndarray
     edges: np.ndarray
@@ -60,17 +63,18 @@ def parts_of(result: Result, times: np.ndarray) -> list[Part]:
         firm = len(piece.points) - piece.carried
         surface = piece.upright, piece.faces, pose.origin
         whole = np.all(piece.faces < firm, axis=1)
-        shifts = shifts_of(result, number, times)
+        shifts = _shifts(result, number, times)
         for k, shift in enumerate(shifts):
             # the slab comes first, then each floor by the eight points of its box
             low = firm + 8 * (k - 1)
             own = whole if k == 0 else np.all((piece.faces >= low) & (piece.faces < low + 8), axis=1)
             shape = _shape(*surface, own, budget, lined)
-            found.append(Part(piece.name, piece.kind, *shape, pose.origin, pose.foot + shift, turn))
+            place = pose.foot + shift
+            found.append(Part(piece.name, piece.kind, number, *shape, pose.origin, place, turn))
     return found
 
 
-def shifts_of(result: Result, number: int, times: np.ndarray) -> list[np.ndarray]:
+def _shifts(result: Result, number: int, times: np.ndarray) -> list[np.ndarray]:
     """Displacement (t, 3) [m] beyond the pose of a body, of a building's slab and of each floor."""
     floors = result.told.floors.get(number)
     if floors is None:
