@@ -25,9 +25,8 @@ def add_arguments(parser) -> None:
     parser.add_argument(
         "--view",
         choices=VIEWS,
-        default="lean",
-        help="from where: lean (default) sees the largest lean at full length, front looks "
-        "along y, side along -x",
+        help="from where: lean (default, of --html iso) sees the largest lean at full length, "
+        "front looks along y, side along -x",
     )
     parser.add_argument(
         "--body",
@@ -100,6 +99,13 @@ def add_arguments(parser) -> None:
         action="store_true",
         help="write the script DIR/render/view.py for ParaView's pvpython and pvbatch, and "
         "nothing else",
+    )
+    parser.add_argument(
+        "--html",
+        metavar="FILE.html",
+        default="",
+        help="write one page with the motion in three dimensions and a time slider, which any "
+        "browser opens from its file, and nothing else; needs k3d (pip install 'fecolumn[html]')",
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress line")
 

@@ -55,6 +55,8 @@ class Wish:
         of a structure, whose top is followed and at whose foot the view "foot" looks.
     forces
         whether resultants, thrust line and hinges are drawn over the bodies.
+    html
+        file of the page, "" for none.
     """
 
     only: str = ""
@@ -71,8 +73,11 @@ class Wish:
     paraview: bool = False
     body: str = ""
     forces: bool = False
+    html: str = ""
 
     def __post_init__(self):
+        if self.html:
+            self._check_page()
         _check(self.view in VIEWS, "--view", self.view, f"must be one of {', '.join(VIEWS)}")
         _check(
             1 <= self.fps <= 60, "--fps", self.fps, "must lie between 1 and 60 pictures a second"
@@ -104,6 +109,24 @@ class Wish:
             f"must be {_ASPECT[0]:g} to {_ASPECT[1]:g} times as wide as high",
         )
 
+    def _check_page(self) -> None:
+        """Refuse what the page does not do."""
+        for option, given in (
+            ("--only", self.only),
+            ("--gif", self.gif),
+            ("--paraview", self.paraview),
+            ("--instants", self.instants),
+            ("--exaggerate", self.exaggerate != 1.0),
+            ("--color", self.color),
+        ):
+            _check(
+                not given,
+                option,
+                None,
+                "is not for --html: its page has bodies rigid, all instants, and keys of its own "
+                "for speed and for the factor on displacements",
+            )
+
     @classmethod
     def of(cls, args) -> Wish:
         """The options of the command line."""
@@ -125,7 +148,7 @@ class Wish:
         return cls(
             args.only or "",
             args.gif,
-            args.view,
+            args.view or ("iso" if args.html else "lean"),
             instants,
             exaggerate,
             args.color,
@@ -137,6 +160,7 @@ class Wish:
             args.paraview,
             args.body,
             args.forces,
+            args.html,
         )
 
 
@@ -163,6 +187,8 @@ def render(folder, wish: Wish = Wish(), quiet: bool = False) -> list[Path]:
         no finished analysis in the folder, times outside of it, or colours, exaggeration and
         forces that need what was not written.
     """
+    if wish.html:
+        return [_page(folder, wish)]
     result = read_result(folder, wish.body)
     target = result.folder / "render"
     if wish.paraview:
@@ -178,6 +204,14 @@ def render(folder, wish: Wish = Wish(), quiet: bool = False) -> list[Path]:
     if wish.only != "pictures":
         files += _movie(result, wish, start, end, target, quiet)
     return files
+
+
+def _page(folder, wish: Wish) -> Path:
+    from fecolumn.pictures.render.page.document import check_file, write_page
+
+    check_file(wish.html)
+    result = read_result(folder, wish.body)
+    return write_page(result, wish.html, _window(result, wish), wish.view, wish.speed)
 
 
 def _window(result, wish: Wish) -> tuple[float, float]:

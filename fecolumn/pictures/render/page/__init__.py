@@ -1,1 +1,1 @@
-"""One page with the motion of an analysis in three dimensions, which a browser opens from its file."""
+"""One page with the motion of an analysis in three dimensions, for any browser."""

@@ -30,6 +30,8 @@ class Arrows:
         length of an arrow [m] of one newton.
     largest
         a usual largest force [N].
+    mean
+        time [s] over which forces are a mean.
     """
 
     bodies: tuple[int, ...]
@@ -37,13 +39,14 @@ class Arrows:
     forces: np.ndarray
     scale: float
     largest: float
+    mean: float
 
 
 def arrows_of(result: Result, times: np.ndarray) -> Arrows | None:
     """The resultants at `times` (t,) [s]; None of a history without them."""
-    rows = float(np.median(np.diff(result.time)))
+    mean = max(_MEAN_S, 4 * float(np.median(np.diff(result.time))))
     try:
-        forces = JointForces(result, max(_MEAN_S, 4 * rows))
+        forces = JointForces(result, mean)
     except InputError:
         return None
     found = [forces.carried(time) for time in times]
@@ -56,4 +59,5 @@ def arrows_of(result: Result, times: np.ndarray) -> Arrows | None:
         for pose, center in zip(poses, centers)
     ]
     upwards = np.where(resultants[..., 2:] < 0, -1.0, 1.0)
-    return Arrows(bodies, np.array(tips), upwards * resultants, forces.scale, forces.largest)
+    carried = upwards * resultants
+    return Arrows(bodies, np.array(tips), carried, forces.scale, forces.largest, mean)

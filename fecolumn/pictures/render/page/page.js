@@ -224,9 +224,12 @@ class MotionPage {
 
   /** Look at all that moves, however wide the scene is. */
   look() {
-    const { focus, toward, up, half, shift } = this.told, box = this.scene.getBoundingClientRect();
-    const slope = Math.tan((25 / 2) * (Math.PI / 180)), [wide, tall] = half.map((one, n) => one + (this.shown.ground ? shift[n] : 0));
+    const { focus, toward, up, half, shift, slope } = this.told, box = this.scene.getBoundingClientRect();
+    const [wide, tall] = half.map((one, n) => one + (this.shown.ground ? shift[n] : 0));
     const far = Math.max(tall, (wide * box.height) / Math.max(box.width, 1)) / slope + 0.6 * Math.max(wide, tall);
+    const lens = this.K3D.getWorld().camera;
+    Object.assign(lens, { near: 0.01 * far, far: 4 * far });
+    lens.updateProjectionMatrix();
     this.K3D.setCamera([...focus.map((one, n) => one + far * toward[n]), ...focus, ...up]);
   }
 
@@ -328,7 +331,7 @@ class MotionPage {
       made(item, "span", {}, text);
     };
     for (const [kind, colour] of Object.entries(told.colours)) line({ colour }, kind);
-    if (this.arrows.length) line({ class: "arrow" }, `resultant of a joint, ${told.arrows.scale}, mean over 40 ms`);
+    if (this.arrows.length) line({ class: "arrow" }, told.arrows.said);
     if (this.bars.some((bar) => bar.tension)) line({ class: "scale" }, `tendons and links: 0 to ${told.tension.written}`);
     if (told.still.length) line({ class: "line" }, "feet at rest");
   }

@@ -67,7 +67,9 @@ def parts_of(result: Result, times: np.ndarray) -> list[Part]:
         for k, shift in enumerate(shifts):
             # the slab comes first, then each floor by the eight points of its box
             low = firm + 8 * (k - 1)
-            own = whole if k == 0 else np.all((piece.faces >= low) & (piece.faces < low + 8), axis=1)
+            own = (
+                whole if k == 0 else np.all((piece.faces >= low) & (piece.faces < low + 8), axis=1)
+            )
             shape = _shape(*surface, own, budget, lined)
             place = pose.foot + shift
             found.append(Part(piece.name, piece.kind, number, *shape, pose.origin, place, turn))
