@@ -6,6 +6,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 ROOT = Path(__file__).parents[1]
@@ -50,6 +51,8 @@ def _said(*command: str) -> str:
 )
 def test_house_rules(command):
     """Settings of all of them: pyproject.toml."""
+    if command.startswith("mypy") and not np.__version__.startswith("1."):
+        pytest.skip("types are checked with the NumPy and Matplotlib of Debian 12")
     if said := _said(*command.split()):
         pytest.fail(f"{command}\n{said}", pytrace=False)
 

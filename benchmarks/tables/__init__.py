@@ -113,7 +113,11 @@ def from_markdown(text: str) -> list[list[list[str]]]:
 
 def _commit() -> str:
     command = ["git", "-C", str(FOLDER), "describe", "--always", "--dirty", "--exclude", "*"]
-    return subprocess.run(command, capture_output=True, text=True).stdout.strip() or "unknown"
+    try:
+        return subprocess.run(command, capture_output=True, text=True).stdout.strip() or "unknown"
+    except FileNotFoundError:
+        # without git
+        return "unknown"
 
 
 def _machine() -> str:

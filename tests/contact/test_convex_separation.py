@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from convex_bodies import box, frustum, prism, turned
-from scipy.optimize import nnls
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
@@ -79,11 +78,18 @@ def random_pairs(count, seed):
 
 
 def distance_from_origin(points):
-    """Least distance of the hull of points (n, 3) from the origin, which is outside (Lawson and
-    Hanson 1974: the least x for which all of points x >= 1 is as long as 1 / distance).
+    """Least distance of the hull of points (n, 3) from the origin, which is outside: of its
+    triangles, inside one or on an edge.
     """
-    share = nnls(np.vstack([points.T, np.ones(len(points))]), [0, 0, 0, 1.0], maxiter=5000)[0]
-    return np.linalg.norm(share @ points) / share.sum()
+    corners = points[ConvexHull(points).simplices]
+    start, side = corners, np.roll(corners, -1, axis=1) - corners
+    normal = np.cross(side[:, 0], side[:, 1])
+    foot = normal * ((start[:, 0] * normal).sum(1) / (normal**2).sum(1))[:, None]
+    beside = np.cross(side, foot[:, None] - start)
+    inside = ((beside * normal[:, None]).sum(2) >= 0).all(1)
+    along = np.clip(-(start * side).sum(2) / (side**2).sum(2), 0, 1)
+    on_edges = np.linalg.norm(start + along[..., None] * side, axis=2).min()
+    return min(on_edges, np.linalg.norm(foot[inside], axis=1).min(initial=np.inf))
 
 
 def test_separation_is_that_of_the_difference_of_the_bodies():
