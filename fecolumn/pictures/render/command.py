@@ -65,13 +65,13 @@ def add_arguments(parser) -> None:
         "--start",
         metavar="S",
         type=float,
-        help="begin of the movie [s] (default: that of the analysis)",
+        help="begin of the movie or page [s] (default: that of the analysis)",
     )
     parser.add_argument(
         "--end",
         metavar="S",
         type=float,
-        help="end of the movie [s] (default: that of the analysis)",
+        help="end of the movie or page [s] (default: that of the analysis)",
     )
     parser.add_argument(
         "--fps",
@@ -102,10 +102,10 @@ def add_arguments(parser) -> None:
     )
     parser.add_argument(
         "--html",
-        metavar="FILE.html",
-        default="",
-        help="write one page with the motion in three dimensions and a time slider, which any "
-        "browser opens from its file, and nothing else; needs k3d (pip install 'fecolumn[html]')",
+        action="store_true",
+        help="write DIR/render/motion.html, one page with the motion in three dimensions and a "
+        "time slider that any browser opens from its file, and nothing else; needs k3d (pip "
+        "install 'fecolumn[html]')",
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress line")
 
@@ -118,7 +118,8 @@ def main(args) -> int:
     InputError
         no finished analysis in the folder, or an option that does not fit it.
     """
-    from fecolumn.pictures.render.draw import Wish, render
+    from fecolumn.pictures.render.draw import render
+    from fecolumn.pictures.render.wish import Wish
 
     wish = Wish.of(args)
     try:

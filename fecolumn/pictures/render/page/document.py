@@ -1,4 +1,4 @@
-"""The page as a file: K3D-jupyter draws what stands in it, and `page.js` moves that."""
+"""The page as HTML: K3D-jupyter draws what stands in it, and `page.js` moves that."""
 
 from __future__ import annotations
 
@@ -7,25 +7,27 @@ import json
 import re
 from html import escape
 from importlib.resources import files
-from pathlib import Path
 
 import numpy as np
 
 from fecolumn import __version__
-from fecolumn.foundation.atomic import write_bytes
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.render.camera import camera
 from fecolumn.pictures.render.page.arrows import arrows_of
-from fecolumn.pictures.render.page.bars import links_of, struts_of
-from fecolumn.pictures.render.page.drawing import Drawing, packed
 from fecolumn.pictures.render.page.ground import ground_of
-from fecolumn.pictures.render.page.parts import Part, parts_of
+from fecolumn.pictures.render.page.parts import RigidPart, parts_of
+from fecolumn.pictures.render.page.plot import MotionPlot, base64_of
+from fecolumn.pictures.render.page.rods import rods_of_links, rods_of_storeys
 from fecolumn.pictures.render.result import Result
 from fecolumn.pictures.render.strips import strips_of
 
+#: The file
+NAME = "motion.html"
 #: What has to be installed
 INSTALL = "needs k3d, an optional extra: pip install 'fecolumn[html]'"
+# The programs of the page, each needed by the next
+_PROGRAMS = "turns.js", "strip.js", "page.js"
 _GENERATOR = '<meta name="generator" content="fecolumn'
 # Poses a second of the page, between which it turns bodies steadily; of all parts together; over
 # the rows of the history
@@ -38,27 +40,8 @@ _VIEW = 25.0
 _KINDS = (0xDCCFB8, 0xA9C1D0, 0xBFD0A6, 0xD9B3AC, 0xC6BADB, 0xE3CF9A)
 
 
-def check_file(file) -> None:
-    """Refuse what cannot be written, before anything is read.
-
-    Raises
-    ------
-    InputError
-        k3d is missing, or a file is in the way that is no such page.
-    """
-    problem, path = "", Path(file)
-    if importlib.util.find_spec("k3d") is None:
-        problem = INSTALL
-    elif path.is_dir() or not path.parent.is_dir():
-        problem = "must be a file FILE.html in a folder that there is"
-    elif path.exists() and _GENERATOR not in path.open(errors="replace").read(2000):
-        problem = "is a file that fecolumn render --html did not write; give another name"
-    if problem:
-        raise InputError("fecolumn render", "--html", str(file), problem)
-
-
-def write_page(result: Result, file, span: tuple[float, float], view: str, speed: float) -> Path:
-    """Write the page of an analysis.
+def page_of(result: Result, span: tuple[float, float], view: str, speed: float) -> str:
+    """The page of an analysis.
 
     Parameters
     ----------
@@ -68,14 +51,21 @@ def write_page(result: Result, file, span: tuple[float, float], view: str, speed
         of `camera.VIEWS`, from where it is seen at first.
     speed
         seconds of motion in a second, at first.
+
+    Raises
+    ------
+    InputError
+        k3d is missing.
     """
+    if importlib.util.find_spec("k3d") is None:
+        raise InputError("fecolumn render", "--html", None, INSTALL)
     times = times_of(result, span, speed)
-    parts, drawing = parts_of(result, times), Drawing(result, times, _VIEW)
+    parts, plot = parts_of(result, times), MotionPlot(result, times, _VIEW)
     colours = {
         family: _KINDS[k % len(_KINDS)]
         for k, family in enumerate(dict.fromkeys(_family(part.kind) for part in parts))
     }
-    links = links_of(result, parts, times)
+    links = rods_of_links(result, parts, times)
     told = {
         "title": result.case.title or result.folder.resolve().name,
         "engine": result.case.integration.engine,
@@ -84,16 +74,14 @@ def write_page(result: Result, file, span: tuple[float, float], view: str, speed
         "count": len(times),
         "speed": speed,
         "colours": colours,
-        "parts": [drawing.add_part(part, colours[_family(part.kind)]) for part in parts],
-        "still": drawing.add_ground(),
-        "bars": [drawing.add_bar(bar) for bar in (*links, *struts_of(result, parts))],
-        "tension": _largest([bar.tension for bar in links]),
-        "arrows": _arrows(result, parts, times, drawing),
+        "parts": [plot.add_part(part, colours[_family(part.kind)]) for part in parts],
+        "still": plot.add_ground(),
+        "rods": [plot.add_rod(rod) for rod in (*links, *rods_of_storeys(result, parts))],
+        "tension": _largest([rod.tension for rod in links]),
+        "arrows": _arrows(result, parts, times, plot),
         "strips": [_strip(strip) for strip in strips_of(result, times)],
     } | _seen(result, times, view)
-    html = _page(drawing.html(_script(told)), str(told["title"]))
-    write_bytes(Path(file), html.encode())
-    return Path(file)
+    return _page(plot.html(_script(told)), str(told["title"]))
 
 
 def times_of(result: Result, span: tuple[float, float], speed: float) -> np.ndarray:
@@ -110,7 +98,7 @@ def _seen(result: Result, times: np.ndarray, view: str) -> dict:
     half = np.array([min(1.0, look.natural), 1 / max(1.0, look.natural)]) * look.half_height
     shift = np.abs(ground.place @ np.stack([look.right, look.up], axis=1)).max(axis=0)
     return {
-        "ground": packed(ground.place),
+        "ground": base64_of(ground.place),
         "groundMoves": ground.largest > 0,
         "groundRests": ground.rests,
         "groundLargest": _written(ground.largest, "m"),
@@ -123,7 +111,7 @@ def _seen(result: Result, times: np.ndarray, view: str) -> dict:
     }
 
 
-def _arrows(result: Result, parts: list[Part], times: np.ndarray, drawing: Drawing) -> dict:
+def _arrows(result: Result, parts: list[RigidPart], times: np.ndarray, plot: MotionPlot) -> dict:
     """The arrows, the parts that they move with, and how long they are; none of a history without
     resultants.
     """
@@ -132,7 +120,7 @@ def _arrows(result: Result, parts: list[Part], times: np.ndarray, drawing: Drawi
         return {"ids": []}
     bodies = [part.body for part in parts]
     length = _written(arrows.scale * arrows.largest, "m")
-    return drawing.add_arrows(arrows) | {
+    return plot.add_arrows(arrows) | {
         "parts": [bodies.index(body) for body in arrows.bodies],
         "said": f"resultant of a joint, mean over {1e3 * arrows.mean:.3g} ms; {length} long: "
         f"{_written(arrows.largest, 'N')}",
@@ -160,9 +148,9 @@ def _strip(strip) -> dict:
     return {
         "title": strip.title,
         "unit": unit[1] if unit else "",
-        "time": packed(strip.time[::every]),
+        "time": base64_of(strip.time[::every]),
         "lines": [
-            {"name": re.sub(r"[$\\]", "", name), "values": packed(np.asarray(values)[::every])}
+            {"name": re.sub(r"[$\\]", "", name), "values": base64_of(np.asarray(values)[::every])}
             for values, name in strip.lines
         ],
     }
@@ -178,7 +166,8 @@ def _script(told: dict) -> str:
     own = files(__package__)
     text = json.dumps(told).replace("</", "<\\/")
     style = json.dumps((own / "page.css").read_text())
-    return f"{(own / 'page.js').read_text()}\nshowMotion(K3DInstance, {text}, {style});\n"
+    programs = "\n".join((own / name).read_text() for name in _PROGRAMS)
+    return f"{programs}\nshowMotion(K3DInstance, {text}, {style});\n"
 
 
 def _page(html: str, title: str) -> str:

@@ -13,7 +13,7 @@ _STILL = 0.1
 
 
 @dataclass(frozen=True, slots=True)
-class GroundMotion:
+class GroundPath:
     """Displacement of the first ground.
 
     Attributes
@@ -33,7 +33,7 @@ class GroundMotion:
         return float(np.linalg.norm(self.place, axis=1).max())
 
 
-def ground_of(history: dict[str, np.ndarray], times: np.ndarray) -> GroundMotion:
+def ground_of(history: dict[str, np.ndarray], times: np.ndarray) -> GroundPath:
     """Displacement at `times` (t,) [s] of a ground that was at rest at the first row, by the
     trapezoidal rule twice, no baseline corrected.
     """
@@ -41,7 +41,7 @@ def ground_of(history: dict[str, np.ndarray], times: np.ndarray) -> GroundMotion
     velocity = cumulative_trapezoid(acceleration, time, axis=0, initial=0.0)
     place = cumulative_trapezoid(velocity, time, axis=0, initial=0.0)
     speed = np.linalg.norm(velocity, axis=1)
-    return GroundMotion(
+    return GroundPath(
         np.stack([np.interp(times, time, one) for one in place.T], axis=1),
         bool(speed[-1] <= _STILL * speed.max()),
     )

@@ -17,7 +17,7 @@ _MOST_EDGES = 20_000
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class RigidPart:
     """A rigid whole.
 
     Attributes
@@ -52,7 +52,7 @@ class Part:
     turn: np.ndarray
 
 
-def parts_of(result: Result, times: np.ndarray) -> list[Part]:
+def parts_of(result: Result, times: np.ndarray) -> list[RigidPart]:
     """The parts of all bodies and their places at `times` (t,) [s]."""
     scene, found = result.scene, []
     budget = MOST_TRIANGLES / max(1, sum(2 * len(piece.faces) for piece in scene.bodies))
@@ -72,7 +72,9 @@ def parts_of(result: Result, times: np.ndarray) -> list[Part]:
             )
             shape = _shape(*surface, own, budget, lined)
             place = pose.foot + shift
-            found.append(Part(piece.name, piece.kind, number, *shape, pose.origin, place, turn))
+            found.append(
+                RigidPart(piece.name, piece.kind, number, *shape, pose.origin, place, turn)
+            )
     return found
 
 

@@ -9,13 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from fecolumn.engines.scene.scene import GROUND
-from fecolumn.pictures.render.page.parts import Part
+from fecolumn.pictures.render.page.parts import RigidPart
 from fecolumn.pictures.render.result import Result
 
 
 @dataclass(frozen=True, slots=True)
-class Bar:
-    """A bar between two points, each fixed to a part.
+class Rod:
+    """A rod between two points, each fixed to a part.
 
     Attributes
     ----------
@@ -35,7 +35,7 @@ class Bar:
     tension: np.ndarray | None = None
 
 
-def links_of(result: Result, parts: list[Part], times: np.ndarray) -> list[Bar]:
+def rods_of_links(result: Result, parts: list[RigidPart], times: np.ndarray) -> list[Rod]:
     """The links of a structure at `times` (t,) [s]."""
     first: dict[int, int] = {}
     for k, part in enumerate(parts):
@@ -47,11 +47,11 @@ def links_of(result: Result, parts: list[Part], times: np.ndarray) -> list[Bar]:
         broken = result.history[f"link/{one.name}/broken"][rows] > 0
         tension = np.where(broken, np.nan, result.history[f"link/{one.name}/tension"][rows])
         arms = np.array([one.arm_a, one.arm_b])
-        found.append(Bar(one.name, (first[one.a], first[one.b]), arms, tension))
+        found.append(Rod(one.name, (first[one.a], first[one.b]), arms, tension))
     return found
 
 
-def struts_of(result: Result, parts: list[Part]) -> list[Bar]:
+def rods_of_storeys(result: Result, parts: list[RigidPart]) -> list[Rod]:
     """The columns of buildings, from the slab or a floor to the floor above."""
     found = []
     for body, piece in enumerate(result.scene.bodies):
@@ -60,5 +60,5 @@ def struts_of(result: Result, parts: list[Part]) -> list[Bar]:
         for strut in piece.struts:
             levels = [0 if point < firm else 1 + (point - firm) // 8 for point in strut]
             a, b = (own[level] for level in levels)
-            found.append(Bar("", (a, b), piece.upright[strut] - parts[a].rest))
+            found.append(Rod("", (a, b), piece.upright[strut] - parts[a].rest))
     return found

@@ -7,16 +7,17 @@ import base64
 import numpy as np
 
 from fecolumn.pictures.render.page.arrows import Arrows
-from fecolumn.pictures.render.page.bars import Bar
-from fecolumn.pictures.render.page.parts import Part
+from fecolumn.pictures.render.page.parts import RigidPart
+from fecolumn.pictures.render.page.rods import Rod
 from fecolumn.pictures.render.result import Result
+from fecolumn.pictures.render.thrust import scene_size
 
 _EDGE, _GROUND, _ARROW, _COLUMN, _LINES = 0x3C4146, 0xD9DBD6, 0x111111, 0x4A4F54, 0x9A9A9A
 # Half the width over the size of the scene [-] of links, of columns of buildings and of arrows
 _LINK, _STRUT, _SHAFT = 0.0035, 0.0045, 0.0055
 # Head of an arrow whose length is 1: length, and half the width over that of its shaft
 _HEAD, _WIDE = 0.28, 2.6
-# Corners of a round bar
+# Corners of a round rod
 _SIDES = 12
 # Thickness of a ground over the size of the scene, the lift of lines on it, most squares a side
 _THICK, _LIFT, _SQUARES = 0.012, 0.0015, 60
@@ -27,18 +28,18 @@ _BOX += tuple((k, (k + 1) % 4, 4 + (k + 1) % 4) for k in range(4))
 _BOX += tuple((k, 4 + (k + 1) % 4, 4 + k) for k in range(4))
 
 
-def packed(values) -> str:
+def base64_of(values) -> str:
     """Numbers in single precision, as base64."""
     return base64.b64encode(np.ascontiguousarray(values, "<f4").tobytes()).decode()
 
 
-class Drawing:
+class MotionPlot:
     """A plot of K3D; what is added is told by its number, for the page to move it.
 
     Attributes
     ----------
     size
-        of the scene [m], to which bars and arrows fit.
+        of the scene [m], to which rods and arrows fit.
     """
 
     def __init__(self, result: Result, times: np.ndarray, field_of_view: float):
@@ -46,7 +47,7 @@ class Drawing:
         import k3d
 
         self._result, self._k3d = result, k3d
-        self.size = float(np.sqrt(result.scene.height * result.scene.width))
+        self.size = scene_size(result.scene)
         shown = result.shown("iso", times)
         self._plot = k3d.plot(
             camera_auto_fit=False,
@@ -94,7 +95,7 @@ class Drawing:
         self._plot += drawn
         return drawn.id
 
-    def add_part(self, part: Part, colour: int) -> dict:
+    def add_part(self, part: RigidPart, colour: int) -> dict:
         """A body, around its place."""
         ids = [self._surface(part.points, part.triangles, _shade(colour, part.body), part.name)]
         for ends, opacity in ((part.edges, 1.0), (part.lines, 0.22)):
@@ -103,8 +104,8 @@ class Drawing:
         return {
             "ids": ids,
             "rest": part.rest.tolist(),
-            "place": packed(part.place),
-            "turn": packed(part.turn),
+            "place": base64_of(part.place),
+            "turn": base64_of(part.turn),
         }
 
     def add_ground(self) -> list[int]:
@@ -128,17 +129,17 @@ class Drawing:
             found.append(self._segments(outlines + 2 * lift, 0x000000, 0.8))
         return found
 
-    def add_bar(self, bar: Bar) -> dict:
-        """A bar from 0 to 1 along z, which the page puts between its ends."""
-        link = bar.tension is not None
+    def add_rod(self, rod: Rod) -> dict:
+        """A rod from 0 to 1 along z, which the page puts between its ends."""
+        link = rod.tension is not None
         radius, colour = (_LINK, 0xFFFFFF) if link else (_STRUT, _COLUMN)
         radius *= self.size
         rings = [(0.0, 0.0), (radius, 0.0), (radius, 1.0), (0.0, 1.0)]
         return {
-            "id": self._surface(*_round(rings), colour, bar.name),
-            "parts": bar.parts,
-            "arms": bar.arms.tolist(),
-            "tension": packed(bar.tension) if link else None,
+            "id": self._surface(*_round(rings), colour, rod.name),
+            "parts": rod.parts,
+            "arms": rod.arms.tolist(),
+            "tension": base64_of(rod.tension) if link else None,
         }
 
     def add_arrows(self, arrows: Arrows) -> dict:
@@ -148,8 +149,8 @@ class Drawing:
         shape = _round(rings)
         return {
             "ids": [self._surface(*shape, _ARROW, "contact force") for _ in arrows.bodies],
-            "tips": packed(arrows.tips),
-            "forces": packed(arrows.forces * arrows.scale),
+            "tips": base64_of(arrows.tips),
+            "forces": base64_of(arrows.forces * arrows.scale),
         }
 
 
