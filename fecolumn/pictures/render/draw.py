@@ -54,9 +54,9 @@ def render(folder, wish: Wish = _ALL, quiet: bool = False) -> list[Path]:
 def _page(result, wish: Wish, target: Path) -> Path:
     from fecolumn.pictures.render.page.document import NAME, page_of
 
-    span = _window(result, wish)
+    page = page_of(result, _window(result, wish), wish.view, wish.speed)
     with written(target, "render html", names=(NAME,)) as draft:
-        (draft / NAME).write_text(page_of(result, span, wish.view, wish.speed), encoding="utf-8")
+        (draft / NAME).write_text(page, encoding="utf-8")
     return target / NAME
 
 

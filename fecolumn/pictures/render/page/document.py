@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import re
 from html import escape
@@ -21,17 +20,19 @@ from fecolumn.pictures.render.page.plot import MotionPlot, base64_of
 from fecolumn.pictures.render.page.rods import rods_of_links, rods_of_storeys
 from fecolumn.pictures.render.result import Result
 from fecolumn.pictures.render.strips import strips_of
+from fecolumn.pictures.render.wish import COMMAND
 
 #: The file
 NAME = "motion.html"
 #: What has to be installed
-INSTALL = "needs k3d, an optional extra: pip install 'fecolumn[html]'"
+INSTALL = "needs k3d: pip install 'fecolumn[html]'"
 # The programs of the page, each needed by the next
 _PROGRAMS = "turns.js", "strip.js", "page.js"
 _GENERATOR = '<meta name="generator" content="fecolumn'
-# Poses a second of the page, between which it turns bodies steadily; of all parts together; over
-# the rows of the history
-_RATE, _MOST_POSES, _OF_ROWS = 50.0, 90_000, 20
+# Instants a second of the page, between which bodies turn steadily; over the rows of the history
+_RATE, _OF_ROWS = 50.0, 20
+# Places of bodies, arrows and links at all instants: some 5 MB
+_MOST_PLACES = 120_000
 # Points of a line over time
 _STRIP_POINTS = 1500
 # Vertical angle of what is seen [deg]: narrow, so that what is upright looks upright
@@ -57,8 +58,10 @@ def page_of(result: Result, span: tuple[float, float], view: str, speed: float) 
     InputError
         k3d is missing.
     """
-    if importlib.util.find_spec("k3d") is None:
-        raise InputError("fecolumn render", "--html", None, INSTALL)
+    try:
+        import k3d  # noqa: F401
+    except ImportError as error:
+        raise InputError(COMMAND, "--html", None, f"{INSTALL} ({error})") from None
     times = times_of(result, span, speed)
     parts, plot = parts_of(result, times), MotionPlot(result, times, _VIEW)
     colours = {
@@ -85,10 +88,12 @@ def page_of(result: Result, span: tuple[float, float], view: str, speed: float) 
 
 
 def times_of(result: Result, span: tuple[float, float], speed: float) -> np.ndarray:
-    """Times (t,) [s] of poses, evenly over a span."""
+    """Times (t,) [s] of instants, evenly over a span."""
+    scene = result.scene
     begin, end = span
     wanted = int((end - begin) * _RATE / min(speed, 1.0)) + 1
-    most = _MOST_POSES // len(result.scene.bodies), _OF_ROWS * len(result.time)
+    moving = len(scene.bodies) + len(scene.shown) + len(scene.links)
+    most = _MOST_PLACES // moving, _OF_ROWS * len(result.time)
     return np.linspace(begin, end, max(2, min(wanted, *most)))
 
 

@@ -85,7 +85,8 @@ class MotionPage {
   look() {
     const { focus, toward, up, half, shift, slope } = this.told, box = this.scene.getBoundingClientRect();
     const [wide, tall] = half.map((one, n) => one + (this.shown.ground ? shift[n] : 0));
-    const far = Math.max(tall, (wide * box.height) / Math.max(box.width, 1)) / slope + 0.6 * Math.max(wide, tall);
+    // words stand above and below
+    const far = Math.max(1.12 * tall, (wide * box.height) / Math.max(box.width, 1)) / slope + 0.6 * Math.max(wide, tall);
     const lens = this.K3D.getWorld().camera;
     Object.assign(lens, { near: 0.01 * far, far: 4 * far });
     lens.updateProjectionMatrix();

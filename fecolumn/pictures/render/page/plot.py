@@ -14,7 +14,7 @@ from fecolumn.pictures.render.thrust import scene_size
 
 _EDGE, _GROUND, _ARROW, _COLUMN, _LINES = 0x3C4146, 0xD9DBD6, 0x111111, 0x4A4F54, 0x9A9A9A
 # Half the width over the size of the scene [-] of links, of columns of buildings and of arrows
-_LINK, _STRUT, _SHAFT = 0.0035, 0.0045, 0.0055
+_LINK, _STRUT, _SHAFT = 0.005, 0.0045, 0.0055
 # Head of an arrow whose length is 1: length, and half the width over that of its shaft
 _HEAD, _WIDE = 0.28, 2.6
 # Corners of a round rod
