@@ -17,6 +17,7 @@ from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
+from fecolumn.engines.pace import Pace
 from fecolumn.engines.passing import Passing
 from fecolumn.engines.reduced.observe import ENERGY, column_index
 from fecolumn.engines.reduced.rigid_loss import loss_share
@@ -29,7 +30,7 @@ from fecolumn.foundation.atomic import write_bytes
 from fecolumn.structures.pads import warn_of_grounds
 from fecolumn.structures.structure import structure_model
 
-# Steps between looks at the clock, Ctrl-C and the progress line: well below a second
+# Most steps between looks at the clock, Ctrl-C and the progress line; fewer where they are slow
 CHUNK = 500
 
 
@@ -105,10 +106,10 @@ class ReducedAnalysis(OfStructure, Analysis):
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         cadence, engine = self.case.output, self.engine
         progress, passing = self.progress(), Passing(self.structure)
-        saved, over, off = time.perf_counter(), False, None
+        saved, over, off, pace = time.perf_counter(), False, None, Pace(self)
         try:
             while self.step < self.steps and not over:
-                count = min(CHUNK, self.steps - self.step)
+                count = min(pace.chunk(CHUNK), self.steps - self.step)
                 if self.step < self.motion_steps:
                     count = min(count, self.motion_steps - self.step)
                 count = passing.steps(engine.motion, self.case.integration.dt_s, count)
@@ -129,6 +130,7 @@ class ReducedAnalysis(OfStructure, Analysis):
                     },
                     engine.record,
                 )
+                pace.look(engine.record)
                 self._keep()
                 ended = stop()
                 if ended or time.perf_counter() - saved > cadence.checkpoint_every_s:
@@ -140,6 +142,7 @@ class ReducedAnalysis(OfStructure, Analysis):
             off = self.off_or_failed(failure)
         finally:
             progress.end()
+            pace.end()
         fallen = engine.fallen(self.steepest(self.step)) if over else STANDS
         if self.states:
             self.states.add(engine, last=True)

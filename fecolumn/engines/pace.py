@@ -1,0 +1,178 @@
+"""How long the steps of an analysis take: told once they are known, with the keys that make them
+cheaper, and why where they are slow.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+
+from fecolumn.foundation.atomic import write_json
+from fecolumn.foundation.progress import clock
+from fecolumn.structures.model import StructureModel
+
+#: File of a running analysis with its pace, from which a study knows how long it will take
+NAME = "pace.json"
+# Wall time of steps [s] after which the pace is known
+_KNOWN_S = 1.0
+# Wall time [s] between two looks, so that Ctrl-C and progress do not wait; steps until the first
+_LOOK_S, _FIRST_STEPS = 0.25, 20
+# A rest of so long [s] is told; of one longer than this, what would shorten it
+_TOLD_S, _LONG_S = 3.0, 30.0
+#: A step that takes longer [s] is slow
+SLOW_S = 0.05
+# Slow steps are told again where they take so many times as long as those told last
+_SLOWER = 2.0
+# Points inside a face from which on fewer are advised, and how many
+FEW_POINTS = 9
+
+
+class Pace:
+    """Wall time of the steps of an analysis.
+
+    Parameters
+    ----------
+    analysis
+        with `step`, `steps`, `motion_steps`, `until_rest`, `stepping_s` [s], `case`, `structure`,
+        `folder`, `history` and `say`.
+    """
+
+    def __init__(self, analysis):
+        self._analysis = analysis
+        self._began = self._looked = analysis.step, analysis.stepping_s
+        self._record = None
+        self._told, self._slow = False, SLOW_S
+        self._s_per_step = 0.0
+
+    def chunk(self, most: int) -> int:
+        """Steps until the next look, `most` at most."""
+        if not self._s_per_step:
+            return min(_FIRST_STEPS, most)
+        return max(1, min(most, int(_LOOK_S / self._s_per_step)))
+
+    def look(self, record) -> None:
+        """Look at the clock after some steps; `record`: Record of all steps so far."""
+        analysis, now = self._analysis, (self._analysis.step, self._analysis.stepping_s)
+        self._record = self._record or dataclasses.replace(record)
+        steps, spent = (one - other for one, other in zip(now, self._looked))
+        if not steps or spent < _LOOK_S / 4:
+            self._s_per_step = spent / max(steps, 1)
+            return
+        self._s_per_step = spent / steps
+        if self._s_per_step > self._slow and spent >= _LOOK_S:
+            self._slow = _SLOWER * self._s_per_step
+            analysis.say(self._why(record, steps))
+        self._looked, self._record = now, dataclasses.replace(record)
+        if not self._told and now[1] - self._began[1] >= _KNOWN_S:
+            self._told = True
+            self._tell()
+
+    def end(self) -> None:
+        """Remove the file of the pace."""
+        with contextlib.suppress(OSError):
+            (self._analysis.folder / NAME).unlink(missing_ok=True)
+
+    def _tell(self) -> None:
+        """Say how long the rest takes."""
+        analysis = self._analysis
+        made = analysis.step - self._began[0]
+        each = (analysis.stepping_s - self._began[1]) / made
+        surely = analysis.motion_steps if analysis.until_rest else analysis.steps
+        left = each * (analysis.steps - analysis.step)
+        if analysis.comm.rank == 0 and left > _TOLD_S:
+            with contextlib.suppress(OSError):
+                write_json(
+                    analysis.folder / NAME, {"steps": analysis.steps, "s_per_step": float(each)}
+                )
+        if left < _TOLD_S:
+            return
+        said = f"{made:,} steps took {1e3 * each:.2g} ms each: about {clock(left)} for the rest"
+        if surely < analysis.steps:
+            until = each * max(surely - analysis.step, 0)
+            said = (
+                f"{made:,} steps took {1e3 * each:.2g} ms each: about {clock(until)} to the end of "
+                f"the motion, {clock(left)} at most until at rest"
+            )
+        if left > _LONG_S:
+            said += f"; {cheaper_text(analysis.case, analysis.structure)}"
+        analysis.say(said)
+
+    def _why(self, record, steps: int) -> str:
+        """What slow steps do."""
+        analysis = self._analysis
+        spent = {
+            key: (value - getattr(self._record, key)) / steps
+            for key, value in dataclasses.asdict(record).items()
+        }
+        parts = [
+            f"{spent['iterations']:.3g} iterations",
+            f"{spent['contact_iterations']:.3g} of contact problems",
+        ]
+        if spent["impacts"]:
+            parts.append(
+                f"{spent['impacts']:.3g} impacts with {spent['impact_iterations']:.3g} iterations"
+            )
+        for key, name in (("cuts", "halvings"), ("parts", "parts while a rim rolls fast")):
+            if spent[key]:
+                parts.append(f"{spent[key]:.3g} {name}")
+        last = analysis.history.last()
+        return (
+            f"steps take {1e3 * self._s_per_step:.3g} ms each around t = {last['time']:.3f} s: "
+            f"{_busiest(analysis.structure, last)}, {', '.join(parts)} a step"
+        )
+
+
+def contact_points_of(structure: StructureModel) -> dict[str, int]:
+    """Contact points by the name of a joint, those of both its sides together."""
+    found: dict[str, int] = {}
+    for joint in structure.joints:
+        name = structure.joints[joint.pair].name if joint.pair >= 0 else joint.name
+        nodes = structure.parts[joint.slave].model.surfaces[joint.slave_surface].nodes
+        found[name] = found.get(name, 0) + len(nodes)
+    return found
+
+
+def _busiest(structure: StructureModel, last: dict) -> str:
+    """The joint that carries with the most contact points, in words."""
+    points = contact_points_of(structure)
+    if not points:
+        return f"{int(last['active_nodes'])} points carry"
+    carrying = [name for name in points if last.get(f"interface/{name}/force", 0.0) > 0]
+    name = max(carrying or points, key=lambda one: points[one])
+    return (
+        f'joint "{name}" has {points[name]} of {sum(points.values())} contact points, '
+        f"{int(last['active_nodes'])} carry in all"
+    )
+
+
+def cheaper(case) -> dict[str, dict]:
+    """Changes of a case that make it cheaper, by dotted key; each by itself."""
+    plan, found = case.integration, {}
+    if plan.engine == "full":
+        found["integration.engine"] = {"integration.engine": "reduced"}
+    given = {
+        "contact.interior_points"
+        if one.interior_points is None
+        else f"joints.{name}.interior_points": (
+            case.contact.interior_points if one.interior_points is None else one.interior_points
+        )
+        for name, one in case.joints.items()
+    }
+    many = {key: FEW_POINTS for key, value in given.items() if value > FEW_POINTS}
+    if many:
+        found["interior_points"] = many
+    if plan.engine == "reduced":
+        if case.n_modes > 5:
+            found["integration.n_modes"] = {"integration.n_modes": 5}
+        found["integration.engine"] = {"integration.engine": "rigid"}
+    found["integration.dt_s"] = {"integration.dt_s": 2 * plan.dt_s}
+    return found
+
+
+def cheaper_text(case, structure: StructureModel) -> str:
+    """The same in words."""
+    named = [f"{key} = {value!r}" for one in cheaper(case).values() for key, value in one.items()]
+    return (
+        f"{sum(contact_points_of(structure).values())} contact points; cheaper may be "
+        f"{', '.join(named)}: fecolumn cost measures by how much"
+    )
