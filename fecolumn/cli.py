@@ -1,6 +1,6 @@
-"""The command line: fecolumn new | mesh | run | resume | cost | study | compare | report | fragility |
-design | risk | screen | calibrate | render | rocking | motions | keys | help | verify | prepare |
-doctor | completion.
+"""The command line: fecolumn new | mesh | run | resume | cost | study | compare | report |
+fragility | design | risk | screen | calibrate | render | rocking | motions | keys | help | verify |
+prepare | doctor | completion.
 """
 
 from __future__ import annotations

@@ -212,7 +212,8 @@ class FullAnalysis(OfStructure, Analysis):
         from fecolumn.engines.dynamics.cuts import StepFailed
 
         cadence = self.case.output
-        progress, pace = self.progress(), Pace(self)
+        progress = self.progress()
+        pace = Pace(self, progress.say, self.stepper.record)
         saved, fallen, over, off = time.perf_counter(), STANDS, False, None
         try:
             while self.step < self.steps and not over:

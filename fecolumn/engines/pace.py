@@ -6,10 +6,13 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
+from typing import TYPE_CHECKING
 
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.progress import clock
-from fecolumn.structures.model import StructureModel
+
+if TYPE_CHECKING:
+    from fecolumn.structures.model import StructureModel
 
 #: File of a running analysis with its pace, from which a study knows how long it will take
 NAME = "pace.json"
@@ -34,13 +37,18 @@ class Pace:
     ----------
     analysis
         with `step`, `steps`, `motion_steps`, `until_rest`, `stepping_s` [s], `case`, `structure`,
-        `folder`, `history` and `say`.
+        `folder`, `history` and `comm`.
+    say
+        function that takes a line of words.
+    record
+        Record of the steps before.
     """
 
-    def __init__(self, analysis):
-        self._analysis = analysis
-        self._began = self._looked = analysis.step, analysis.stepping_s
-        self._record = None
+    def __init__(self, analysis, say, record):
+        self._analysis, self._say = analysis, say
+        # step and wall time at the begin, when steps were last judged, at the last look
+        self._began = self._judged = self._looked = analysis.step, analysis.stepping_s
+        self._record = dataclasses.replace(record)
         self._told, self._slow = False, SLOW_S
         self._s_per_step = 0.0
 
@@ -52,17 +60,16 @@ class Pace:
 
     def look(self, record) -> None:
         """Look at the clock after some steps; `record`: Record of all steps so far."""
-        analysis, now = self._analysis, (self._analysis.step, self._analysis.stepping_s)
-        self._record = self._record or dataclasses.replace(record)
-        steps, spent = (one - other for one, other in zip(now, self._looked))
-        if not steps or spent < _LOOK_S / 4:
-            self._s_per_step = spent / max(steps, 1)
+        now = self._analysis.step, self._analysis.stepping_s
+        if now[0] == self._looked[0]:
             return
-        self._s_per_step = spent / steps
-        if self._s_per_step > self._slow and spent >= _LOOK_S:
-            self._slow = _SLOWER * self._s_per_step
-            analysis.say(self._why(record, steps))
-        self._looked, self._record = now, dataclasses.replace(record)
+        self._s_per_step, self._looked = _each(self._looked, now), now
+        if now[1] - self._judged[1] >= _LOOK_S:
+            each = _each(self._judged, now)
+            if each > self._slow:
+                self._slow = _SLOWER * each
+                self._say(self._why(record, each))
+            self._judged, self._record = now, dataclasses.replace(record)
         if not self._told and now[1] - self._began[1] >= _KNOWN_S:
             self._told = True
             self._tell()
@@ -76,16 +83,17 @@ class Pace:
         """Say how long the rest takes."""
         analysis = self._analysis
         made = analysis.step - self._began[0]
-        each = (analysis.stepping_s - self._began[1]) / made
+        each = _each(self._began, self._looked)
         surely = analysis.motion_steps if analysis.until_rest else analysis.steps
         left = each * (analysis.steps - analysis.step)
-        if analysis.comm.rank == 0 and left > _TOLD_S:
-            with contextlib.suppress(OSError):
-                write_json(
-                    analysis.folder / NAME, {"steps": analysis.steps, "s_per_step": float(each)}
-                )
         if left < _TOLD_S:
             return
+        cheaper_keys = cheaper_text(analysis.case, analysis.structure)
+        if analysis.comm.rank == 0:
+            with contextlib.suppress(OSError):
+                write_json(
+                    analysis.folder / NAME, {"whole_s": each * surely, "cheaper": cheaper_keys}
+                )
         said = f"{made:,} steps took {1e3 * each:.2g} ms each: about {clock(left)} for the rest"
         if surely < analysis.steps:
             until = each * max(surely - analysis.step, 0)
@@ -94,12 +102,13 @@ class Pace:
                 f"the motion, {clock(left)} at most until at rest"
             )
         if left > _LONG_S:
-            said += f"; {cheaper_text(analysis.case, analysis.structure)}"
-        analysis.say(said)
+            said += f"; {cheaper_keys}"
+        self._say(said)
 
-    def _why(self, record, steps: int) -> str:
-        """What slow steps do."""
+    def _why(self, record, each: float) -> str:
+        """What steps do that take `each` so long [s]."""
         analysis = self._analysis
+        steps = analysis.step - self._judged[0]
         spent = {
             key: (value - getattr(self._record, key)) / steps
             for key, value in dataclasses.asdict(record).items()
@@ -117,9 +126,14 @@ class Pace:
                 parts.append(f"{spent[key]:.3g} {name}")
         last = analysis.history.last()
         return (
-            f"steps take {1e3 * self._s_per_step:.3g} ms each around t = {last['time']:.3f} s: "
+            f"steps take {1e3 * each:.3g} ms each around t = {last['time']:.3f} s: "
             f"{_busiest(analysis.structure, last)}, {', '.join(parts)} a step"
         )
+
+
+def _each(before: tuple[int, float], now: tuple[int, float]) -> float:
+    """Wall time of a step [s] between two looks (step, wall time [s])."""
+    return (now[1] - before[1]) / (now[0] - before[0])
 
 
 def contact_points_of(structure: StructureModel) -> dict[str, int]:

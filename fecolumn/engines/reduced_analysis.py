@@ -106,7 +106,8 @@ class ReducedAnalysis(OfStructure, Analysis):
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         cadence, engine = self.case.output, self.engine
         progress, passing = self.progress(), Passing(self.structure)
-        saved, over, off, pace = time.perf_counter(), False, None, Pace(self)
+        pace = Pace(self, progress.say, engine.record)
+        saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
                 count = min(pace.chunk(CHUNK), self.steps - self.step)

@@ -56,6 +56,16 @@ class Bar:
             self._bar.n = min(done, self.total)
             self._bar.set_description_str(words)
 
+    def say(self, words: str) -> None:
+        """A line of words above the bar, or in the log."""
+        if self._quiet:
+            return
+        with contextlib.suppress(OSError):
+            if self._bar is None:
+                print(words, file=self._stream, flush=True)
+            else:
+                self._bar.write(words, file=self._stream)
+
     def left(self, done: float, total: float) -> str:
         """Time that the rest takes at the pace so far."""
         return clock((time.monotonic() - self._began) / done * (total - done))
