@@ -19,7 +19,7 @@ NAME = "pace.json"
 # Wall time of steps [s] after which the pace is known
 _KNOWN_S = 1.0
 # Wall time [s] between two looks, so that Ctrl-C and progress do not wait; steps until the first
-_LOOK_S, _FIRST_STEPS = 0.25, 20
+_LOOK_S, _FIRST_STEPS = 0.25, 5
 # A rest of so long [s] is told; of one longer than this, what would shorten it
 _TOLD_S, _LONG_S = 3.0, 30.0
 #: A step that takes longer [s] is slow
@@ -62,6 +62,11 @@ class Pace:
         """Look at the clock after some steps; `record`: Record of all steps so far."""
         now = self._analysis.step, self._analysis.stepping_s
         if now[0] == self._looked[0]:
+            return
+        if not self._s_per_step:  # the first steps of a full-order engine compile
+            self._s_per_step = _each(self._looked, now)
+            self._began = self._judged = self._looked = now
+            self._record = dataclasses.replace(record)
             return
         self._s_per_step, self._looked = _each(self._looked, now), now
         if now[1] - self._judged[1] >= _LOOK_S:
@@ -161,7 +166,8 @@ def _busiest(structure: StructureModel, last: dict) -> str:
 
 def cheaper(case) -> dict[str, dict]:
     """Changes of a case that make it cheaper, by dotted key; each by itself."""
-    plan, found = case.integration, {}
+    plan = case.integration
+    found: dict[str, dict] = {}
     if plan.engine == "full":
         found["integration.engine"] = {"integration.engine": "reduced"}
     given = {

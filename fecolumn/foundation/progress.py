@@ -92,9 +92,10 @@ class Progress(Bar):
 
     def show(self, step: int, measures: dict[str, Any], record: Any) -> None:
         """Show the state after `step` where it is time to."""
-        if self._first is None:
-            self._first, self._iterations, self._counted = step - 1, record.iterations, step
-        if self.due():
+        if self._first is None:  # the first steps may compile, and tell nothing of the rest
+            self._first, self._iterations, self._counted = step, record.iterations, step
+            self._began = time.monotonic()
+        elif self.due():
             rests = step >= self.total
             left = (
                 "until at rest"

@@ -38,7 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class Trial:
+class FirstSteps:
     """The first steps of an analysis: their number and length [s], their wall time [s], and the
     largest displacement of the top [m] in them.
     """
@@ -82,13 +82,13 @@ def main(args: argparse.Namespace) -> int:
         raise InputError(args.case, "integration.engine", case.integration.engine, allowed)
     duration = _duration(case, args.case)
     _say("as it is")
-    own = measured(case, args.case, args.seconds)
+    own = first_steps(case, args.case, args.seconds)
     print(
         f"{'setting':<34} {'ms a step':>9} {'whole analysis':>14} {'times as fast':>13}  "
         f"top in the first {own.span:.3g} s"
     )
 
-    def row(name: str, trial: Trial) -> None:
+    def row(name: str, trial: FirstSteps) -> None:
         print(
             f"{name:<34} {1e3 * trial.wall_s / trial.steps:>9.3g} "
             f"{clock(trial.pace * duration):>14} {own.pace / trial.pace:>13.2g}  "
@@ -124,13 +124,13 @@ def _duration(case: Case, file: str) -> float:
     return ground.duration + case.motion.longest_free_vibration_s
 
 
-def _changed(case: Case, file: str, changes: dict, own: Trial, seconds: float) -> Trial:
+def _changed(case: Case, file: str, changes: dict, own: FirstSteps, seconds: float) -> FirstSteps:
     """The same time of motion with other values."""
     span = {"integration.duration_s": own.span}
-    return measured(case.replace({**changes, **span}), file, _LONGER * seconds)
+    return first_steps(case.replace({**changes, **span}), file, _LONGER * seconds)
 
 
-def measured(case: Case, file: str, seconds: float) -> Trial:
+def first_steps(case: Case, file: str, seconds: float) -> FirstSteps:
     """The steps of a case that are made in so much wall time [s], in a folder that is removed.
 
     Raises
@@ -165,4 +165,4 @@ def measured(case: Case, file: str, seconds: float) -> Trial:
         else:
             steps, peak = summary["steps"], summary["u_max_m"]
             wall_s = steps * summary["s_per_step"]
-    return Trial(steps, case.integration.dt_s, wall_s, peak)
+    return FirstSteps(steps, case.integration.dt_s, wall_s, peak)

@@ -54,22 +54,30 @@ def _running(tmp_path, steps=10_000, motion_steps=0, until_rest=False):
         folder=tmp_path,
         history=SimpleNamespace(last=lambda: last),
         step=0,
-        steps=steps,
-        motion_steps=motion_steps,
+        steps=1 + steps,
+        motion_steps=1 + motion_steps,
         until_rest=until_rest,
         stepping_s=0.0,
     )
 
 
+def _begun(analysis, said):
+    """The pace of an analysis whose first step is made, which compiled for half a minute."""
+    pace = Pace(analysis, said.append, Record())
+    assert pace.chunk(500) == 5 and pace.chunk(3) == 3
+    _go(analysis, pace, 0, 0.0)
+    return pace
+
+
 def _go(analysis, pace, step, stepping_s, **record):
-    analysis.step, analysis.stepping_s = step, stepping_s
+    """So many steps after the first, and so much later [s]."""
+    analysis.step, analysis.stepping_s = 1 + step, 30.0 + stepping_s
     pace.look(Record(**record))
 
 
 def test_looks_come_as_often_as_steps_are_slow(tmp_path):
     analysis = _running(tmp_path)
-    pace = Pace(analysis, lambda words: None, Record())
-    assert pace.chunk(500) == 20 and pace.chunk(7) == 7
+    pace = _begun(analysis, [])
     _go(analysis, pace, 20, 20e-6)
     assert pace.chunk(500) == 500
     _go(analysis, pace, 22, 2.0)
@@ -79,7 +87,7 @@ def test_looks_come_as_often_as_steps_are_slow(tmp_path):
 def test_the_time_left_is_told_once_after_a_second_of_steps(tmp_path):
     said = []
     analysis = _running(tmp_path)
-    pace = Pace(analysis, said.append, Record())
+    pace = _begun(analysis, said)
     _go(analysis, pace, 50, 0.5)
     assert not said and not (tmp_path / NAME).exists()
     _go(analysis, pace, 100, 1.0)
@@ -88,7 +96,7 @@ def test_the_time_left_is_told_once_after_a_second_of_steps(tmp_path):
     assert words.startswith("100 steps took 10 ms each: about 1 min 39 s for the rest; 54 contact")
     assert "contact.interior_points = 9" in words and "fecolumn cost" in words
     kept = json.loads((tmp_path / NAME).read_text())
-    assert kept["whole_s"] == pytest.approx(100.0) and kept["cheaper"] in words
+    assert kept["whole_s"] == pytest.approx(100.0, rel=1e-3) and kept["cheaper"] in words
     pace.end()
     assert not (tmp_path / NAME).exists()
 
@@ -96,20 +104,20 @@ def test_the_time_left_is_told_once_after_a_second_of_steps(tmp_path):
 def test_a_rest_of_seconds_is_not_told_and_one_until_rest_has_two_ends(tmp_path):
     said = []
     analysis = _running(tmp_path, steps=300)
-    pace = Pace(analysis, said.append, Record())
+    pace = _begun(analysis, said)
     _go(analysis, pace, 100, 1.0)
     assert not said and not (tmp_path / NAME).exists()
     analysis = _running(tmp_path, steps=4000, motion_steps=2000, until_rest=True)
-    pace = Pace(analysis, said.append, Record())
+    pace = _begun(analysis, said)
     _go(analysis, pace, 100, 1.0)
     assert "about 19 s to the end of the motion, 39 s at most until at rest" in said[0]
-    assert json.loads((tmp_path / NAME).read_text())["whole_s"] == pytest.approx(20.0)
+    assert json.loads((tmp_path / NAME).read_text())["whole_s"] == pytest.approx(20.0, rel=1e-3)
 
 
 def test_slow_steps_say_which_joint_and_how_many_iterations(tmp_path):
     said = []
     analysis = _running(tmp_path, steps=20)
-    pace = Pace(analysis, said.append, Record())
+    pace = _begun(analysis, said)
     _go(analysis, pace, 10, 0.4, iterations=20)  # 40 ms
     assert not said
     spent = dict(iterations=50, contact_iterations=200, impacts=5, impact_iterations=100)

@@ -17,7 +17,7 @@ from fecolumn.pictures.render.page.arrows import arrows_of
 from fecolumn.pictures.render.page.ground import ground_of
 from fecolumn.pictures.render.page.parts import RigidPart, parts_of
 from fecolumn.pictures.render.page.plot import MotionPlot, base64_of
-from fecolumn.pictures.render.page.rods import rods_of_links, rods_of_storeys
+from fecolumn.pictures.render.page.rods import Rod, rods_of_links, rods_of_storeys
 from fecolumn.pictures.render.result import Result
 from fecolumn.pictures.render.strips import strips_of
 from fecolumn.pictures.render.wish import COMMAND
@@ -33,6 +33,8 @@ _GENERATOR = '<meta name="generator" content="fecolumn'
 _RATE, _OF_ROWS = 50.0, 20
 # Places of bodies, arrows and links at all instants: some 5 MB
 _MOST_PLACES = 120_000
+# Range of the forces of links over the largest, below which colours do not tell them apart
+_HARDLY = 0.05
 # Points of a line over time
 _STRIP_POINTS = 1500
 # Vertical angle of what is seen [deg]: narrow, so that what is upright looks upright
@@ -80,7 +82,7 @@ def page_of(result: Result, span: tuple[float, float], view: str, speed: float) 
         "parts": [plot.add_part(part, colours[_family(part.kind)]) for part in parts],
         "still": plot.add_ground(),
         "rods": [plot.add_rod(rod) for rod in (*links, *rods_of_storeys(result, parts))],
-        "tension": _largest([rod.tension for rod in links]),
+        "tension": _tension(links),
         "arrows": _arrows(result, parts, times, plot),
         "strips": [_strip(strip) for strip in strips_of(result, times)],
     } | _seen(result, times, view)
@@ -132,13 +134,16 @@ def _arrows(result: Result, parts: list[RigidPart], times: np.ndarray, plot: Mot
     }
 
 
-def _largest(tensions: list[np.ndarray | None]) -> dict:
-    """Largest force [N] of links, as a number and as written."""
-    found = [
-        np.nanmax(np.abs(one)) for one in tensions if one is not None and np.isfinite(one).any()
-    ]
-    largest = float(max(found, default=0.0))
-    return {"largest": largest, "written": _written(largest, "N")}
+def _tension(links: list[Rod]) -> dict:
+    """Range of the forces [N] of links in magnitude, as numbers and as written; from 0 where they
+    hardly change.
+    """
+    forces = np.abs([rod.tension for rod in links if rod.tension is not None])
+    known = forces[np.isfinite(forces)]
+    low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 0.0)
+    if high - low < _HARDLY * high:
+        low = 0.0
+    return {"low": low, "high": high, "written": f"{_written(low, 'N')} to {_written(high, 'N')}"}
 
 
 def _family(kind: str) -> str:

@@ -66,7 +66,7 @@ class MotionPage {
       const [from, to] = rod.parts.map((part, n) => end(part, rod.arms[n])), along = to.map((one, n) => one - from[n]);
       const tension = rod.tension?.[k];
       this.#put(rod.drawn, from, towards(along), Number.isNaN(tension) ? 0 : Math.hypot(...along));
-      if (rod.tension) rod.drawn.material.color.setRGB(...scaled(Math.abs(tension) / (told.tension.largest || 1)), "srgb");
+      if (rod.tension) rod.drawn.material.color.setRGB(...scaled((Math.abs(tension) - told.tension.low) / (told.tension.high - told.tension.low || 1)), "srgb");
     }
     this.arrows.forEach(({ drawn }, n) => {
       const column = n * told.count + k, part = told.arrows.parts[n];
@@ -192,7 +192,7 @@ class MotionPage {
     };
     for (const [kind, colour] of Object.entries(told.colours)) line({ colour }, kind);
     if (this.arrows.length) line({ class: "arrow" }, told.arrows.said);
-    if (this.rods.some((rod) => rod.tension)) line({ class: "scale" }, `tendons and links: 0 to ${told.tension.written}`);
+    if (this.rods.some((rod) => rod.tension)) line({ class: "scale" }, `force of links: ${told.tension.written}`);
     if (told.still.length) line({ class: "line" }, "feet at rest");
   }
 }
