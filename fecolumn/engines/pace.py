@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 #: File of a running analysis with its pace, from which a study knows how long it will take
 NAME = "pace.json"
-# Wall time of steps [s] after which the pace is known
-_KNOWN_S = 1.0
+# Wall time of steps [s], and their least number, after which the pace is known
+_KNOWN_S, _KNOWN_STEPS = 1.0, 3
 # Wall time [s] between two looks, so that Ctrl-C and progress do not wait; steps until the first
 _LOOK_S, _FIRST_STEPS = 0.25, 5
 # A rest of so long [s] is told; of one longer than this, what would shorten it
@@ -69,13 +69,15 @@ class Pace:
             self._record = dataclasses.replace(record)
             return
         self._s_per_step, self._looked = _each(self._looked, now), now
-        if now[1] - self._judged[1] >= _LOOK_S:
+        # one step alone may have compiled
+        if now[1] - self._judged[1] >= _LOOK_S and now[0] - self._judged[0] > 1:
             each = _each(self._judged, now)
-            if each > self._slow:
+            if each > self._slow and self._s_per_step > SLOW_S:
                 self._slow = _SLOWER * each
                 self._say(self._why(record, each))
             self._judged, self._record = now, dataclasses.replace(record)
-        if not self._told and now[1] - self._began[1] >= _KNOWN_S:
+        known = now[1] - self._began[1] >= _KNOWN_S and now[0] - self._began[0] >= _KNOWN_STEPS
+        if known and not self._told:
             self._told = True
             self._tell()
 
@@ -99,11 +101,11 @@ class Pace:
                 write_json(
                     analysis.folder / NAME, {"whole_s": each * surely, "cheaper": cheaper_keys}
                 )
-        said = f"{made:,} steps took {1e3 * each:.2g} ms each: about {clock(left)} for the rest"
+        said = f"{made:,} steps took {_written(each)} each: about {clock(left)} for the rest"
         if surely < analysis.steps:
             until = each * max(surely - analysis.step, 0)
             said = (
-                f"{made:,} steps took {1e3 * each:.2g} ms each: about {clock(until)} to the end of "
+                f"{made:,} steps took {_written(each)} each: about {clock(until)} to the end of "
                 f"the motion, {clock(left)} at most until at rest"
             )
         if left > _LONG_S:
@@ -129,9 +131,12 @@ class Pace:
         for key, name in (("cuts", "halvings"), ("parts", "parts while a rim rolls fast")):
             if spent[key]:
                 parts.append(f"{spent[key]:.3g} {name}")
+        if analysis.case.integration.engine == "full":
+            dofs = sum(part.model.dofs for part in analysis.structure.parts)
+            parts.insert(0, f"{dofs:,} degrees of freedom")
         last = analysis.history.last()
         return (
-            f"steps take {1e3 * each:.3g} ms each around t = {last['time']:.3f} s: "
+            f"steps take {_written(each)} each around t = {last['time']:.3f} s: "
             f"{_busiest(analysis.structure, last)}, {', '.join(parts)} a step"
         )
 
@@ -139,6 +144,11 @@ class Pace:
 def _each(before: tuple[int, float], now: tuple[int, float]) -> float:
     """Wall time of a step [s] between two looks (step, wall time [s])."""
     return (now[1] - before[1]) / (now[0] - before[0])
+
+
+def _written(each: float) -> str:
+    """Wall time of a step [s], in words."""
+    return f"{1e3 * each:.2g} ms" if each < 0.1 else f"{1e3 * each:,.0f} ms"
 
 
 def contact_points_of(structure: StructureModel) -> dict[str, int]:

@@ -133,6 +133,18 @@ def test_slow_steps_say_which_joint_and_how_many_iterations(tmp_path):
     assert len(said) == 2 and "200 ms" in said[1]
 
 
+def test_one_slow_step_alone_is_not_told(tmp_path):
+    said = []
+    analysis = _running(tmp_path, steps=5)
+    pace = _begun(analysis, said)
+    _go(analysis, pace, 1, 4.0)
+    _go(analysis, pace, 2, 4.01)
+    assert not said
+    _go(analysis, pace, 3, 4.2)
+    _go(analysis, pace, 4, 4.4)
+    assert len(said) == 1 and "195 ms" in said[0]
+
+
 def test_points_of_both_sides_are_those_of_one_joint(tmp_path):
     points = contact_points_of(_running(tmp_path).structure)
     assert points == {"feet": 12, "head": 30 + 12}
