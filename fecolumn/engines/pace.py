@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 NAME = "pace.json"
 # Wall time of steps [s], and their least number, after which the pace is known
 _KNOWN_S, _KNOWN_STEPS = 1.0, 3
-# Wall time [s] between two looks, so that Ctrl-C and progress do not wait; steps until the first
-_LOOK_S, _FIRST_STEPS = 0.25, 5
+#: Wall time [s] between two looks, so that Ctrl-C and progress do not wait; steps until the first
+LOOK_S, _FIRST_STEPS = 0.25, 5
 # A rest of so long [s] is told; of one longer than this, what would shorten it
 _TOLD_S, _LONG_S = 3.0, 30.0
 #: A step that takes longer [s] is slow
@@ -56,7 +56,7 @@ class Pace:
         """Steps until the next look, `most` at most."""
         if not self._s_per_step:
             return min(_FIRST_STEPS, most)
-        return max(1, min(most, int(_LOOK_S / self._s_per_step)))
+        return max(1, min(most, int(LOOK_S / self._s_per_step)))
 
     def look(self, record) -> None:
         """Look at the clock after some steps; `record`: Record of all steps so far."""
@@ -70,7 +70,7 @@ class Pace:
             return
         self._s_per_step, self._looked = _each(self._looked, now), now
         # one step alone may have compiled
-        if now[1] - self._judged[1] >= _LOOK_S and now[0] - self._judged[0] > 1:
+        if now[1] - self._judged[1] >= LOOK_S and now[0] - self._judged[0] > 1:
             each = _each(self._judged, now)
             if each > self._slow and self._s_per_step > SLOW_S:
                 self._slow = _SLOWER * each

@@ -17,7 +17,7 @@ from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
-from fecolumn.engines.pace import Pace
+from fecolumn.engines.pace import LOOK_S, Pace
 from fecolumn.engines.passing import Passing
 from fecolumn.engines.reduced.observe import ENERGY, column_index
 from fecolumn.engines.reduced.rigid_loss import loss_share
@@ -110,14 +110,14 @@ class ReducedAnalysis(OfStructure, Analysis):
         saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
-                count = min(pace.chunk(CHUNK), self.steps - self.step)
+                count = min(CHUNK, self.steps - self.step)
                 if self.step < self.motion_steps:
                     count = min(count, self.motion_steps - self.step)
                 count = passing.steps(engine.motion, self.case.integration.dt_s, count)
                 for every in (self.field_steps, self.states.every if self.states else 0):
                     if every:
                         count = min(count, every - self.step % every)
-                over = self._advance(count) and self._stays()
+                over = self._advance_while_quick(count, pace) and self._stays()
                 if told := passing.told(engine.motion):
                     self._save()
                     raise AnalysisFailed(f"{told}; state saved in {self.folder / CHECKPOINT}")
@@ -131,7 +131,6 @@ class ReducedAnalysis(OfStructure, Analysis):
                     },
                     engine.record,
                 )
-                pace.look(engine.record)
                 self._keep()
                 ended = stop()
                 if ended or time.perf_counter() - saved > cadence.checkpoint_every_s:
@@ -188,6 +187,15 @@ class ReducedAnalysis(OfStructure, Analysis):
         if self._advance(min(steps, self.steps - self.step), goes_on=True):
             return True
         return bool(self.engine.made[:, ENERGY].max(initial=0.0) <= self.still_j)
+
+    def _advance_while_quick(self, count: int, pace: Pace) -> bool:
+        """So many steps, fewer where they are slow; whether the column is lost or at rest."""
+        end, began = self.step + count, time.perf_counter()
+        while True:
+            over = self._advance(min(pace.chunk(count), end - self.step))
+            pace.look(self.engine.record)
+            if over or self.step >= end or time.perf_counter() - began >= LOOK_S:
+                return over
 
     def _advance(self, count: int, goes_on: bool = False) -> bool:
         """So many steps at most, also of what is at rest where it `goes_on`; whether the column is
