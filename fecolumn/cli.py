@@ -160,7 +160,11 @@ def _parser() -> argparse.ArgumentParser:
     add("risk", "how often a limit state is reached: fragility and hazard curve of a site", risk)
     add("screen", "rank a list of objects by how likely they overturn or slide", screen)
     add("calibrate", "fit keys of a case to a measured free-rocking test", calibrate)
-    add("render", "draw an analysis: movie, stills, sequence figure, ParaView's view", render)
+    add(
+        "render",
+        "draw an analysis: movie, stills, sequence figure, a page, ParaView's view",
+        render,
+    )
     add(
         "rocking",
         "run a rocking model of rigid bodies in a motion or an ensemble; overturning spectra",

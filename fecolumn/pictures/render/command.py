@@ -1,4 +1,4 @@
-"""`fecolumn render`: movie, stills and sequence figure of an analysis, and its view in ParaView."""
+"""`fecolumn render`: movie, stills, sequence figure, page, and view in ParaView of an analysis."""
 
 from __future__ import annotations
 
