@@ -1,6 +1,6 @@
-"""The command line: fecolumn new | mesh | run | resume | study | compare | report | fragility |
-design | risk | screen | calibrate | render | rocking | motions | keys | help | verify | prepare |
-doctor | completion.
+"""The command line: fecolumn new | mesh | run | resume | cost | study | compare | report |
+fragility | design | risk | screen | calibrate | render | rocking | motions | keys | help | verify |
+prepare | doctor | completion.
 """
 
 from __future__ import annotations
@@ -95,6 +95,7 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn.pictures.render import command as render
     from fecolumn.study import command as study
     from fecolumn.study import compare_command as compare
+    from fecolumn.study import cost_command as cost
     from fecolumn.study import key_tables as keys
     from fecolumn.study import motions_command as motions
     from fecolumn.study import rocking_command as rocking
@@ -141,6 +142,7 @@ def _parser() -> argparse.ArgumentParser:
     resume = add("resume", "go on with an analysis from its last checkpoint", main=_resume)
     resume.add_argument("output", metavar="DIR", help="result folder of fecolumn run")
     resume.add_argument("-q", "--quiet", action="store_true", help="no progress line")
+    add("cost", "measure what an analysis takes, and by how much keys make it cheaper", cost)
     add("study", "run a sweep of analyses and compare their CDFs", study)
     add(
         "compare",
@@ -158,7 +160,11 @@ def _parser() -> argparse.ArgumentParser:
     add("risk", "how often a limit state is reached: fragility and hazard curve of a site", risk)
     add("screen", "rank a list of objects by how likely they overturn or slide", screen)
     add("calibrate", "fit keys of a case to a measured free-rocking test", calibrate)
-    add("render", "draw an analysis: movie, stills, sequence figure, ParaView's view", render)
+    add(
+        "render",
+        "draw an analysis: movie, stills, sequence figure, a page, ParaView's view",
+        render,
+    )
     add(
         "rocking",
         "run a rocking model of rigid bodies in a motion or an ensemble; overturning spectra",

@@ -13,7 +13,8 @@ from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.foundation.schema import read_toml
-from fecolumn.pictures.render.draw import Wish, render
+from fecolumn.pictures.render.draw import render
+from fecolumn.pictures.render.wish import Wish
 from fecolumn.simulation import run
 
 # Acceleration [g] at which the arch of meshes/arch.toml becomes a mechanism, by limit analysis; the

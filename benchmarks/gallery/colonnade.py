@@ -7,7 +7,8 @@ from pathlib import Path
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.foundation.schema import read_toml
-from fecolumn.pictures.render.draw import Wish, render
+from fecolumn.pictures.render.draw import render
+from fecolumn.pictures.render.wish import Wish
 from fecolumn.simulation import run
 
 # End of the film [s], pictures a second, its size in pixels

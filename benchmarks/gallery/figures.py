@@ -40,7 +40,8 @@ def rocking(work: Work, target: Path) -> str:
     """
     from fecolumn.case.case import case_from_tables
     from fecolumn.engines.dynamics.history import read_history
-    from fecolumn.pictures.render.draw import Wish, render
+    from fecolumn.pictures.render.draw import render
+    from fecolumn.pictures.render.wish import Wish
     from fecolumn.simulation import run
 
     file, folder = ROOT / "meshes" / "stout.toml", work.folder / "rocking"

@@ -9,6 +9,7 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.analysis import CHECKPOINT, Analysis
+from fecolumn.engines.pace import Pace
 from fecolumn.engines.reduced_engine import begins_unstrained, upright
 from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.fem.rotation import out_of_frames
@@ -212,6 +213,7 @@ class FullAnalysis(OfStructure, Analysis):
 
         cadence = self.case.output
         progress = self.progress()
+        pace = Pace(self, progress.say, self.stepper.record)
         saved, fallen, over, off = time.perf_counter(), STANDS, False, None
         try:
             while self.step < self.steps and not over:
@@ -223,6 +225,7 @@ class FullAnalysis(OfStructure, Analysis):
                 fallen = self.observer.fallen(self.state, measures, self.steepest(self.step))
                 over = fallen != STANDS or self.energy_left() <= self.rest_j
                 progress.show(self.step, measures, self.stepper.record)
+                pace.look(self.stepper.record)
                 if self.fields and self.step % self.field_steps == 0:
                     self._write_fields()
                 due, ended = self._agree(
@@ -237,6 +240,7 @@ class FullAnalysis(OfStructure, Analysis):
             off = self.off_or_failed(failure)
         finally:
             progress.end()
+            pace.end()
         dofs = 3 * self.system.bodies.n_nodes + sum(base.dofs for base in self.system.bases)
         return self.finish(
             off or self.ending(fallen, self.state.rotation[self.observer.body]),

@@ -17,6 +17,7 @@ from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
+from fecolumn.engines.pace import LOOK_S, Pace
 from fecolumn.engines.passing import Passing
 from fecolumn.engines.reduced.observe import ENERGY, column_index
 from fecolumn.engines.reduced.rigid_loss import loss_share
@@ -29,7 +30,7 @@ from fecolumn.foundation.atomic import write_bytes
 from fecolumn.structures.pads import warn_of_grounds
 from fecolumn.structures.structure import structure_model
 
-# Steps between looks at the clock, Ctrl-C and the progress line: well below a second
+# Most steps between looks at the clock, Ctrl-C and the progress line; fewer where they are slow
 CHUNK = 500
 
 
@@ -105,6 +106,7 @@ class ReducedAnalysis(OfStructure, Analysis):
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         cadence, engine = self.case.output, self.engine
         progress, passing = self.progress(), Passing(self.structure)
+        pace = Pace(self, progress.say, engine.record)
         saved, over, off = time.perf_counter(), False, None
         try:
             while self.step < self.steps and not over:
@@ -115,7 +117,7 @@ class ReducedAnalysis(OfStructure, Analysis):
                 for every in (self.field_steps, self.states.every if self.states else 0):
                     if every:
                         count = min(count, every - self.step % every)
-                over = self._advance(count) and self._stays()
+                over = self._advance_while_quick(count, pace) and self._stays()
                 if told := passing.told(engine.motion):
                     self._save()
                     raise AnalysisFailed(f"{told}; state saved in {self.folder / CHECKPOINT}")
@@ -140,6 +142,7 @@ class ReducedAnalysis(OfStructure, Analysis):
             off = self.off_or_failed(failure)
         finally:
             progress.end()
+            pace.end()
         fallen = engine.fallen(self.steepest(self.step)) if over else STANDS
         if self.states:
             self.states.add(engine, last=True)
@@ -184,6 +187,15 @@ class ReducedAnalysis(OfStructure, Analysis):
         if self._advance(min(steps, self.steps - self.step), goes_on=True):
             return True
         return bool(self.engine.made[:, ENERGY].max(initial=0.0) <= self.still_j)
+
+    def _advance_while_quick(self, count: int, pace: Pace) -> bool:
+        """So many steps, fewer where they are slow; whether the column is lost or at rest."""
+        end, began = self.step + count, time.perf_counter()
+        while True:
+            over = self._advance(min(pace.chunk(count), end - self.step))
+            pace.look(self.engine.record)
+            if over or self.step >= end or time.perf_counter() - began >= LOOK_S:
+                return over
 
     def _advance(self, count: int, goes_on: bool = False) -> bool:
         """So many steps at most, also of what is at rest where it `goes_on`; whether the column is

@@ -56,6 +56,16 @@ class Bar:
             self._bar.n = min(done, self.total)
             self._bar.set_description_str(words)
 
+    def say(self, words: str) -> None:
+        """A line of words above the bar, or in the log."""
+        if self._quiet:
+            return
+        with contextlib.suppress(OSError):
+            if self._bar is None:
+                print(words, file=self._stream, flush=True)
+            else:
+                self._bar.write(words, file=self._stream)
+
     def left(self, done: float, total: float) -> str:
         """Time that the rest takes at the pace so far."""
         return clock((time.monotonic() - self._began) / done * (total - done))
@@ -82,9 +92,10 @@ class Progress(Bar):
 
     def show(self, step: int, measures: dict[str, Any], record: Any) -> None:
         """Show the state after `step` where it is time to."""
-        if self._first is None:
-            self._first, self._iterations, self._counted = step - 1, record.iterations, step
-        if self.due():
+        if self._first is None:  # the first steps may compile, and tell nothing of the rest
+            self._first, self._iterations, self._counted = step, record.iterations, step
+            self._began = time.monotonic()
+        elif self.due():
             rests = step >= self.total
             left = (
                 "until at rest"

@@ -94,7 +94,7 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
         on &= over(nodes @ plane, region, 2 * allowance) | (
             cKDTree(outlines[0][:, 0]).query(nodes)[0] < EDGE * size
         )
-    # where the outlines of either face lie over the slave's, and as far as they may slide from there
+    # where the outlines of either face lie over the slave's, and as far as they may slide
     lines = np.concatenate([face.outline, outlines[0] + shift]) @ face.axes[:, :2]
     zones = [(*start, *end, allowance) for start, end in lines.tolist()]
     return Edge(

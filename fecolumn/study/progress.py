@@ -10,6 +10,9 @@ from typing import TextIO
 from fecolumn.foundation.progress import Bar, clock
 from fecolumn.study.outcome import DONE, FAILED, TaskOutcome
 
+# A study that takes longer [s] is told what would make it shorter
+_LONG_S = 60.0
+
 
 class StudyProgress(Bar):
     """Counts of a running study.
@@ -38,6 +41,7 @@ class StudyProgress(Bar):
         self._remaining, self._worked, self.ended, self._busy_s = effort, 0.0, 0, 0.0
         self._shown = -math.inf
         self._preparing, self._prepared_s, self._began_s = "", 0.0, 0.0
+        self._s_per_effort = 0.0
 
     def count(self, outcome: TaskOutcome, effort: float) -> None:
         """Take note of an analysis that has ended."""
@@ -72,6 +76,18 @@ class StudyProgress(Bar):
             self._prepared_s = elapsed_s
         self._preparing = words
 
+    def foresee(self, whole_s: float, effort: float, cheaper: str) -> None:
+        """Take note of how long a running analysis will take [s], and of the keys that would make
+        it cheaper, which are told once where all take long.
+        """
+        first, self._s_per_effort = not self._s_per_effort, whole_s / effort
+        left = self._s_per_effort * self._remaining / self._workers
+        if first and left > _LONG_S:
+            self.say(
+                f"one analysis takes about {clock(whole_s)}, all that are missing {clock(left)}; "
+                f"{cheaper}"
+            )
+
     def line(self, elapsed_s: float) -> str:
         """The progress after `elapsed_s` of wall time [s]."""
         parts = [f"{self.done + self.failed}/{self._analyses} analyses"]
@@ -83,6 +99,9 @@ class StudyProgress(Bar):
             parts.append(f"{rate:.3g} a second" if rate >= 2 else f"{60 * rate:.3g} a minute")
             if self.done + self.failed < self._analyses:
                 parts.append(f"{clock(working_s * max(self._remaining, 0.0) / self._worked)} to go")
+        elif self._s_per_effort:
+            whole = self._s_per_effort * self._remaining / self._workers
+            parts.append(f"about {clock(max(whole - working_s, 0.0))} to go")
         parts += [
             f"{self.overturned} overturned",
             *([f"{self.slid_off} slid off"] if self.slid_off else []),

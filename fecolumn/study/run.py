@@ -7,11 +7,14 @@ import dataclasses
 import sqlite3
 import sys
 import warnings
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, TextIO
 
 from fecolumn.case.sections import REST, Motion
+from fecolumn.engines.pace import NAME as PACE
 from fecolumn.foundation.atomic import disk_full
+from fecolumn.foundation.files import Unreadable, read_json
 from fecolumn.study.mixture import other_code
 from fecolumn.study.outcome import FULL, RETURNED, TaskOutcome
 from fecolumn.study.plan import Plan, PlannedAnalysis
@@ -203,7 +206,21 @@ def _work_off(
             progress.count(outcome, analysis.effort)
             pace.note(outcome, analysis)
         store.ledger.commit_now_and_then()
+        if not progress.ended:
+            _foresee(store, given.values(), progress)
         progress.show("" if progress.ended or store.entry != ENTRY else preparation(given.values()))
+
+
+def _foresee(store: Store, given: Iterable[PlannedAnalysis], progress: StudyProgress) -> None:
+    """Tell how long the analyses at work will take, as far as one of them knows its pace."""
+    for analysis in given:
+        try:
+            found = read_json(store.result_folder(analysis.id) / PACE)
+            whole_s, cheaper = float(found["whole_s"]), str(found["cheaper"])
+        except (OSError, Unreadable, KeyError, TypeError, ValueError):
+            continue
+        progress.foresee(whole_s, analysis.effort, cheaper)
+        return
 
 
 class _Pace:

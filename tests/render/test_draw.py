@@ -12,9 +12,10 @@ from rocking_analyses import BLOCK, analysed
 from fecolumn.cli import main
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render import camera, command, movie
-from fecolumn.pictures.render.draw import Wish, render
+from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.instants import chosen_instants
 from fecolumn.pictures.render.result import read_result
+from fecolumn.pictures.render.wish import Wish
 
 SMALL = dict(size=(360, 240), fps=10.0)
 

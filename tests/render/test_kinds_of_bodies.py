@@ -6,9 +6,10 @@ import pytest
 import scipy.sparse as sparse
 from rocking_structures import STONE, analysed
 
-from fecolumn.pictures.render.draw import Wish, render
+from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.frames import Frames
 from fecolumn.pictures.render.result import read_result
+from fecolumn.pictures.render.wish import Wish
 
 
 @pytest.fixture(scope="module")

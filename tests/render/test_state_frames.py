@@ -10,9 +10,10 @@ import pytest
 from rocking_analyses import BLOCK, DRUM, analysed
 
 from fecolumn.foundation.schema import InputError
-from fecolumn.pictures.render.draw import Wish, render
+from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.frames import Frames
 from fecolumn.pictures.render.result import read_result
+from fecolumn.pictures.render.wish import Wish
 
 
 @pytest.fixture(scope="module")

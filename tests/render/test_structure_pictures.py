@@ -10,9 +10,10 @@ import pytest
 
 from fecolumn.cli import main
 from fecolumn.foundation.schema import InputError
-from fecolumn.pictures.render.draw import Wish, render
+from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.frames import Frames
 from fecolumn.pictures.render.result import read_result
+from fecolumn.pictures.render.wish import Wish
 
 SMALL = dict(size=(360, 240), fps=10.0)
 

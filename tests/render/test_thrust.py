@@ -11,11 +11,12 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.cli import main
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.foundation.schema import InputError
-from fecolumn.pictures.render.draw import Wish, render
+from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.frames import Frames
 from fecolumn.pictures.render.overlay import legend_force
 from fecolumn.pictures.render.result import read_result
 from fecolumn.pictures.render.thrust import JointForces, _inside, arrow_length
+from fecolumn.pictures.render.wish import Wish
 
 THICKNESS = ARCH["bodies"]["arch"]["thickness_m"]
 OPEN = 1e-2

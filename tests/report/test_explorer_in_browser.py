@@ -2,29 +2,16 @@
 keyboard and by mouse.
 """
 
-import importlib.util
 import json
-import os
 import re
-import shutil
-import tempfile
 
 import pytest
+from chromium import MISSING, chromium, open_page
 
 from fecolumn.cli import main
 from fecolumn.study.report.page import write_report
 
-CHROMIUM, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-MISSING = (
-    ""
-    if CHROMIUM and DRIVER and importlib.util.find_spec("selenium")
-    else (
-        "needs Debian's chromium and chromium-driver, and selenium: ./containers/run "
-        "pytest installs them"
-    )
-)
 if not MISSING:
-    from selenium import webdriver
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.keys import Keys
 
@@ -52,18 +39,6 @@ free_vibration_s = 1.0
 "contact.friction_coefficient" = [0.3, 0.7]
 "motion.source" = ["motion0.csv", "motion1.csv", "motion2.csv", "motion3.csv", "motion4.csv"]
 """
-# Chromium asks the network for nothing, and takes a container's small /dev/shm
-OPTIONS = (
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--disable-dev-shm-usage",
-)
 
 
 @pytest.fixture(scope="module")
@@ -85,19 +60,8 @@ def address(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def browser():
-    if MISSING:
-        (pytest.fail if os.environ.get("CI") else pytest.skip)(MISSING)
-    options = webdriver.ChromeOptions()
-    options.binary_location = CHROMIUM
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    with tempfile.TemporaryDirectory(
-        ignore_cleanup_errors=True
-    ) as profile:  # Chromium's last child may still write
-        for option in (*OPTIONS, f"--user-data-dir={profile}"):
-            options.add_argument(option)
-        window = webdriver.Chrome(options, webdriver.ChromeService(DRIVER))
+    with chromium() as window:
         yield window
-        window.quit()
 
 
 class Reader:
@@ -105,11 +69,7 @@ class Reader:
 
     def __init__(self, window, address: str, width: int, height: int):
         self.window = window
-        window.execute_cdp_cmd(
-            "Emulation.setDeviceMetricsOverride",
-            {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": width < 500},
-        )
-        window.get(address)
+        open_page(window, address, width, height)
         self.data = json.loads(
             self.script("return document.getElementById('explorer-data').textContent")
         )

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from rocking_block import ENTRY
@@ -19,7 +20,7 @@ from fecolumn.study.outcome import TaskOutcome
 from fecolumn.study.plan import read_plan
 from fecolumn.study.preparation import COMPILING, MODELLING, preparation
 from fecolumn.study.progress import StudyProgress
-from fecolumn.study.run import StudyError, complete_study
+from fecolumn.study.run import StudyError, _foresee, complete_study
 from fecolumn.study.store import Store
 from fecolumn.study.table import table_text, write_tables
 
@@ -340,6 +341,39 @@ def test_progress_judges_the_rest_by_its_effort(tmp_path):
         progress.line(100.0)
         == "1/2 analyses, 0.6 a minute, 52 s to go, 1 overturned, 0 failed, workers 45 % busy"
     )
+
+
+def test_progress_is_foreseen_from_the_pace_of_an_analysis_at_work(tmp_path):
+    plan = read_plan(write_study(tmp_path, dt=[0.02, 1e-3], alpha=[0], pulses=[1]))
+    stream, effort = io.StringIO(), sum(a.effort for a in plan.analyses)
+    progress = StudyProgress({"planned": 2}, effort, 2, stream)
+    long = plan.analyses[1]
+    for _ in range(2):
+        progress.foresee(200.0, long.effort, "7 contact points")
+    # 3050 of 2000, by two workers, told once
+    assert stream.getvalue() == (
+        "one analysis takes about 3 min 20 s, all that are missing 2 min 32 s; 7 contact points\n"
+    )
+    assert progress.line(32.0) == "0/2 analyses, about 2 min 00 s to go, 0 overturned, 0 failed"
+    # what has ended is known better
+    progress.count(TaskOutcome(long.id, "done", wall_s=90.0, started=1.0), long.effort)
+    assert "52 s to go" in progress.line(100.0)
+    quick = StudyProgress({"planned": 2}, effort, 2, io.StringIO())
+    quick.foresee(5.0, long.effort, "7 contact points")
+    assert not quick._stream.getvalue()
+
+
+def test_a_driver_reads_the_pace_of_an_analysis_at_work(tmp_path):
+    plan = read_plan(write_study(tmp_path, dt=[0.02, 1e-3], alpha=[0], pulses=[1]))
+    progress = StudyProgress({"planned": 2}, sum(a.effort for a in plan.analyses), 1, io.StringIO())
+    store = SimpleNamespace(result_folder=lambda case_id: tmp_path / case_id)
+    for analysis, text in zip(plan.analyses, ("{cut", '{"whole_s": 40.0, "cheaper": "words"}')):
+        (tmp_path / analysis.id).mkdir()
+        (tmp_path / analysis.id / "pace.json").write_text(text)
+    _foresee(store, plan.analyses[:1], progress)
+    assert "to go" not in progress.line(1.0)
+    _foresee(store, plan.analyses, progress)
+    assert "about 1 min 00 s to go" in progress.line(1.0)  # 61 s of 3050
 
 
 def test_time_in_which_the_engine_is_compiled_is_told_and_no_analysis_pays_for_it(tmp_path):

@@ -1,4 +1,4 @@
-"""`fecolumn render`: movie, stills and sequence figure of an analysis, and its view in ParaView."""
+"""`fecolumn render`: movie, stills, sequence figure, page, and view in ParaView of an analysis."""
 
 from __future__ import annotations
 
@@ -25,9 +25,8 @@ def add_arguments(parser) -> None:
     parser.add_argument(
         "--view",
         choices=VIEWS,
-        default="lean",
-        help="from where: lean (default) sees the largest lean at full length, front looks "
-        "along y, side along -x",
+        help="from where: lean (default, of --html iso) sees the largest lean at full length, "
+        "front looks along y, side along -x",
     )
     parser.add_argument(
         "--body",
@@ -66,13 +65,13 @@ def add_arguments(parser) -> None:
         "--start",
         metavar="S",
         type=float,
-        help="begin of the movie [s] (default: that of the analysis)",
+        help="begin of the movie or page [s] (default: that of the analysis)",
     )
     parser.add_argument(
         "--end",
         metavar="S",
         type=float,
-        help="end of the movie [s] (default: that of the analysis)",
+        help="end of the movie or page [s] (default: that of the analysis)",
     )
     parser.add_argument(
         "--fps",
@@ -101,6 +100,13 @@ def add_arguments(parser) -> None:
         help="write the script DIR/render/view.py for ParaView's pvpython and pvbatch, and "
         "nothing else",
     )
+    parser.add_argument(
+        "--html",
+        action="store_true",
+        help="write DIR/render/motion.html, one page with the motion in three dimensions and a "
+        "time slider that any browser opens from its file, and nothing else; needs k3d (pip "
+        "install 'fecolumn[html]')",
+    )
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress line")
 
 
@@ -112,7 +118,8 @@ def main(args) -> int:
     InputError
         no finished analysis in the folder, or an option that does not fit it.
     """
-    from fecolumn.pictures.render.draw import Wish, render
+    from fecolumn.pictures.render.draw import render
+    from fecolumn.pictures.render.wish import Wish
 
     wish = Wish.of(args)
     try:

@@ -1,160 +1,29 @@
-"""Draws an analysis: what the user wishes, checked, and the files of it."""
+"""Draws an analysis: the files of what the user wishes."""
 
 from __future__ import annotations
 
-import math
-import re
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from fecolumn.foundation.folder import written
 from fecolumn.foundation.progress import CountProgress
-from fecolumn.foundation.schema import InputError
-from fecolumn.pictures.render.camera import VIEWS, camera
+from fecolumn.pictures.render.camera import camera
 from fecolumn.pictures.render.instants import chosen_instants
 from fecolumn.pictures.render.result import read_result
 from fecolumn.pictures.render.thrust import arrow_length
+from fecolumn.pictures.render.wish import Wish, check_option
 
-COMMAND = "fecolumn render"
-# A movie's sides [pixels]; a picture's resolution, that of post.style, twice as fine for what VTK
-# draws
-_SIDES, _DPI = (128, 4096), 400
-# Width over height of a movie: parts of the picture overlap in a narrower one
-_ASPECT = 1.4, 3.0
+# A picture's resolution, that of post.style, twice as fine for what VTK draws
+_DPI = 400
 # Frames that are looked at for the range of colours, and for the exaggeration "auto"
 _SAMPLES = 24
 # A longer movie was asked for by mistake
 _MOST_PICTURES = 100_000
+_ALL = Wish()
 
 
-@dataclass(frozen=True, slots=True)
-class Wish:
-    """What is to be drawn; times in s.
-
-    Attributes
-    ----------
-    only
-        "movie", "pictures" or "" for both.
-    gif, view, color, paraview
-        as of the command's options.
-    instants
-        of stills and sequence, empty to choose.
-    exaggerate
-        factor on elastic displacements, or "auto".
-    start, end
-        of the movie; None for those of the analysis.
-    fps
-        pictures a second.
-    speed
-        seconds of motion in one of the movie.
-    size
-        (width, height) of the movie [pixels].
-    body
-        of a structure, whose top is followed and at whose foot the view "foot" looks.
-    forces
-        whether resultants, thrust line and hinges are drawn over the bodies.
-    """
-
-    only: str = ""
-    gif: bool = False
-    view: str = "lean"
-    instants: tuple[float, ...] = ()
-    exaggerate: float | str = 1.0
-    color: str = ""
-    start: float | None = None
-    end: float | None = None
-    fps: float = 25.0
-    speed: float = 1.0
-    size: tuple[int, int] = (1280, 720)
-    paraview: bool = False
-    body: str = ""
-    forces: bool = False
-
-    def __post_init__(self):
-        _check(self.view in VIEWS, "--view", self.view, f"must be one of {', '.join(VIEWS)}")
-        _check(
-            1 <= self.fps <= 60, "--fps", self.fps, "must lie between 1 and 60 pictures a second"
-        )
-        _check(1e-3 <= self.speed <= 100, "--speed", self.speed, "must lie between 0.001 and 100")
-        _check(
-            len(self.instants) <= 10, "--instants", len(self.instants), "must be ten times at most"
-        )
-        factor = self.exaggerate
-        _check(
-            factor == "auto" or (isinstance(factor, (int, float)) and 1 <= factor <= 1e6),
-            "--exaggerate",
-            factor,
-            "must be auto, or lie between 1 and 1e6",
-        )
-        width, height = self.size
-        _check(
-            _SIDES[0] <= min(self.size)
-            and max(self.size) <= _SIDES[1]
-            and not (width % 2 or height % 2),
-            "--size",
-            f"{width}x{height}",
-            f"must be even numbers of {_SIDES[0]} to {_SIDES[1]} pixels",
-        )
-        _check(
-            _ASPECT[0] <= width / height <= _ASPECT[1],
-            "--size",
-            f"{width}x{height}",
-            f"must be {_ASPECT[0]:g} to {_ASPECT[1]:g} times as wide as high",
-        )
-
-    @classmethod
-    def of(cls, args) -> Wish:
-        """The options of the command line."""
-        size = re.fullmatch(r"(\d{1,5})x(\d{1,5})", args.size)
-        _check(size, "--size", args.size, "must be two numbers of pixels such as 1280x720")
-        instants = (
-            tuple(
-                _number("--instants", word, "must be times [s] such as 0.5,1.2")
-                for word in args.instants.split(",")
-            )
-            if args.instants
-            else ()
-        )
-        exaggerate = (
-            "auto"
-            if args.exaggerate == "auto"
-            else _number("--exaggerate", args.exaggerate, "must be a number or auto")
-        )
-        return cls(
-            args.only or "",
-            args.gif,
-            args.view,
-            instants,
-            exaggerate,
-            args.color,
-            args.start,
-            args.end,
-            args.fps,
-            args.speed,
-            (int(size[1]), int(size[2])),
-            args.paraview,
-            args.body,
-            args.forces,
-        )
-
-
-def _number(option: str, word: str, allowed: str) -> float:
-    try:
-        value = float(word)
-    except ValueError:
-        value = math.nan
-    _check(math.isfinite(value), option, word, allowed)
-    return value
-
-
-def _check(holds, option: str, value, allowed: str) -> None:
-    if not holds:
-        raise InputError(COMMAND, option, value, allowed)
-
-
-def render(folder, wish: Wish = Wish(), quiet: bool = False) -> list[Path]:
+def render(folder, wish: Wish = _ALL, quiet: bool = False) -> list[Path]:
     """Write what is wished into `folder`/render; returns the files.
 
     Raises
@@ -165,6 +34,8 @@ def render(folder, wish: Wish = Wish(), quiet: bool = False) -> list[Path]:
     """
     result = read_result(folder, wish.body)
     target = result.folder / "render"
+    if wish.html:
+        return [_page(result, wish, target)]
     if wish.paraview:
         from fecolumn.pictures.render.paraview import NAME, write_view
 
@@ -180,6 +51,15 @@ def render(folder, wish: Wish = Wish(), quiet: bool = False) -> list[Path]:
     return files
 
 
+def _page(result, wish: Wish, target: Path) -> Path:
+    from fecolumn.pictures.render.page.document import NAME, page_of
+
+    page = page_of(result, _window(result, wish), wish.view, wish.speed)
+    with written(target, "render html", names=(NAME,)) as draft:
+        (draft / NAME).write_text(page, encoding="utf-8")
+    return target / NAME
+
+
 def _window(result, wish: Wish) -> tuple[float, float]:
     time = result.time
     first, last = float(time[0]), float(time[-1])
@@ -189,13 +69,13 @@ def _window(result, wish: Wish) -> tuple[float, float]:
         ("--end", end),
         *(("--instants", value) for value in wish.instants),
     ):
-        _check(
+        check_option(
             first - 1e-9 <= value <= last + 1e-9,
             option,
             value,
             f"must lie between {first:g} and {last:g} s, the time that was analysed",
         )
-    _check(start < end, "--end", end, f"must be later than the begin, {start:g} s")
+    check_option(start < end, "--end", end, f"must be later than the begin, {start:g} s")
     return start, end
 
 
@@ -266,7 +146,7 @@ def _movie(result, wish: Wish, start: float, end: float, target: Path, quiet: bo
     fps = min(wish.fps, GIF_RATE) if wish.gif else wish.fps
     interval, name = wish.speed / fps, "motion.gif" if wish.gif else "motion.mp4"
     count = int((end - start) / interval + 1e-6) + 1
-    _check(
+    check_option(
         count <= _MOST_PICTURES,
         "--fps, --speed",
         f"{wish.fps:g}, {wish.speed:g}",

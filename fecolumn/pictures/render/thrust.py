@@ -131,12 +131,18 @@ class JointForces:
         center = weighed / np.where(total > 0, total, 1.0)[:, None]
         return total / len(force), self._resultant[rows].mean(axis=0), center
 
+    def carried(self, time: float) -> tuple[np.ndarray, np.ndarray]:
+        """Resultants (n, 3) [N] on the slaves at a time [s], 0 of joints that carry nothing, and
+        centres of pressure (n, 3) [m].
+        """
+        force, resultants, centers = self._mean(time)
+        return np.where((force > CARRIES * self.largest)[:, None], resultants, 0.0), centers
+
     def at(self, time: float, poses, k: int) -> Thrust:
         """Forces at a time [s], when each body is at pose `k` of its `poses`."""
-        force, resultants, centers = self._mean(time)
-        carries = force > CARRIES * self.largest
-        resultants = np.where(carries[:, None], resultants, 0.0)
-        lines = np.broadcast_to(centers[:, None, None], (len(force), 2, 2, 3)).copy()
+        resultants, centers = self.carried(time)
+        carries = np.any(resultants != 0.0, axis=1)
+        lines = np.broadcast_to(centers[:, None, None], (len(centers), 2, 2, 3)).copy()
         for body, piece in enumerate(self._scene.bodies):
             middle = poses[body].move(piece.center[None], k)[0]
             own = [

@@ -161,10 +161,11 @@ class AnalysisResult:
         Parameters
         ----------
         wishes
-            by the names of `render.draw.Wish`, such as view="front", only="pictures",
+            by the names of `render.wish.Wish`, such as view="front", only="pictures",
             instants=(0.5, 1.0) [s].
         """
-        from fecolumn.pictures.render.draw import Wish, render
+        from fecolumn.pictures.render.draw import render
+        from fecolumn.pictures.render.wish import Wish
 
         return render(self.folder, Wish(**wishes), quiet=True)
 

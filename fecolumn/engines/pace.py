@@ -1,0 +1,208 @@
+"""How long the steps of an analysis take: told once they are known, with the keys that make them
+cheaper, and why where they are slow.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import dataclasses
+from typing import TYPE_CHECKING
+
+from fecolumn.foundation.atomic import write_json
+from fecolumn.foundation.progress import clock
+
+if TYPE_CHECKING:
+    from fecolumn.structures.model import StructureModel
+
+#: File of a running analysis with its pace, from which a study knows how long it will take
+NAME = "pace.json"
+# Wall time of steps [s], and their least number, after which the pace is known
+_KNOWN_S, _KNOWN_STEPS = 1.0, 3
+#: Wall time [s] between two looks, so that Ctrl-C and progress do not wait; steps until the first
+LOOK_S, _FIRST_STEPS = 0.25, 5
+# A rest of so long [s] is told; of one longer than this, what would shorten it
+_TOLD_S, _LONG_S = 3.0, 30.0
+#: A step that takes longer [s] is slow
+SLOW_S = 0.05
+# Slow steps are told again where they take so many times as long as those told last
+_SLOWER = 2.0
+# Points inside a face from which on fewer are advised, and how many
+FEW_POINTS = 9
+
+
+class Pace:
+    """Wall time of the steps of an analysis.
+
+    Parameters
+    ----------
+    analysis
+        with `step`, `steps`, `motion_steps`, `until_rest`, `stepping_s` [s], `case`, `structure`,
+        `folder`, `history` and `comm`.
+    say
+        function that takes a line of words.
+    record
+        Record of the steps before.
+    """
+
+    def __init__(self, analysis, say, record):
+        self._analysis, self._say = analysis, say
+        # step and wall time at the begin, when steps were last judged, at the last look
+        self._began = self._judged = self._looked = analysis.step, analysis.stepping_s
+        self._record = dataclasses.replace(record)
+        self._told, self._slow = False, SLOW_S
+        self._s_per_step = 0.0
+
+    def chunk(self, most: int) -> int:
+        """Steps until the next look, `most` at most."""
+        if not self._s_per_step:
+            return min(_FIRST_STEPS, most)
+        return max(1, min(most, int(LOOK_S / self._s_per_step)))
+
+    def look(self, record) -> None:
+        """Look at the clock after some steps; `record`: Record of all steps so far."""
+        now = self._analysis.step, self._analysis.stepping_s
+        if now[0] == self._looked[0]:
+            return
+        if not self._s_per_step:  # the first steps of a full-order engine compile
+            self._s_per_step = _each(self._looked, now)
+            self._began = self._judged = self._looked = now
+            self._record = dataclasses.replace(record)
+            return
+        self._s_per_step, self._looked = _each(self._looked, now), now
+        # one step alone may have compiled
+        if now[1] - self._judged[1] >= LOOK_S and now[0] - self._judged[0] > 1:
+            each = _each(self._judged, now)
+            if each > self._slow and self._s_per_step > SLOW_S:
+                self._slow = _SLOWER * each
+                self._say(self._why(record, each))
+            self._judged, self._record = now, dataclasses.replace(record)
+        known = now[1] - self._began[1] >= _KNOWN_S and now[0] - self._began[0] >= _KNOWN_STEPS
+        if known and not self._told:
+            self._told = True
+            self._tell()
+
+    def end(self) -> None:
+        """Remove the file of the pace."""
+        with contextlib.suppress(OSError):
+            (self._analysis.folder / NAME).unlink(missing_ok=True)
+
+    def _tell(self) -> None:
+        """Say how long the rest takes."""
+        analysis = self._analysis
+        made = analysis.step - self._began[0]
+        each = _each(self._began, self._looked)
+        surely = analysis.motion_steps if analysis.until_rest else analysis.steps
+        left = each * (analysis.steps - analysis.step)
+        if left < _TOLD_S:
+            return
+        cheaper_keys = cheaper_text(analysis.case, analysis.structure)
+        if analysis.comm.rank == 0:
+            with contextlib.suppress(OSError):
+                write_json(
+                    analysis.folder / NAME, {"whole_s": each * surely, "cheaper": cheaper_keys}
+                )
+        said = f"{made:,} steps took {_written(each)} each: about {clock(left)} for the rest"
+        if surely < analysis.steps:
+            until = each * max(surely - analysis.step, 0)
+            said = (
+                f"{made:,} steps took {_written(each)} each: about {clock(until)} to the end of "
+                f"the motion, {clock(left)} at most until at rest"
+            )
+        if left > _LONG_S:
+            said += f"; {cheaper_keys}"
+        self._say(said)
+
+    def _why(self, record, each: float) -> str:
+        """What steps do that take `each` so long [s]."""
+        analysis = self._analysis
+        steps = analysis.step - self._judged[0]
+        spent = {
+            key: (value - getattr(self._record, key)) / steps
+            for key, value in dataclasses.asdict(record).items()
+        }
+        parts = [
+            f"{spent['iterations']:.3g} iterations",
+            f"{spent['contact_iterations']:.3g} of contact problems",
+        ]
+        if spent["impacts"]:
+            parts.append(
+                f"{spent['impacts']:.3g} impacts with {spent['impact_iterations']:.3g} iterations"
+            )
+        for key, name in (("cuts", "halvings"), ("parts", "parts while a rim rolls fast")):
+            if spent[key]:
+                parts.append(f"{spent[key]:.3g} {name}")
+        if analysis.case.integration.engine == "full":
+            dofs = sum(part.model.dofs for part in analysis.structure.parts)
+            parts.insert(0, f"{dofs:,} degrees of freedom")
+        last = analysis.history.last()
+        return (
+            f"steps take {_written(each)} each around t = {last['time']:.3f} s: "
+            f"{_busiest(analysis.structure, last)}, {', '.join(parts)} a step"
+        )
+
+
+def _each(before: tuple[int, float], now: tuple[int, float]) -> float:
+    """Wall time of a step [s] between two looks (step, wall time [s])."""
+    return (now[1] - before[1]) / (now[0] - before[0])
+
+
+def _written(each: float) -> str:
+    """Wall time of a step [s], in words."""
+    return f"{1e3 * each:.2g} ms" if each < 0.1 else f"{1e3 * each:,.0f} ms"
+
+
+def contact_points_of(structure: StructureModel) -> dict[str, int]:
+    """Contact points by the name of a joint, those of both its sides together."""
+    found: dict[str, int] = {}
+    for joint in structure.joints:
+        name = structure.joints[joint.pair].name if joint.pair >= 0 else joint.name
+        nodes = structure.parts[joint.slave].model.surfaces[joint.slave_surface].nodes
+        found[name] = found.get(name, 0) + len(nodes)
+    return found
+
+
+def _busiest(structure: StructureModel, last: dict) -> str:
+    """The joint that carries with the most contact points, in words."""
+    points = contact_points_of(structure)
+    if not points:
+        return f"{int(last['active_nodes'])} points carry"
+    carrying = [name for name in points if last.get(f"interface/{name}/force", 0.0) > 0]
+    name = max(carrying or points, key=lambda one: points[one])
+    return (
+        f'joint "{name}" has {points[name]} of {sum(points.values())} contact points, '
+        f"{int(last['active_nodes'])} carry in all"
+    )
+
+
+def cheaper(case) -> dict[str, dict]:
+    """Changes of a case that make it cheaper, by dotted key; each by itself."""
+    plan = case.integration
+    found: dict[str, dict] = {}
+    if plan.engine == "full":
+        found["integration.engine"] = {"integration.engine": "reduced"}
+    given = {
+        "contact.interior_points"
+        if one.interior_points is None
+        else f"joints.{name}.interior_points": (
+            case.contact.interior_points if one.interior_points is None else one.interior_points
+        )
+        for name, one in case.joints.items()
+    }
+    many = {key: FEW_POINTS for key, value in given.items() if value > FEW_POINTS}
+    if many:
+        found["interior_points"] = many
+    if plan.engine == "reduced":
+        if case.n_modes > 5:
+            found["integration.n_modes"] = {"integration.n_modes": 5}
+        found["integration.engine"] = {"integration.engine": "rigid"}
+    found["integration.dt_s"] = {"integration.dt_s": 2 * plan.dt_s}
+    return found
+
+
+def cheaper_text(case, structure: StructureModel) -> str:
+    """The same in words."""
+    named = [f"{key} = {value!r}" for one in cheaper(case).values() for key, value in one.items()]
+    return (
+        f"{sum(contact_points_of(structure).values())} contact points; cheaper may be "
+        f"{', '.join(named)}: fecolumn cost measures by how much"
+    )

@@ -1,0 +1,1 @@
+"""One page with the motion of an analysis in three dimensions, for any browser."""

@@ -1,0 +1,168 @@
+"""`fecolumn cost`: what an analysis will take, and by how much keys make it cheaper, measured."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+import time
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from fecolumn.case.case import Case
+
+_COMMAND = "fecolumn cost"
+_SECONDS = 2.0
+# Range of the wall time of a setting's steps [s]
+_RANGE = 0.1, 3600.0
+# Other settings go on until they have come as far, at most so many times as long
+_LONGER = 2.0
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Arguments of `fecolumn cost`."""
+    parser.add_argument("case", metavar="CASE.toml")
+    parser.add_argument(
+        "--seconds",
+        metavar="S",
+        type=float,
+        default=_SECONDS,
+        help="wall time of steps of the case as it is, 0.1 to 3600; what is made before the first "
+        f"step comes on top (default: {_SECONDS:g})",
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class FirstSteps:
+    """The first steps of an analysis: their number and length [s], their wall time [s], and the
+    largest displacement of the top [m] in them.
+    """
+
+    steps: int
+    dt: float
+    wall_s: float
+    peak_m: float
+
+    @property
+    def span(self) -> float:
+        """Time analysed [s]."""
+        return self.steps * self.dt
+
+    @property
+    def pace(self) -> float:
+        """Wall time of a second of motion [s]."""
+        return self.wall_s / self.span
+
+
+def main(args: argparse.Namespace) -> int:
+    """Measure, and print the table; 0, or 130 after Ctrl-C.
+
+    Raises
+    ------
+    InputError
+        the case cannot be analysed, or is a model that takes no steps of a mesh.
+    """
+    from fecolumn.case.case import read_case
+    from fecolumn.case.sections import MODEL_ENGINES
+    from fecolumn.engines.pace import cheaper
+    from fecolumn.foundation.progress import clock
+    from fecolumn.foundation.schema import InputError
+
+    if not _RANGE[0] <= args.seconds <= _RANGE[1]:
+        allowed = f"must lie between {_RANGE[0]:g} and {_RANGE[1]:g}"
+        raise InputError(_COMMAND, "--seconds", args.seconds, allowed)
+    case = read_case(args.case)
+    if case.integration.engine in MODEL_ENGINES:
+        allowed = "is a model of rigid bodies: its analysis takes seconds, and no key makes it less"
+        raise InputError(args.case, "integration.engine", case.integration.engine, allowed)
+    duration = _duration(case, args.case)
+    _say("as it is")
+    own = first_steps(case, args.case, args.seconds)
+    print(
+        f"{'setting':<34} {'ms a step':>9} {'whole analysis':>14} {'times as fast':>13}  "
+        f"top in the first {own.span:.3g} s"
+    )
+
+    def row(name: str, trial: FirstSteps) -> None:
+        print(
+            f"{name:<34} {1e3 * trial.wall_s / trial.steps:>9.3g} "
+            f"{clock(trial.pace * duration):>14} {own.pace / trial.pace:>13.2g}  "
+            f"{1e3 * trial.peak_m:.4g} mm",
+            flush=True,
+        )
+
+    row("as it is", own)
+    for changes in cheaper(case).values():
+        name = ", ".join(f"{key} = {value!r}" for key, value in changes.items())
+        _say(name)
+        try:
+            row(name, _changed(case, args.case, changes, own, args.seconds))
+        except (InputError, RuntimeError) as error:
+            print(f"{name:<34} does not run: {str(error).splitlines()[0]}", flush=True)
+    return 0
+
+
+def _say(setting: str) -> None:
+    print(f"measuring: {setting}", file=sys.stderr, flush=True)
+
+
+def _duration(case: Case, file: str) -> float:
+    """Time analysed [s], until rest the longest."""
+    from fecolumn.case.case import check, check_duration
+    from fecolumn.motions.load import load_motion
+
+    check(case, file)
+    check_duration(case, file)
+    if case.integration.duration_s or case.motion is None:
+        return case.integration.duration_s
+    ground = load_motion(case.motion, case.integration.dt_s, file)
+    return ground.duration + case.motion.longest_free_vibration_s
+
+
+def _changed(case: Case, file: str, changes: dict, own: FirstSteps, seconds: float) -> FirstSteps:
+    """The same time of motion with other values."""
+    span = {"integration.duration_s": own.span}
+    return first_steps(case.replace({**changes, **span}), file, _LONGER * seconds)
+
+
+def first_steps(case: Case, file: str, seconds: float) -> FirstSteps:
+    """The steps of a case that are made in so much wall time [s], in a folder that is removed.
+
+    Raises
+    ------
+    AnalysisFailed
+        a step did not converge.
+    """
+    from fecolumn.engines.analysis import CHECKPOINT
+    from fecolumn.engines.dynamics.checkpoint import read_arrays
+    from fecolumn.simulation import run
+
+    began: list[float] = []
+    ended = False
+
+    def stop() -> bool:
+        nonlocal ended
+        began.append(time.monotonic())
+        ended = began[-1] - began[0] >= seconds
+        return ended
+
+    plain = case.replace({"output.states_every_s": 0.0, "output.fields_every_s": 0.0})
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            summary = run(plain, folder, file=file, quiet=True, stop=stop)
+        except KeyboardInterrupt:
+            if not ended:
+                raise
+            saved = read_arrays(Path(folder) / CHECKPOINT)
+            top = np.hypot(*saved["rows.u_top"][:, :2].T)
+            steps, wall_s, peak = int(saved["step"]), float(saved["stepping_s"]), float(top.max())
+        else:
+            steps, peak = summary["steps"], summary["u_max_m"]
+            wall_s = steps * summary["s_per_step"]
+    return FirstSteps(steps, case.integration.dt_s, wall_s, peak)
