@@ -39,6 +39,8 @@ _TURNED = {
 # Half a side [m] of the square blocks that are let go over edges and corners: about any horizontal
 # axis their inertia is the same
 _SQUARE = 0.15
+# displacement [m] of a block that overhangs by half of its own half length
+_OVERHANG = 0.1
 
 
 def run(engine: str, long: bool = False) -> CaseRows:
@@ -155,7 +157,8 @@ def _lifts(engine: str):
         direction, displaces = (
             np.array([np.cos(np.radians(a)), np.sin(np.radians(a))]) for a in (towards, way)
         )
-        for moved in (sign * one for one in DISPLACED for sign in (1, -1)):
+        most = (*DISPLACED, _OVERHANG) if way == towards else DISPLACED
+        for moved in (sign * one for one in most for sign in (1, -1)):
             make = engines(block_tables(engine, dict(at_m=[*(moved * displaces), BELOW])))
             exact = GRAVITY * (half - max(moved * float(displaces @ direction), 0.0)) / H
             errors.append(abs(lifts(make, exact, direction) / exact - 1))

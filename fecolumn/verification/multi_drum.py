@@ -26,8 +26,8 @@ _HEIGHTS, _WIDTHS, _DENSITY, _FRICTION = 7 * (0.82,) + (0.21,), (1.11, 0.90), 26
 # Of a first half of the pulse [s], accelerations [g] and whether the independent planar program
 # (1e-4 s) says that they overturn. UDEC, HybriDFEM and LMGC90 say 3.6, 4.16, 4.3 g at 0.1 s; .27,
 # .25, .25 at 0.5 s; .20, .21, .21 at 1 s; .46, .39, .44 at 0.34 s, where the planar one has
-# windows: .435 to .445, .465 to .475, .490 to .505, and from .757 on. At 0.1 s rounding decides from
-# 4.1 to 4.3 g: there a pulse stronger by 1e-9 g overturns it or does not.
+# windows: .435 to .445, .465 to .475, .490 to .505, and from .757 on. At 0.1 s rounding decides
+# from 4.1 to 4.3 g: there a pulse stronger by 1e-9 g overturns it or does not.
 _OUTCOMES = {
     0.1: {4.0: False, 4.4: True},
     0.34: {
