@@ -356,8 +356,10 @@ def _peaks_of_link(time: np.ndarray, rows: dict[str, np.ndarray], link) -> dict:
     return dict(
         tension_max_n=float(tension.max()),
         tension_min_n=float(tension.min()),
+        compression_max_n=max(0.0, -float(tension.min())),
         elongation_max_m=float(whole.max()),
         elongation_min_m=float(whole.min()),
+        shortening_max_m=max(0.0, -float(whole.min())),
         yielded_m=float(rows["yielded"][-1]),
         work_j=float(rows["work"][-1]),
         yielded_at_s=first(rows["yielded"] != 0),
