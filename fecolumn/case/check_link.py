@@ -84,5 +84,6 @@ def check_link(key: str, link, refuse) -> None:
         refuse(
             f"{key}.to_point_m",
             list(link.to_point_m),
-            f"must be another point than point_m: a {_told(link.kind)} of no length has no direction",
+            f"must be another point than point_m: a {_told(link.kind)} of no length has no "
+            "direction",
         )

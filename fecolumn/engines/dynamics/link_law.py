@@ -16,7 +16,7 @@ _HALVINGS = 60
 
 @njit
 def stretch_of(link, over):
-    """Elastic part of an elongation [m] less what has yielded: above 0 it pulls, below it pushes."""
+    """Elastic part of an elongation less what has yielded [m]: above 0 it pulls, else pushes."""
     if link.pulls and over > link.play:
         return over - link.play
     if link.pushes and over < -link.play:
