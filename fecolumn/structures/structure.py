@@ -437,7 +437,7 @@ def _links(case, name: str, places, standing: list[Standing]):
             end if other == models.GROUND else end - standing[other].center,
             keys.stiffness_n_m,
             keys.damping_n_s_m,
-            keys.prestress_n if pulls else -keys.prestress_n,
+            0.0 - keys.prestress_n if pushes and not pulls else keys.prestress_n,
             keys.slack_m + keys.gap_m,
             pushes,
             pulls,
