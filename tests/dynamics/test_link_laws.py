@@ -98,7 +98,9 @@ def test_a_large_exponent_is_the_corner():
     assert curved[3] == pytest.approx(sharp[3], rel=0.01)
 
 
-@pytest.mark.parametrize("pulls, pushes, play", [(1, 1, 0.0), (1, 1, ELASTIC), (1, 0, 0.0)])
+@pytest.mark.parametrize(
+    "pulls, pushes, play", [(1, 1, 0.0), (1, 1, ELASTIC), (1, 0, 0.0), (0, 1, ELASTIC)]
+)
 @pytest.mark.parametrize("hardening", [0.0, 0.3, 0.7])
 @pytest.mark.parametrize("bends", [np.inf, 1.0, 3.5, 20.0])
 def test_energy_is_kept_or_taken_whatever_the_way(pulls, pushes, play, hardening, bends):
@@ -107,7 +109,7 @@ def test_energy_is_kept_or_taken_whatever_the_way(pulls, pushes, play, hardening
     """
     rng = np.random.default_rng(1)
     ways = np.cumsum(rng.normal(size=60) * ELASTIC * 10 ** rng.uniform(-2, 0.8, 60)) * 0.7
-    keys = dict(pushes=bool(pushes), play=play, hardening=hardening, bends=bends)
+    keys = dict(pulls=pulls, pushes=pushes, play=play, hardening=hardening, bends=bends)
     tensions, tie, kept, taken, done = walked(ways, **keys)
     assert done == pytest.approx(taken + kept, rel=1e-10) and taken > 0.0
     fine = np.concatenate([np.linspace(a, b, 21)[1:] for a, b in zip((0.0, *ways[:-1]), ways)])
