@@ -11,8 +11,8 @@ h) F x is taken; friction: h = 0; curve of exponent 2: F E ln cosh(e / E) = m v^
 |v|^a: v^(1-a) falls by (1 - a) c t / m; stop: after the gap half a period pi sqrt(m / k), force v
 sqrt(k m), back as fast as it came; ropes: each takes B^2 / 2 k, B the force at which it breaks.
 
-Tolerances. A peak is that of the steps about it: 1e-5. The mean rate of a step of a viscous damper:
-1e-5. A rope breaks at the end of the step in which it passes its force, up to v dt farther: 1e-2.
+Tolerances. A peak is that of the steps about it: 1e-5, times the square of a longer step. The mean
+rate of a step of a viscous damper: 1e-5. A rope breaks at the end of the step in which it passes its force, up to v dt farther: 1e-2.
 """
 
 from __future__ import annotations
@@ -34,7 +34,8 @@ _PEAK, _BREAK = 1e-5, 1e-2
 
 def run(engine: str, long: bool = False) -> CaseRows:
     """The rows; engine: reduced or rigid; long: at steps ten times as long, too."""
-    rows, drawn = [], []
+    rows: list[Row] = []
+    drawn: list[tuple] = []
     for step in (_STEP, 10 * _STEP) if long else (_STEP,):
         for name, device, hardening in (
             ("friction damper", _FRICTION, 0.0),
