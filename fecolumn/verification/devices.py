@@ -12,7 +12,8 @@ h) F x is taken; friction: h = 0; curve of exponent 2: F E ln cosh(e / E) = m v^
 sqrt(k m), back as fast as it came; ropes: each takes B^2 / 2 k, B the force at which it breaks.
 
 Tolerances. A peak is that of the steps about it: 1e-5, times the square of a longer step. The mean
-rate of a step of a viscous damper: 1e-5. A rope breaks at the end of the step in which it passes its force, up to v dt farther: 1e-2.
+rate of a step of a viscous damper: 1e-5. A rope breaks at the end of the step in which it passes
+its force, up to v dt farther: 1e-2.
 """
 
 from __future__ import annotations
