@@ -149,12 +149,11 @@ def _viscous(engine, step, drawn, damping: float = 300.0, power: float = 0.5):
     )
     yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(rows), CLOSED)
     if step == _STEP:
-        drawn.append(
-            (
-                "viscous damper",
-                *(columns[f"link/device/{one}"] for one in ("elongation", "tension")),
-            )
-        )
+        # swings on a spring beside it
+        spring = dict(kind="spring", stiffness_n_m=_STIFFNESS / 10)
+        swung, _ = pushed(dict(device=keys, spring=spring), engine, 3.0, step)
+        of = (swung[f"link/device/{one}"] for one in ("elongation", "tension"))
+        drawn.append(("viscous damper of 0.5", *of))
 
 
 def _stop(engine, drawn, gap: float = 0.01):
@@ -178,7 +177,7 @@ def _stop(engine, drawn, gap: float = 0.01):
     )
     yield Row("the same: velocity back [m/s]", -_SPEED, float(back), 1e-8)
     yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(rows), CLOSED)
-    drawn.append(("stop", columns["link/device/elongation"], force))
+    drawn.append(("stop with a gap", columns["link/device/elongation"], force))
 
 
 def _ropes(engine, breaks: float = 600.0):
