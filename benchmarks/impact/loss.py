@@ -49,10 +49,10 @@ def first_impact(
     away: float = AWAY,
 ) -> Loss:
     """Loss of the first impact of a column released at rest at `share` of its critical tilt;
-    arguments as of `rocker`, dt [s] at the impact, away beside it.
+    arguments as of `rocker`, away: longest step [s] of the fall and of the rise.
     """
     away = max(away, dt)
-    column, block = rocker(kind, share, away, modes, alpha, damping, height, size)
+    column, block = rocker(kind, share, dt, modes, alpha, damping, height, size)
     release = share * block.slenderness
     clear, highest, now = CLEAR * release + CLEAR_TILT, 0.0, 0.0
 

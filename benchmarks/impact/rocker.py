@@ -90,7 +90,8 @@ def rocker(
     share
         tilt of release over the critical one.
     dt
-        of the fall [s].
+        of the impact [s]: which modes are too fast for a step, and move its contact points as
+        springs without mass, is decided by it for the whole motion.
     alpha
         of HHT.
     damping

@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.contact.overlap import OVERLAP, OWN, SIDE, SIDE_NODE, SLOT, Overlaps
 from fecolumn.contact.points import POINT
-from fecolumn.contact.tolerances import SAME_OUTLINE
+from fecolumn.contact.tolerances import CROSSES_FROM, SAME_OUTLINE
 
 # Over the size of a face: a node is on a side of its outline
 _ON_SIDE = 1e-7
@@ -115,7 +115,7 @@ class OverlapBuilder:
         """Add the sides (m, 2, 2) of a polygon; the number (n,) of a side on which each of the
         nodes lies, -1 of those on none.
         """
-        found, inner = np.full(len(places), -1), _inset(ends, SAME_OUTLINE * size)
+        found, inner = np.full(len(places), -1), _inset(ends, CROSSES_FROM * SAME_OUTLINE * size)
         for q, (start, end) in enumerate(ends):
             side, length = np.zeros((), SIDE), np.linalg.norm(end - start)
             along = (end - start) / length

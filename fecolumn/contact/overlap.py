@@ -14,16 +14,17 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.record import record
-from fecolumn.contact.tolerances import OUTLINE_BAND, SAME_OUTLINE
+from fecolumn.contact.tolerances import CROSSES_FROM, ONE_CORNER, OUTLINE_BAND, SAME_OUTLINE
 from fecolumn.foundation._compiled import njit
 
 OWN, OTHER = range(2)
 
 #: A straight side of an outline, counter-clockwise seen along the outward normal of the face.
 #: start, end: (2,) its corners [m]; along, normal: (2,) unit vectors, the normal out of the
-#: outline; length [m]. inner: (2, 2) both corners of the outline that is smaller by SAME_OUTLINE,
-#: so that two equal faces in one place have one outline, not two. first, count: its nodes among
-#: those of `Overlaps.nodes`. far: node farthest from it, `far_place` (2,) along it and inwards [m].
+#: outline; length [m]. inner: (2, 2) both corners of the outline that is smaller by CROSSES_FROM of
+#: SAME_OUTLINE, so that two equal faces in one place have one outline, not two. first, count: its
+#: nodes among those of `Overlaps.nodes`. far: node farthest from it, `far_place` (2,) along it and
+#: inwards [m].
 SIDE = record(
     ("start", "f8", 2),
     ("end", "f8", 2),
@@ -138,7 +139,7 @@ def beyond(overlap, sides, which, x, y):
 @njit
 def _beyond_any(sides, first, inner, x, y):
     """As `beyond`, of the sides (n,) of any polygon, which are counted from `first`; inner: of the
-    outline that is smaller by SAME_OUTLINE. The side is the nearest one.
+    outline that is smaller. The side is the nearest one.
 
     Beyond a corner, which is as near as both its sides, the larger distance from their lines counts
     as it does for a convex outline, and as the smaller outline has it.
@@ -219,7 +220,7 @@ def find_corners(overlap, sides, slope, shift, back, back_shift, own, other, on)
     """
     count, center, radius = 0, overlap.center, overlap.radius
     first, last = overlap.first, overlap.first + overlap.count
-    inner_radius = radius[OWN] - SAME_OUTLINE * overlap.size
+    inner_radius = radius[OWN] - CROSSES_FROM * SAME_OUTLINE * overlap.size
     if radius[OWN] > 0.0 and radius[OTHER] > 0.0:
         x, y = _mapped(slope, shift, center[OWN, 0], center[OWN, 1])
         dx, dy = center[OTHER, 0] - x, center[OTHER, 1] - y
@@ -415,7 +416,7 @@ def _is_new(other, count, size):
     for k in range(count):
         if (
             np.hypot(other[k, 0] - other[count, 0], other[k, 1] - other[count, 1])
-            <= 100 * SAME_OUTLINE * size
+            <= ONE_CORNER * size
         ):
             return 0
     return 1

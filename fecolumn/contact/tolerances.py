@@ -185,7 +185,8 @@ ROUND_NODES, ROUND = 12, 1e-6
 FIRMNESS = 10.0
 #: Times that the inertia is made ten times as large where the iteration diverges. About the
 #: vertical it is a slender column's smallest, and horizontal forces on a wide flange, which the
-#: compliance keeps where they are, turn it further.
+#: compliance keeps where they are, turn it further. More often where that is less than the inertia
+#: of a step, to which the give of rigid bodies is fitted.
 FIRMER_TIMES = 2
 #: The same inertia over the square of the fastest frequency of the links: these answer the motion
 #: of an iteration at once, and it must not answer them as strongly.
@@ -216,6 +217,11 @@ EDGE = 2e-3
 #: Outlines closer than this are one: of two equal faces the points are nodes of the slave. Far
 #: below any slide, far above rounding.
 SAME_OUTLINE = 1e-9
+#: From this share of it on, the corners where two outlines cross are looked for: no corner of the
+#: region is lost to rounding where a face sticks out by SAME_OUTLINE exactly.
+CROSSES_FROM = 0.5
+#: Corners of the region nearer than this are one.
+ONE_CORNER = 100 * SAME_OUTLINE
 #: Way beyond an outline within which a point stays with the body it belongs to, though it is laid
 #: on the edge exactly: while a structure stands, elastic shear moves outlines over one another by a
 #: hundredth of it, and points would change bodies in each step.

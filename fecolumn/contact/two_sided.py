@@ -34,6 +34,7 @@ from fecolumn.contact.overlap import (
 from fecolumn.contact.tolerances import (
     APART,
     FLAT,
+    ONE_CORNER,
     OUTLINE_BAND,
     SAME_CORNER,
     SAME_OUTLINE,
@@ -366,9 +367,15 @@ def _place(
 def _choose_corners(slots, interfaces, k, r, out, at, contact, slope, shift, other, size, chosen):
     """Give each corner of the region, at `other` (n, 2) [m] on the master's face, the slot that was
     nearest to it in the step before, or else that of the nearest corner of the slave's face, or a
-    free one; chosen: (slots,) corner of each.
+    free one; none where a corner of the slave's face is still there. chosen: (slots,) corner of
+    each.
     """
     taken = np.zeros(len(other), np.bool_)
+    for s in range(len(slots)):
+        if slots[s].corner and abs(out[s]) <= SAME_OUTLINE * size:
+            v = _nearest(other, taken, at[s, 0], at[s, 1], ONE_CORNER * size)
+            if v >= 0:
+                taken[v] = True
     for s in range(len(slots)):
         if not (slots[s].free or slots[s].corner and out[s] > SAME_OUTLINE * size):
             continue

@@ -94,11 +94,9 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
         on &= over(nodes @ plane, region, 2 * allowance) | (
             cKDTree(outlines[0][:, 0]).query(nodes)[0] < EDGE * size
         )
-    zones = [(*start, *end, allowance) for start, end in (face.outline @ face.axes[:, :2]).tolist()]
-    # corners of the master farther within the slave's face than its outline may slide
-    corners = (outlines[0][:, 0] + shift) @ face.axes[:, :2]
-    within = inwards(corners, outlines[1] @ face.axes[:, :2]) > allowance / 2
-    zones += [(*place, *place, allowance) for place in corners[within].tolist()]
+    # where the outlines of either face lie over the slave's, and as far as they may slide from there
+    lines = np.concatenate([face.outline, outlines[0] + shift]) @ face.axes[:, :2]
+    zones = [(*start, *end, allowance) for start, end in lines.tolist()]
     return Edge(
         meeting.interface,
         meeting.master,

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fecolumn.case.case import case_from_tables
+from fecolumn.contact.tolerances import SAME_OUTLINE
 from fecolumn.engines.reduced.observe import PER_BODY, WIDTH
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.simulation import run
@@ -46,6 +47,57 @@ def test_a_standing_block_has_points_on_all_corners_of_the_region(angle, displac
     )[:, :2]
     apart = np.linalg.norm(places[None] - (exact + displaced)[:, None], axis=2).min(axis=1)
     assert len(exact) == corners and apart.max() < 1e-8
+
+
+@pytest.mark.parametrize("share", [0.4, 0.5, 0.6, 0.999999, 1.0, 1.000001, 1.5])
+@pytest.mark.parametrize("turned", [0.0, 90.0, 180.0])
+def test_no_corner_is_lost_where_a_face_sticks_out_by_what_counts_as_the_same_outline(
+    share, turned
+):
+    """Stones of one element, 1 m long: a corner that rounding lost left the upper one on three."""
+    stone = dict(
+        kind="block",
+        length_m=1.0,
+        width_m=1.0,
+        height_m=0.5,
+        element_size_m=2.0,
+        turned_deg=turned,
+        density_kg_m3=2700.0,
+    )
+    displaced = share * SAME_OUTLINE
+    case = case_from_tables(
+        dict(
+            bodies=dict(low=stone, up=stone | dict(at_m=[displaced, 0.0, 0.5])),
+            contact=dict(interior_points=0),
+            joints=dict(feet=dict(between=["low", "ground"]), joint=dict(between=["low", "up"])),
+            integration=dict(engine="rigid", dt_s=1e-3, duration_s=1.0),
+        ),
+        "two.toml",
+    )
+    made = engine_of(case, structure_model(case), "two.toml")
+    joint = made.work.points["interface"] > 0
+    carried = made.motion.contact["force"][joint, 2]
+    assert carried[carried > 0] == pytest.approx([500 * 2.7 * 9.80665 / 4] * 4, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "dt, below, above",
+    [
+        (1e-4, dict(fixed=True), dict(turned_deg=5.0)),
+        (1e-5, dict(fixed=True), dict(turned_deg=30.0)),
+        (1e-3, dict(height_m=0.8), dict(at_m=[0.12, 0.0, 0.8])),
+        (1e-4, dict(height_m=0.8), dict(at_m=[-0.13, 0.0, 0.8])),
+    ],
+)
+def test_rigid_blocks_are_found_at_rest_whatever_the_step_and_where_they_stand(dt, below, above):
+    equal = dict(density_kg_m3=2600.0)
+    joints = dict(joint=dict(between=["low", "up"]))
+    if "fixed" not in below:
+        joints["feet"] = dict(between=["low", "ground"])
+    made = two("rigid", equal | above, equal | below, dt=dt, joints=joints)
+    on = (made.work.points["interface"] == 0) & ~made.work.points["idle"]
+    weight = made.structure.bodies.body["mass"][1] * 9.80665
+    assert made.motion.contact["force"][on, 2].sum() == pytest.approx(weight, rel=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -193,6 +193,9 @@ class ContactInterface(Places):
             poses = self.poses(state.x, state.rotation)
             self._mark_unused(state.x, poses, rims)
             self._lay_points(state, poses, before, rims)
+            # half of a force acts on what was below its point at the start
+            self.points["beyond"] = OVER
+            self.start_positions(state.x, state.rotation, poses)
         return before, rims
 
     def _mark_unused(self, x, poses, rims) -> None:

@@ -56,12 +56,14 @@ def gravity_equilibrium(engine) -> motions.MotionState:
     firmness = max(
         firmness, LINKS_FIRM * fastest(structure.links, structure.links["stiffness"], held)[0]
     )
-    for time in range(FIRMER_TIMES):
+    firmest = max(10.0**FIRMER_TIMES * firmness, 2 / engine.hht.dt**2)
+    while True:
         try:
-            return _settled_with_room(engine, 10.0**time * firmness)
+            return _settled_with_room(engine, firmness)
         except _Diverged:
-            continue
-    return _settled_with_room(engine, 10.0**FIRMER_TIMES * firmness)
+            if firmness >= firmest:
+                raise
+        firmness = min(10 * firmness, firmest)
 
 
 def _settled_with_room(engine, firmness: float) -> motions.MotionState:
