@@ -621,7 +621,8 @@ def check(case: Case, file) -> None:
     """What no single key can know: names that tables use of one another, and keys of which only one
     may stand.
     """
-    from fecolumn.case.check_bodies import check_body, check_link
+    from fecolumn.case.check_bodies import check_body
+    from fecolumn.case.check_link import check_link
 
     def refuse(key, value, allowed):
         raise InputError(file, key, value, allowed)

@@ -1,4 +1,4 @@
-"""What keys of a body and of a link say together."""
+"""What keys of a body say together."""
 
 from __future__ import annotations
 
@@ -313,54 +313,3 @@ def _check_storeys(key: str, body: Storeys, refuse) -> None:
                 list(modes),
                 f"must be two rising numbers up to floors = {body.floors}",
             )
-
-
-def check_link(key: str, link, refuse) -> None:
-    """Refuse a link without what its kind needs, or with what says nothing of it."""
-    for name in ("point_m", "to_point_m"):
-        if len(value := getattr(link, name)) != 3:
-            refuse(f"{key}.{name}", list(value), "must be three numbers: x, y, z")
-    if link.kind == "dashpot":
-        if not link.damping_n_s_m:
-            refuse(
-                f"{key}.damping_n_s_m",
-                link.damping_n_s_m,
-                "must be greater than 0 N s/m of a dashpot",
-            )
-        for name in ("stiffness_n_m", "prestress_n", "slack_m", "yield_n", "breaking_n"):
-            if value := getattr(link, name):
-                refuse(f"{key}.{name}", value, "says nothing of a dashpot")
-    elif not link.stiffness_n_m:
-        refuse(
-            f"{key}.stiffness_n_m",
-            link.stiffness_n_m,
-            f"must be greater than 0 N/m of a {link.kind}",
-        )
-    if link.kind == "spring" and link.slack_m:
-        refuse(
-            f"{key}.slack_m",
-            link.slack_m,
-            "says nothing of a spring; a restrainer or a tendon has slack",
-        )
-    if link.prestress_n and link.slack_m:
-        refuse(
-            f"{key}.prestress_n",
-            link.prestress_n,
-            "must be 0 where slack_m is not: a slack link carries nothing",
-        )
-    if link.yield_n is not None and link.prestress_n > link.yield_n:
-        refuse(
-            f"{key}.prestress_n", link.prestress_n, f"must be at most yield_n = {link.yield_n:g} N"
-        )
-    if link.breaking_n is not None and link.breaking_n < max(link.prestress_n, link.yield_n or 0.0):
-        refuse(f"{key}.breaking_n", link.breaking_n, "must be at least prestress_n and yield_n")
-    if (
-        link.kind != "restrainer"
-        and math.dist(link.point_m, link.to_point_m) == 0
-        and not (link.kind == "tendon" and link.slack_m)
-    ):
-        refuse(
-            f"{key}.to_point_m",
-            list(link.to_point_m),
-            f"must be another point than point_m: a {link.kind} of no length has no direction",
-        )

@@ -221,7 +221,7 @@ SAME_OUTLINE = 1e-9
 #: region is lost to rounding where a face sticks out by SAME_OUTLINE exactly.
 CROSSES_FROM = 0.5
 #: Corners of the region nearer than this are one.
-ONE_CORNER = 100 * SAME_OUTLINE
+ONE_CORNER = 1e-7
 #: Way beyond an outline within which a point stays with the body it belongs to, though it is laid
 #: on the edge exactly: while a structure stands, elastic shear moves outlines over one another by a
 #: hundredth of it, and points would change bodies in each step.

@@ -25,6 +25,9 @@ _WHOLE = (
     "broken",
 )  # columns of whole numbers, by the last word of their names
 
+# Share of its yield force at which a link is said to yield that comes to it along a curve
+_YIELDED = 0.9
+
 
 class OfStructure:
     """What an Analysis of a structure is, whatever its engine. structure: StructureModel at its
@@ -345,6 +348,13 @@ def _peaks_of_link(time: np.ndarray, rows: dict[str, np.ndarray], link) -> dict:
         rows["broken"] > 0,
         rows["elongation"] - rows["yielded"],
     )
+    yielded = rows["yielded"] != 0
+    if link.bends < np.inf:
+        # along a curve some of it yields from the start
+        stretch = np.sign(over) * np.maximum(np.abs(over) - link.slack, 0.0)
+        stretch = np.where(over > 0, stretch * link.pulls, stretch * link.pushes)
+        hardens = link.hardening / (1 - link.hardening) * rows["yielded"]
+        yielded &= link.stiffness * np.abs(stretch - hardens) >= _YIELDED * link.yield_n
     whole = rows["elongation"][: max(1, int((~broken).sum()))]
     tight = (link.pulls & (over > link.slack)) | (link.pushes & (over < -link.slack))
     slackens = (
@@ -356,11 +366,13 @@ def _peaks_of_link(time: np.ndarray, rows: dict[str, np.ndarray], link) -> dict:
     return dict(
         tension_max_n=float(tension.max()),
         tension_min_n=float(tension.min()),
+        compression_max_n=max(0.0, -float(tension.min())),
         elongation_max_m=float(whole.max()),
         elongation_min_m=float(whole.min()),
+        shortening_max_m=max(0.0, -float(whole.min())),
         yielded_m=float(rows["yielded"][-1]),
         work_j=float(rows["work"][-1]),
-        yielded_at_s=first(rows["yielded"] != 0),
+        yielded_at_s=first(yielded),
         broke_at_s=first(broken),
         slack_at_s=first(slackens),
     )

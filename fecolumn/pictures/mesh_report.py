@@ -338,11 +338,13 @@ def _links(case, structure) -> list[str]:
                 float(link.slack),
                 *limits[0],
                 *limits[1],
+                float(link.hardening),
+                next((float(e) for e in (link.bends, link.power) if 0 < abs(e - 1) < np.inf), "-"),
             )
         )
     columns = (
         "<26 link; <40 between; >12.5g length [m]; >17.5g stiffness [N/m]; >17.5g damping [N s/m];"
         ">15.5g prestress [N]; >11.4g slack [m]; >12.5g yields [N]; >11.4g at [m];"
-        ">12.5g breaks [N]; >11.4g at [m]"
+        ">12.5g breaks [N]; >11.4g at [m]; >14.4g hardening [-]; >13.4g exponent [-]"
     )
     return ["", *_table(columns, rows)] if rows else []

@@ -297,7 +297,7 @@ def check_rest(case, structure, standing, file) -> None:
         act(column, link.a, pull, a)
         act(column, link.b, -pull, b)
         columns.append(column)
-        bounds.append((None if link.pushes else 0, None))
+        bounds.append((None if link.pushes else 0, None if link.pulls else 0))
     load = np.zeros(rows)
     load[2::6] = weights * free
     scale = np.repeat(weights, 6)

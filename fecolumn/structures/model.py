@@ -11,6 +11,7 @@ table's in the drawing the body was made from, arms measured from its centre of 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -212,24 +213,28 @@ class Joint:
 
 @dataclass(frozen=True)
 class Link:
-    """A tendon, spring, dashpot or restrainer between a point of one part and a point of another or
-    of the ground.
+    """A tendon, spring, strut, stop, restrainer, dashpot or friction damper between a point of one
+    part and a point of another or of the ground.
 
     Its elongation e [m] is the distance of the points less its unstressed length: that as the
     structure stands upright, less prestress / stiffness. Its force [N], positive in tension, is
-    stiffness (e - y) + damping de/dt, the spring's part of it only beyond the slack and only where
-    it pulls or pushes; y is what has yielded: where the spring's part would exceed yield_n it stays
-    there and y grows, or shrinks under compression (elastic, perfectly plastic, no hardening).
+    stiffness (e - y) + damping |de/dt|^power sign(de/dt), the spring's part of it only beyond the
+    slack and only where it pulls or pushes; y is what has yielded: it grows where the spring's part
+    less what has hardened, hardening / (1 - hardening) stiffness y, would exceed yield_n, and
+    shrinks where it would be below -yield_n; see `engines.dynamics.link_law`.
 
-    kind: "tendon", "spring", "dashpot" or "restrainer". a: place of a part; arm_a: (3,) [m] in its
+    kind: as in the case. a: place of a part; arm_a: (3,) [m] in its
     frame from its centre of mass. b: place of another part, or GROUND; arm_b: (3,) [m] likewise, in
     the
         table frame for the ground.
-    stiffness [N/m]; damping [N s/m]; prestress [N] at the start; slack [m] of elongation to each
-    side before the spring acts. pushes, pulls: whether it takes compression, tension. yield_n [N]:
-    force at which it yields, breaking_n [N]: at which it breaks for good, of one that
-        yields at the elongation at which it would have that force had it not; both infinite where
-            it never does. ground: place of the ground that holds it, where b is one.
+    stiffness [N/m]; damping [N] at 1 m/s; prestress [N] at the start, below 0 compression; slack
+    [m] of elongation to each side before the spring acts. pushes, pulls: whether it takes
+    compression, tension. yield_n [N]: force at which it yields, breaking_n [N]: at which it breaks
+    for good, of one that yields at the elongation at which it would have that force had it not;
+    both infinite where it never does. ground: place of the ground that holds it, where b is one.
+    hardening: stiffness after yielding over that before. bends: exponent of the curve between them,
+    infinite of a corner. power: of the rate, in the dashpot's force; slow: rate [m/s] below which a
+    power below 1 gives way to proportion.
     """
 
     name: str
@@ -247,6 +252,10 @@ class Link:
     yield_n: float
     breaking_n: float
     ground: int = 0
+    hardening: float = 0.0
+    bends: float = math.inf
+    power: float = 1.0
+    slow: float = 0.0
 
 
 @dataclass(frozen=True)

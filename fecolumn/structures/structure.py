@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.case.bodies import PULLING, PUSHING, Matrices, Storeys
 from fecolumn.case.case import identity
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import Initial
@@ -427,7 +427,7 @@ def _links(case, name: str, places, standing: list[Standing]):
         # what a fixed body holds, its ground holds
         if other != models.GROUND and standing[other].held >= 0:
             other, ground = models.GROUND, standing[other].held
-        both = keys.kind in ("spring", "restrainer")
+        pulls, pushes = keys.kind in PULLING, keys.kind in PUSHING
         yield Link(
             name if len(numbers) == 1 else f"{name} {number + 1}",
             keys.kind,
@@ -437,13 +437,17 @@ def _links(case, name: str, places, standing: list[Standing]):
             end if other == models.GROUND else end - standing[other].center,
             keys.stiffness_n_m,
             keys.damping_n_s_m,
-            keys.prestress_n,
-            keys.slack_m,
-            both,
-            both or keys.kind == "tendon",
-            keys.yield_n or math.inf,
+            0.0 - keys.prestress_n if pushes and not pulls else keys.prestress_n,
+            keys.slack_m + keys.gap_m,
+            pushes,
+            pulls,
+            keys.yield_n or keys.slip_n or math.inf,
             keys.breaking_n or math.inf,
             ground,
+            keys.hardening,
+            keys.yield_exponent or math.inf,
+            keys.damping_exponent,
+            keys.linear_below_m_s if keys.damping_exponent < 1 else 0.0,
         )
 
 

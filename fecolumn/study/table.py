@@ -12,6 +12,7 @@ from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
+from fecolumn.study.link_peaks import LINK_COLUMNS, peaks_of_links
 from fecolumn.study.plan import Plan
 from fecolumn.study.store import DONE
 
@@ -82,8 +83,10 @@ def ensemble(summaries: list[dict[str, Any]]) -> EnsembleSummary:
 
 
 def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> None:
-    """Write table.csv and analyses.csv, the same bytes for the same results, and timing.csv."""
-    table, timing = [], []
+    """Write table.csv and analyses.csv, the same bytes for the same results, and timing.csv; of
+    structures with links links.csv, too.
+    """
+    table, timing, links = [], [], []
     for values, done, planned in combinations(plan, rows):
         texts = [str(value) for value in values.values()]
         if done:
@@ -104,11 +107,17 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
             timing.append(
                 [*texts, row.n, f"{row.s_per_step:.6f}", f"{sum(s['wall_s'] for s in done):.2f}"]
             )
+            links += [
+                [*texts, *(f"{v:.6e}" if isinstance(v, float) else v for v in link.row)]
+                for link in peaks_of_links(done)
+            ]
         else:
             table.append([*texts, planned, 0] + [""] * (len(_TABLE) - 2))
     axes = list(plan.analyses[0].combination)
     write_csv(Path(folder) / "table.csv", [[*axes, *_TABLE], *table])
     write_csv(Path(folder) / "timing.csv", [[*axes, "n", "s_per_step", "wall_s"], *timing])
+    if links:
+        write_csv(Path(folder) / "links.csv", [[*axes, *LINK_COLUMNS], *links])
     write_csv(
         Path(folder) / "analyses.csv",
         [["case_id", *plan.axes, "state", *_ANALYSES], *map(_analysis_row, rows)],

@@ -28,6 +28,7 @@ CASES = {
     "any_joint": REDUCED,
     "structures": ("reduced",),
     "structures_feet": REDUCED,
+    "devices": REDUCED,
     "full_structures": ("corotated",),
     "rocking_models": MODELS,
     "rocking_tables": MODELS,

@@ -15,7 +15,15 @@ FAR = 5 * ELASTIC
 
 
 def walked(
-    ways, pushes=True, play=0.0, damping=0.0, yields=YIELDS, breaks=np.inf, stiffness=STIFFNESS
+    ways,
+    pushes=True,
+    play=0.0,
+    damping=0.0,
+    yields=YIELDS,
+    breaks=np.inf,
+    stiffness=STIFFNESS,
+    hardening=0.0,
+    **more,
 ):
     """A link from a body to the ground whose length goes along elongations (n,) [m]: tensions (n,)
     [N] at the ends of the steps, its tie, the energy kept and taken, and the work done on it [J],
@@ -41,6 +49,10 @@ def walked(
         yields,
         breaks,
     )
+    link["hardens"] = stiffness * hardening / (1 - hardening)
+    link["bends"], link["power"] = np.inf, 1.0
+    for name, value in more.items():
+        link[name] = value
     ties["length"], turn, tensions, taken, done = LENGTH, np.eye(3)[None], [], 0.0, 0.0
     for before, after in zip(frames, frames[1:]):
         later = ties.copy()

@@ -208,14 +208,16 @@ def test_mesh_lists_length_stiffness_prestress_and_where_each_yields_and_breaks(
         "at [m]",
         "breaks [N]",
         "at [m]",
+        "hardening [-]",
+        "exponent [-]",
     ]
     assert head.split("between")[1].split() == " ".join(columns).split()
     rows = {line.split()[1]: line.split()[5:] for line in table[table.index(head) + 1 :]}
-    assert rows["tendon"] == ["1.2", "1e+06", "0", "500", "0", "2000", "0.002", "-", "-"]
-    assert rows["fuse"] == ["1", "1e+05", "0", "0", "0", "1000", "0.01", "-", "-"]
+    assert rows["tendon"] == ["1.2", "1e+06", "0", "500", "0", "2000", "0.002", "-", "-", "0", "-"]
+    assert rows["fuse"] == ["1", "1e+05", "0", "0", "0", "1000", "0.01", "-", "-", "0", "-"]
     # beyond its slack
-    assert rows["wire"] == ["1", "50000", "0", "0", "0.01", "-", "-", "400", "0.018"]
-    assert rows["damper"] == ["1", "0", "500", "0", "0", "-", "-", "-", "-"]
+    assert rows["wire"] == ["1", "50000", "0", "0", "0.01", "-", "-", "400", "0.018", "0", "-"]
+    assert rows["damper"] == ["1", "0", "500", "0", "0", "-", "-", "-", "-", "0", "-"]
 
 
 def test_full_order_tells_the_same_of_links(tmp_path):

@@ -1,5 +1,5 @@
-"""Links between points of two bodies, or of a body and the ground: tendons, springs, dashpots and
-restrainers with play.
+"""Links between points of two bodies, or of a body and the ground: tendons, springs, struts, stops,
+restrainers with play, dashpots and friction dampers.
 """
 
 from __future__ import annotations
@@ -9,14 +9,18 @@ from scipy.optimize import bisect
 
 from fecolumn.contact.points import BASE
 from fecolumn.contact.record import record
+from fecolumn.engines.dynamics.link_law import drag_of, follow_way, strain_of, stretch_of
 from fecolumn.foundation._compiled import njit
 
 #: A link from body a to body b, -1 for a ground; ground: which one then; arm_a, arm_b: (3,) of its
 #: ends from the centres of mass in the bodies' frames, of a ground where it is in the table frame
 #: at the start [m]; length: unstressed [m];
 #: play: way at either side of it without force [m]; stiffness [N/m]; damping [N s/m]; pulls,
-#: pushes: whether it can; yields: force at which it flows [N]; breaks: elongation beyond its play
-#: [m] at which it fails; infinite where it does not.
+#: pushes: whether it can; yields: force at which it flows [N]; hardens: what more it takes per
+#: length that has flowed [N/m]; bends: exponent of the curve along which it comes to flow, infinite
+#: where it does so at once; power: of the rate of elongation, to which a dashpot's force is
+#: proportional, from `slow` [m/s] on; breaks: elongation beyond its play [m] at which it fails;
+#: infinite where it does not.
 LINK = record(
     ("a", "i8"),
     ("b", "i8"),
@@ -30,6 +34,10 @@ LINK = record(
     ("pulls", "?"),
     ("pushes", "?"),
     ("yields", "f8"),
+    ("hardens", "f8"),
+    ("bends", "f8"),
+    ("power", "f8"),
+    ("slow", "f8"),
     ("breaks", "f8"),
 )
 #: What a link carries from step to step: its length now and the part of it that has flowed [m];
@@ -67,14 +75,18 @@ def links_of(model, hht) -> np.ndarray:
             link.damping,
         )
         row["pulls"], row["pushes"], row["yields"] = link.pulls, link.pushes, link.yield_n
+        row["hardens"] = link.stiffness * link.hardening / (1.0 - link.hardening)
+        row["bends"], row["power"], row["slow"] = link.bends, link.power, link.slow
         row["ground"] = link.ground
         row["breaks"] = link.breaking_n / link.stiffness if link.stiffness else np.inf
     bodies = [
         (part.model.mass, part.model.inertia, part.center, part.rotation) for part in model.parts
     ]
 
+    steepest = _steepest(links)
+
     def answered(dt):
-        square, place = fastest(links, links["stiffness"] + links["damping"] / dt, bodies)
+        square, place = fastest(links, links["stiffness"] + steepest / dt, bodies)
         return square * dt**2 / 2, place
 
     share, place = answered(hht.dt)
@@ -85,14 +97,28 @@ def links_of(model, hht) -> np.ndarray:
         )
         much = " and ".join(
             f"{value:g} {unit}"
-            for value, unit in ((link.stiffness, "N/m"), (link.damping, "N s/m"))
+            for value, unit in (
+                (link.stiffness, "N/m"),
+                (link.damping, "N s/m" if link.power == 1 else "N at 1 m/s"),
+            )
             if value
         )
+        slower = ""
+        if link.damping and link.power < 1:
+            speed = link.slow * (share / STIFFEST) ** (1 / (1 - link.power))
+            slower = f", or linear_below_m_s of {speed:.2g} m/s or more"
         raise ValueError(
             f"links.{link.name}: {much} between such light bodies, with the links "
-            f"beside it, needs steps of at most {longest:.2g} s"
+            f"beside it, needs steps of at most {longest:.2g} s{slower}"
         )
     return links
+
+
+def _steepest(links: np.ndarray) -> np.ndarray:
+    """Largest change (nl,) of the dashpots' forces per rate [N s/m], up to 1 m/s."""
+    power, slow = links["power"], links["slow"]
+    below = np.where(power < 1, slow, 1.0) ** (power - 1)
+    return links["damping"] * np.maximum(power, 1.0) * below
 
 
 def fastest(links: np.ndarray, stiffness: np.ndarray, bodies: list[tuple]) -> tuple[float, int]:
@@ -152,43 +178,12 @@ def span(link, grounds, frames, rotation, target):
 
 
 @njit
-def _stretch(link, tie, length):
-    """Elastic part of the elongation [m] at a length: above 0 it pulls, below 0 it pushes."""
-    over = length - link.length - tie.flowed
-    if link.pulls and over > link.play:
-        return over - link.play
-    if link.pushes and over < -link.play:
-        return over + link.play
-    return 0.0
-
-
-@njit
-def _flowing(link, stretch):
-    """Part of a stretch [m] that flows: what is beyond the force at which the link yields.
-
-    It yields both ways, as far as it pulls and pushes.
-    """
-    force = link.stiffness * stretch
-    return (
-        np.sign(force) * (abs(force) - link.yields) / link.stiffness
-        if abs(force) > link.yields
-        else 0.0
-    )
-
-
-@njit
-def _flow_work(link, flow):
-    """Work [J] that a flow [m] takes."""
-    return link.yields * abs(flow) if flow != 0.0 else 0.0
-
-
-@njit
 def pull(link, tie, begin, way, length, dt, target):
     """Target (3,): force [N] of a link on its end a within a step, on b the opposite; the elastic
     force and that of the dashpot.
 
-    A discrete gradient (Gonzalez 1996): its work is the loss of strain energy and what flows times
-    the force at which it does, exactly; the dashpot's c (l1 - l0)^2 / dt.
+    A discrete gradient (Gonzalez 1996): its work is the loss of strain energy and what yielding
+    takes, exactly; the dashpot's its force at the mean rate times l1 - l0.
 
     Parameters
     ----------
@@ -199,16 +194,16 @@ def pull(link, tie, begin, way, length, dt, target):
     """
     before, elastic, rate = tie.length, 0.0, (length - tie.length) / dt
     if not tie.broken:
-        s0, s1 = _stretch(link, tie, before), _stretch(link, tie, length)
-        flow, change = _flowing(link, s1), length - before
-        s1 -= flow
+        s0, change = stretch_of(link, before - link.length - tie.flowed), length - before
+        s1, flow, lost = follow_way(link, tie, length)
         first, last = link.stiffness * s0, link.stiffness * s1
         elastic = (first + last) / 2
         if (flow != 0.0 or s0 * s1 <= 0.0) and abs(change) > 1e-12 * link.length:
-            elastic = (elastic * (s1 - s0) + _flow_work(link, flow)) / change
+            held_back = link.hardens * (tie.flowed + flow / 2) * flow
+            elastic = (elastic * (s1 - s0) + lost + held_back) / change
             # a mean of the forces on the way, but for rounding
             elastic = min(max(elastic, min(first, last)), max(first, last))
-    total = elastic + (0.0 if tie.broken else link.damping * rate)
+    total = elastic + (0.0 if tie.broken else drag_of(link, rate))
     for a in range(3):
         # without length at both ends of the step it has no direction, and no force
         target[a] = (
@@ -251,7 +246,8 @@ def strain_of_links(links, ties):
     energy = 0.0
     for n in range(len(links)):
         if not ties[n].broken:
-            energy += links[n].stiffness * _stretch(links[n], ties[n], ties[n].length) ** 2 / 2
+            over = ties[n].length - links[n].length - ties[n].flowed
+            energy += strain_of(links[n], stretch_of(links[n], over), ties[n].flowed)
     return energy
 
 
@@ -274,17 +270,18 @@ def end_links(links, grounds, frames, rotation, before, after, dt):
         )
         if tie.broken:
             continue
-        stretch, viscous = _stretch(link, tie, length), link.damping * (length - tie.length) / dt
-        flow = _flowing(link, stretch)
-        held = link.stiffness * (stretch - flow) ** 2 / 2
-        lost = viscous * (length - tie.length) + _flow_work(link, flow)
+        trial = stretch_of(link, length - link.length - tie.flowed)
+        viscous = drag_of(link, (length - tie.length) / dt)
+        stretch, flow, yielding = follow_way(link, tie, length)
         new.flowed += flow
+        held = strain_of(link, stretch, new.flowed)
+        lost = viscous * (length - tie.length) + yielding
         # a link that yields breaks where it would carry the breaking force if it did not yield
-        if stretch != 0.0 and abs(stretch + tie.flowed) > link.breaks:
+        if trial != 0.0 and abs(trial + tie.flowed) > link.breaks:
             new.broken = True
             lost += held
         else:
-            new.force = link.stiffness * (stretch - flow) + viscous
+            new.force = link.stiffness * stretch + viscous
             kept += held
         new.work += lost
         taken += lost

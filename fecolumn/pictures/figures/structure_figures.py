@@ -262,8 +262,9 @@ def storey_figure(columns, path, formats=("png", "pdf")) -> list[Path]:
 
 
 def link_figure(columns, path, links: list[str], formats=("png", "pdf")) -> list[Path]:
-    """Tension of some links over time, and beside it over their elongation until they break: the
-    area of a loop is the energy taken. A row for each, a line for each copy.
+    """Tension of some links over time, and beside it over their elongation until they break, there
+    a cross: the area of a loop is the energy taken, which is told. A row for each, a line for each
+    copy.
 
     Parameters
     ----------
@@ -294,9 +295,18 @@ def link_figure(columns, path, links: list[str], formats=("png", "pdf")) -> list
             _drawn(
                 loops, ways, [each[rows] for each, rows in zip(tensions, whole)], copies, "links"
             )
+            broke = [
+                (way[-1], tension[rows][-1])
+                for name, way, tension, rows in zip(copies, ways, tensions, whole)
+                if columns[f"link/{name}/broken"][-1]
+            ]
+            if broke:
+                loops.scatter(*zip(*broke), marker="x", s=30, color=GREY, zorder=3)
+            taken, energy = _in_unit([sum(columns[f"link/{name}/work"] for name in copies)], "J")
+            told = f"; {taken[0][-1]:.3g} {energy} taken" if taken[0][-1] else ""
             over_time.set(xlim=(time[0], time[-1]), ylabel=f"{link}\ntension $T$ [{force}]")
             over_time.tick_params(labelbottom=over_time is grid[-1, 0])
-            loops.set(xlabel=f"elongation $e$ [{length}]", ylim=over_time.get_ylim())
+            loops.set(xlabel=f"elongation $e$ [{length}]{told}", ylim=over_time.get_ylim())
             loops.tick_params(labelleft=False)
             if len(copies) > 1:
                 legend_beside(loops)

@@ -50,6 +50,9 @@ QUANTITIES = {
     "rise": PeakQuantity(_LENGTHS, "", "interfaces", "rise_max_m"),
     "force": PeakQuantity(_FORCES, "", "interfaces", "force_max_n"),
     "tension": PeakQuantity(_FORCES, "", "links", "tension_max_n"),
+    "compression": PeakQuantity(_FORCES, "", "links", "compression_max_n"),
+    "elongation": PeakQuantity(_LENGTHS, "", "links", "elongation_max_m"),
+    "shortening": PeakQuantity(_LENGTHS, "", "links", "shortening_max_m"),
     "drift": PeakQuantity(_LENGTHS, "", "storeys", "drift_max_m"),
     "shear": PeakQuantity(_FORCES, "", "storeys", "shear_max_n"),
 }
@@ -109,7 +112,10 @@ class LimitEvent:
             return float(summary[kind.whole])
         parts = summary.get(kind.table) or {}
         found = [
-            part[kind.entry] for name, part in parts.items() if name.startswith(self.part or "")
+            part[kind.entry]
+            for name, part in parts.items()
+            # summaries of earlier versions do not have every entry
+            if name.startswith(self.part or "") and kind.entry in part
         ]
         if not found:
             engine = summary.get("engine", "")
