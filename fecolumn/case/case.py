@@ -591,7 +591,7 @@ def _kind_of(name: str, key: str, table: dict, kind, file):
     if name != "bodies":
         return kind
     word = table.get("kind")
-    if word not in KINDS:
+    if not isinstance(word, str) or word not in KINDS:
         raise InputError(
             file,
             f"{name}.{key}.kind",

@@ -455,9 +455,12 @@ def stated(tables: dict) -> dict:
 
 def meant(name: str, known, prefix: str = "") -> str:
     """The end of a message on an unknown name: "; did you mean ...?" with the nearest of the known
-    ones, "" where none is near.
+    ones, "" where none is near: of those that begin with its words, such as friction_coefficient
+    for friction, else of those that are spelt alike.
     """
-    near = difflib.get_close_matches(name, known, 1, 0.6)
+    known = list(known)
+    begun = [one for one in known if one.startswith(f"{name}_")]
+    near = difflib.get_close_matches(name, begun or known, 1, 0.0 if begun else 0.6)
     return f"; did you mean {prefix}{near[0]}?" if near else ""
 
 
