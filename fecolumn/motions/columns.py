@@ -10,7 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import check_end, check_last, parse_number, read_text, uniform_step, unit_named
+from fecolumn.motions.text import (
+    check_end,
+    check_last,
+    parse_number,
+    read_text,
+    uniform_step,
+    unit_named,
+)
 
 _NAMES = {
     "time": ("time", "t", "seconds", "zeit", "temps", "tempo", "tiempo"),

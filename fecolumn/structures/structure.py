@@ -33,6 +33,7 @@ from fecolumn.structures.layout import Layout, layout_of
 from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
 from fecolumn.structures.pads import with_pads
 from fecolumn.structures.place import Standing, loads, placed
+from fecolumn.structures.sense import check_sense
 from fecolumn.structures.size import size_of
 from fecolumn.structures.store import (
     KEPT_MODES,
@@ -251,6 +252,7 @@ def assembled(
     )
     replaced = structure.replaced
     tell_of_gaps([one for n, one in enumerate(joints) if n not in replaced], standing, file)
+    check_sense(case, structure, standing, extents, file)
     check_rest(case, structure, standing, file)
     return structure
 
