@@ -255,7 +255,7 @@ def test_a_history_of_another_case_is_one_line(folders, tmp_path, capsys, comman
         with pytest.raises(InputError, match="is of another case: must be"):
             history_figures(tmp_path / "fine")
         return
-    more = [str(folders / "fine")] if command == "compare" else ["-o", str(tmp_path / "drawn")]
+    more = [str(folders / "fine")] if command == "compare" else []
     assert main([command, str(tmp_path / "fine"), *more]) == 2
     error = capsys.readouterr().err
     assert "history.h5: case_id = " in error and "is of another case: must be" in error

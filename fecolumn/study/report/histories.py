@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.engines.dynamics.history import read_history
-from fecolumn.engines.summary import check_owner
 from fecolumn.engines.ending import OVERTURNED, SLID_OFF
+from fecolumn.engines.summary import check_owner
 from fecolumn.pictures.figures.thinning import thinned
 from fecolumn.study.report.sweep import Setting, Sweep
 
