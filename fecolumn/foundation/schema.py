@@ -22,6 +22,8 @@ _DEEPEST = 20
 _LONGEST_CHAIN = 50
 _LONGEST_FILE = 20_000_000  # [bytes]
 _LONGEST_WORDS = 800  # of a message, in one of its parts
+# Magnitude of a number that is not 0: its fifth power, an inertia of a length, is still a number
+_LEAST = 1e-60
 _LONGEST_TEXT = 4096  # a path's most on Linux
 
 
@@ -230,6 +232,9 @@ def _checked(kind, metadata, value, file, key):
             )
         if metadata["choices"] and item not in metadata["choices"]:
             bad = True
+        if isinstance(item, float) and 0 < abs(item) < _LEAST:
+            told = f"{allowed_range(metadata)}, and {_LEAST:g} in magnitude unless it is 0"
+            raise InputError(file, key, value, f"{told}; {metadata['doc']}")
         if bad:
             raise InputError(file, key, value, f"{allowed_range(metadata)}; {metadata['doc']}")
         if isinstance(item, str) and (

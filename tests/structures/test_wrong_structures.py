@@ -233,6 +233,11 @@ WRONG = [
     (
         stack(overturn=dict(displacement_m=5e-324)),
         "overturn.displacement_m",
+        "and 1e-60 in magnitude unless it is 0",
+    ),
+    (
+        stack(overturn=dict(displacement_m=1e-9)),
+        "overturn.displacement_m",
         "must be 0 for none, or at least 1e-06 m",
     ),
     (
