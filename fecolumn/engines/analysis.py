@@ -17,7 +17,7 @@ from fecolumn.engines.ending import (
     STILL_ROCKING,
     Ending,
 )
-from fecolumn.engines.summary import write_summary
+from fecolumn.engines.summary import write_sealed
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.sources import code, code_text
 
@@ -404,7 +404,7 @@ class Analysis:
         ) | self.results(ending)
         self.write_history()
         if self.comm.rank == 0:
-            summary = write_summary(self.folder, summary)
+            summary = write_sealed(self.folder, summary)
             (self.folder / CHECKPOINT).unlink(missing_ok=True)
         return self.comm.bcast(summary)
 

@@ -146,7 +146,7 @@ def _joined(spans, fine: float) -> list[tuple[float, float]]:
 def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
     """The plate as it is kept, its compliance found if it is not on disk, or damaged."""
     from fecolumn.contact.known_base import LEAST_REACH, under
-    from fecolumn.structures.kept_plate import KeptPlate, is_kept, keep_plate
+    from fecolumn.structures.kept_plate import KeptPlate, keep_plate, plate_is_kept
 
     count = 3 * len(sized.x) * len(sized.y) * len(sized.z)
     if count > case.mesh.limit_dofs:
@@ -168,9 +168,9 @@ def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
     def make():
         return plate_of(sized, ground)
 
-    if not is_kept(folder):
+    if not plate_is_kept(folder):
         with alone(folder):
-            if not is_kept(folder):
+            if not plate_is_kept(folder):
                 if folder.is_dir():
                     remove_damaged(folder)
                 say(f'finding how the plate "{name}" gives below its feet (once)')

@@ -39,7 +39,7 @@ def _names(reach: int) -> tuple[str, str]:
     return f"known-{reach}.npy", f"compliance-{reach}.npy"
 
 
-def is_kept(folder: Path) -> bool:
+def plate_is_kept(folder: Path) -> bool:
     """Whether a plate is on disk as it was written, as far as its first reach."""
     return intact(folder, "base.npz", *_names(0))
 
