@@ -58,6 +58,7 @@ def run(
     from mpi4py import MPI
 
     from fecolumn.engines.dynamics.gravity import NoEquilibrium
+    from fecolumn.engines.no_rest import no_rest
 
     comm = comm or MPI.COMM_WORLD
     if isinstance(case, (str, Path)):
@@ -88,7 +89,7 @@ def run(
         try:
             analysis = _analysis_class(case, comm, file)(case, folder, comm, file, quiet)
         except NoEquilibrium as error:
-            raise AnalysisFailed(f"{file}: {error}") from None
+            raise AnalysisFailed(f"{file}: {no_rest(case, error)}") from None
         claim()
         return analysis.run(stop)
 

@@ -1,6 +1,5 @@
 """Every result says which code made it, and code that differs is not mixed unseen."""
 
-import json
 import shutil
 
 import numpy as np
@@ -9,6 +8,7 @@ from imported_modules import ROOT, closure
 
 from fecolumn import __version__
 from fecolumn.case.case import case_from_tables
+from fecolumn.engines.summary import write_sealed
 from fecolumn.foundation import sources
 from fecolumn.simulation import run
 
@@ -21,6 +21,7 @@ _DECIDE_NOTHING = {
     "foundation/_form_compiler.py",
     "foundation/_kernel.py",
     "foundation/atomic.py",
+    "foundation/digests.py",
     "foundation/files.py",
     "foundation/lock.py",
     "foundation/paths.py",
@@ -74,9 +75,8 @@ def test_summary_states_version_and_sources(block, tmp_path):
 
 
 def test_result_of_other_code_is_kept_and_told(block, tmp_path):
-    run(block, tmp_path / "out", quiet=True)
-    file = tmp_path / "out" / "summary.json"
-    file.write_text(json.dumps(json.loads(file.read_text()) | {"sources": "0123456789abcdef"}))
+    summary = run(block, tmp_path / "out", quiet=True)
+    write_sealed(tmp_path / "out", summary | {"sources": "0123456789abcdef"})
     with pytest.warns(
         UserWarning,
         match=r"holds the result of other code, fecolumn .* \(sources 0123456789abcdef\), "

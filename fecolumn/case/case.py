@@ -82,6 +82,8 @@ _IDLE = ("output", "mesh")
 # marks
 _TAKEN = set(".\"'[]/ ")
 # A name with a number, such as "arch 3": a body of several that its first word stands for
+# Displacement [m] that no body has overturned at: any moves by more
+_LEAST_WAY = 1e-6
 _NUMBERED = re.compile(r"(\S+) [1-9][0-9]*")
 
 
@@ -591,7 +593,7 @@ def _kind_of(name: str, key: str, table: dict, kind, file):
     if name != "bodies":
         return kind
     word = table.get("kind")
-    if word not in KINDS:
+    if not isinstance(word, str) or word not in KINDS:
         raise InputError(
             file,
             f"{name}.{key}.kind",
@@ -627,6 +629,9 @@ def check(case: Case, file) -> None:
     def refuse(key, value, allowed):
         raise InputError(file, key, value, allowed)
 
+    if 0 < (cap := case.overturn.displacement_m) < _LEAST_WAY:
+        told = f"must be 0 for none, or at least {_LEAST_WAY:g} m: less is no overturning"
+        refuse("overturn.displacement_m", cap, told)
     if case.own:  # checked by the model
         return
     if not case.bodies:

@@ -17,8 +17,7 @@ from fecolumn.engines.ending import (
     STILL_ROCKING,
     Ending,
 )
-from fecolumn.engines.summary import NAME
-from fecolumn.foundation.atomic import write_json
+from fecolumn.engines.summary import write_sealed
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.sources import code, code_text
 
@@ -405,10 +404,9 @@ class Analysis:
         ) | self.results(ending)
         self.write_history()
         if self.comm.rank == 0:
-            write_json(self.folder / NAME, summary)
+            summary = write_sealed(self.folder, summary)
             (self.folder / CHECKPOINT).unlink(missing_ok=True)
-        self.comm.barrier()
-        return summary
+        return self.comm.bcast(summary)
 
     def say(self, text: str) -> None:
         """Tell the user, unless quiet."""

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+from fecolumn.foundation.atomic import write_json
+from fecolumn.foundation.digests import digest_of_json
 from fecolumn.foundation.files import Unreadable, read_json
+from fecolumn.foundation.schema import InputError
 
 NAME = "summary.json"
 # What tables, figures and statistics take from every summary, whichever function wrote it: numbers
@@ -32,6 +35,69 @@ _OPTIONAL = (
 _MOST_BYTES = 10_000_000
 
 
+def write_sealed(folder: Path, summary: dict) -> dict:
+    """Write the summary of an analysis with the digest of what it says; returns it with that."""
+    said = {key: value for key, value in summary.items() if key != "digest"}
+    whole = said | {"digest": digest_of_json(said)}
+    write_json(Path(folder) / NAME, whole)
+    return whole
+
+
+def summary_of_folder(folder: Path) -> dict:
+    """The summary in a result folder, of the case of its case.json.
+
+    Raises
+    ------
+    InputError
+        there is none, it is damaged, edited, or of another case.
+    """
+    folder = Path(folder)
+    try:
+        return read_summary(folder, str(_id_of(folder)))
+    except Unreadable as error:
+        raise InputError(
+            folder / NAME,
+            "",
+            None,
+            f"{error}; remove it and run the case into this folder again",
+        ) from None
+
+
+def check_owner(file: Path) -> None:
+    """Refuse a file of results that another case has written than that of its folder.
+
+    Raises
+    ------
+    InputError
+        it is of another case; what cannot be read is left to who reads it.
+    """
+    import h5py
+
+    try:
+        own = _id_of(Path(file).parent)
+        with h5py.File(file) as content:
+            found = content.attrs.get("case_id", own)
+    except (OSError, RuntimeError, KeyError):
+        return
+    if own is not None and str(found) != str(own):
+        raise InputError(
+            file,
+            "case_id",
+            str(found),
+            f"is of another case: must be {own}, as case.json beside it says; put the file back "
+            "that belongs here, or run the case into a new folder",
+        )
+
+
+def _id_of(folder: Path):
+    """Id of the case of a result folder; None where it does not say."""
+    try:
+        saved = read_json(folder / "case.json")
+    except Unreadable:
+        return None
+    return saved.get("id") if isinstance(saved, dict) else None
+
+
 def read_summary(folder: Path, case_id: str) -> dict:
     """The summary in a result folder.
 
@@ -52,6 +118,9 @@ def fault_of(summary, case_id: str) -> str:
         return "not a table of keys"
     if summary.get("case_id") != case_id:
         return f"case_id must be {case_id}"
+    said = {key: value for key, value in summary.items() if key != "digest"}
+    if "digest" in summary and summary["digest"] != digest_of_json(said):
+        return "it is not what its digest says, but has been changed since the analysis wrote it"
     if not isinstance(summary.get("overturned"), bool):
         return "overturned must be true or false"
     for name in (*_NUMBERS, *(name for name in _OPTIONAL if summary.get(name) is not None)):

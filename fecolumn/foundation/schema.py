@@ -22,6 +22,8 @@ _DEEPEST = 20
 _LONGEST_CHAIN = 50
 _LONGEST_FILE = 20_000_000  # [bytes]
 _LONGEST_WORDS = 800  # of a message, in one of its parts
+# Magnitude of a number that is not 0: its fifth power, an inertia of a length, is still a number
+_LEAST = 1e-60
 _LONGEST_TEXT = 4096  # a path's most on Linux
 
 
@@ -230,6 +232,9 @@ def _checked(kind, metadata, value, file, key):
             )
         if metadata["choices"] and item not in metadata["choices"]:
             bad = True
+        if isinstance(item, float) and 0 < abs(item) < _LEAST:
+            told = f"{allowed_range(metadata)}, and {_LEAST:g} in magnitude unless it is 0"
+            raise InputError(file, key, value, f"{told}; {metadata['doc']}")
         if bad:
             raise InputError(file, key, value, f"{allowed_range(metadata)}; {metadata['doc']}")
         if isinstance(item, str) and (
@@ -455,9 +460,12 @@ def stated(tables: dict) -> dict:
 
 def meant(name: str, known, prefix: str = "") -> str:
     """The end of a message on an unknown name: "; did you mean ...?" with the nearest of the known
-    ones, "" where none is near.
+    ones, "" where none is near: of those that begin with its words, such as friction_coefficient
+    for friction, else of those that are spelt alike.
     """
-    near = difflib.get_close_matches(name, known, 1, 0.6)
+    known = list(known)
+    begun = [one for one in known if one.startswith(f"{name}_")]
+    near = difflib.get_close_matches(name, begun or known, 1, 0.0 if begun else 0.6)
     return f"; did you mean {prefix}{near[0]}?" if near else ""
 
 

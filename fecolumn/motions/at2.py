@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import check_end, parse_number, read_text, unit_named
+from fecolumn.motions.text import check_end, check_last, parse_number, read_text, unit_named
 
 _HEADER_LINES = 4
 _NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[EeDd][-+]?\d+)?"
@@ -63,6 +63,7 @@ def read_at2(path: Path | str) -> Recording:
             f"the header states NPTS = {points[:20]} but {len(values)} values follow"
         )
     check_end(text, " ".join(line for _, line in lines[head + 1 :][-4:]).split()[-12:])
+    check_last(text, values)
     header = [line.strip() for _, line in lines[:head]]
     return Recording(
         values[:, None],

@@ -10,7 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import check_end, parse_number, read_text, uniform_step, unit_named
+from fecolumn.motions.text import (
+    check_end,
+    check_last,
+    parse_number,
+    read_text,
+    uniform_step,
+    unit_named,
+)
 
 _NAMES = {
     "time": ("time", "t", "seconds", "zeit", "temps", "tempo", "tiempo"),
@@ -65,6 +72,7 @@ def read_columns(path: Path | str, dt_s: float) -> Recording:
     lines = [row for row, _ in rows]
     table = _table(rows)
     check_end(text, [_cells(row)[-1] for _, row in rows[-12:]])
+    check_last(text, table[:, -1])
     meanings, units = _columns(header, comments, table)
     accelerations = [i for i, meaning in enumerate(meanings) if meaning != "time"]
     stated = {unit_named(units[i]) if units[i] else "" for i in accelerations}

@@ -21,6 +21,8 @@ _SPELLINGS = {
 # Times since 1970 are below it [s]; and what numbers of their size may be rounded by, as a share of
 # a step
 _LATEST_S, _RESOLVED = 1e13, 1e-4
+# Samples before a last one that may be told from a spike, and how much farther it jumps than any
+_KNOWN, _SPIKE = 20, 5.0
 _UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}
 
 
@@ -88,6 +90,30 @@ def check_end(text: str, words: list[str]) -> None:
         raise UnusableRecord(
             f"ends inside a number, {last!r} after {before[-1]!r}, without a line's end: the file "
             "is cut off"
+        )
+
+
+def check_last(text: str, values: NDArray[Any]) -> None:
+    """Refuse a file that ends in a spike, without a line's end: that of 9.1e-08 cut off after its
+    first digits.
+
+    Parameters
+    ----------
+    values
+        (n,) of the file, or of its last column.
+
+    Raises
+    ------
+    UnusableRecord
+        so it is.
+    """
+    if text[-1:] in "\r\n" or len(values) < _KNOWN:
+        return
+    steps = np.abs(np.diff(values))
+    if steps[-1] > _SPIKE * steps[:-1].max():
+        raise UnusableRecord(
+            f"ends in a spike, {values[-1]:g} after {values[-2]:g}, without a line's end: the file "
+            "is cut off inside its last number; end its last line if it is whole"
         )
 
 

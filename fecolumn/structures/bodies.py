@@ -85,7 +85,24 @@ class Drawing:
             return rigid_model(
                 self.shape, self.faces, patches, self.material, self.body.contact_stiffness_n_m3
             ), None
-        return elastic_model(self.shape, self.faces, patches, self.material, n_modes)
+        return self._elastic_model(patches, n_modes)
+
+    def _elastic_model(self, patches: dict[str, Patch], n_modes: int):
+        from petsc4py import PETSc
+
+        try:
+            return elastic_model(self.shape, self.faces, patches, self.material, n_modes)
+        except (PETSc.Error, RuntimeError, np.linalg.LinAlgError):
+            thinnest, longest = _edges(self.shape.mesh)
+            raise InputError(
+                self.file,
+                self.key,
+                None,
+                f"cannot be reduced: its elements measure {thinnest:.3g} m across and "
+                f"{longest:.3g} m along, so that their stiffness is beyond rounding; make them "
+                "smaller (element_size_m, coarse_size_m), what is thin thicker, or state "
+                "rigid = true",
+            ) from None
 
 
 def drawing(case, name: str, file, spots=()) -> Drawing:
@@ -145,6 +162,14 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
     if getattr(body, "foot_radius_m", None):
         shape, faces = domed(body, shape, faces)
     return Drawing(key, body, shape, None, faces, material, file)
+
+
+def _edges(mesh) -> tuple[float, float]:
+    """Shortest and longest distance [m] between corners of one element."""
+    corners = mesh.points[mesh.cells]
+    first, second = np.triu_indices(corners.shape[1], 1)
+    lengths = np.linalg.norm(corners[:, first] - corners[:, second], axis=2)
+    return float(lengths.min()), float(lengths.max())
 
 
 def _turned(points: np.ndarray, angle: float) -> np.ndarray:

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import os
-import shutil
-import tempfile
-from pathlib import Path
 
 import numpy as np
 
 from fecolumn.case.bodies import Ground
 from fecolumn.contact.unbounded_base import rigid_base, unbounded_base, window
 from fecolumn.foundation._compiled import cache_folder
+from fecolumn.foundation.digests import remove_damaged
 from fecolumn.foundation.lock import alone
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.base_plate import depths, plate_line
@@ -147,10 +144,9 @@ def _joined(spans, fine: float) -> list[tuple[float, float]]:
 
 
 def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
-    """The plate as `reduced.cache.KnownBase` keeps it, its compliance found if it is not on
-    disk.
-    """
-    from fecolumn.contact.known_base import LEAST_REACH, KnownBase, keep_base, under
+    """The plate as it is kept, its compliance found if it is not on disk, or damaged."""
+    from fecolumn.contact.known_base import LEAST_REACH, under
+    from fecolumn.structures.kept_plate import KeptPlate, keep_plate, plate_is_kept
 
     count = 3 * len(sized.x) * len(sized.y) * len(sized.z)
     if count > case.mesh.limit_dofs:
@@ -172,9 +168,11 @@ def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
     def make():
         return plate_of(sized, ground)
 
-    if not folder.is_dir():
+    if not plate_is_kept(folder):
         with alone(folder):
-            if not folder.is_dir():
+            if not plate_is_kept(folder):
+                if folder.is_dir():
+                    remove_damaged(folder)
                 say(f'finding how the plate "{name}" gives below its feet (once)')
                 plate = make()
                 widest = max(np.ptp(foot[:, 0]) for foot in feet)
@@ -188,8 +186,8 @@ def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
                     firsts=np.cumsum([0] + [len(foot) for foot in feet[:-1]]),
                     allowance=allowance,
                 )
-                _keep(folder, base, plate, keep_base)
-    return KnownBase(folder, make)
+                keep_plate(folder, base, plate)
+    return KeptPlate(folder, make)
 
 
 def plate_mesh(sized: Sized):
@@ -212,17 +210,3 @@ def plate_of(sized: Sized, ground: Ground):
         return {}, np.flatnonzero(body.all_X[:, 2] < bottom - 1e-9 * sized.z[-1])
 
     return BasePlate(Body(MPI.COMM_SELF, plate_mesh(sized), ground, 1, held))
-
-
-def _keep(folder: Path, base: dict, plate, keep_base) -> None:
-    """Write a plate and what is known of it, all at once."""
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
-    partial.chmod(0o755)
-    try:
-        with open(partial / "base.npz", "wb") as file:
-            np.savez(file, **base)
-        keep_base(plate, lambda name: partial / f"{name}-0.npy")
-        os.replace(partial, folder)
-    finally:
-        shutil.rmtree(partial, ignore_errors=True)

@@ -3,7 +3,8 @@ same structure.
 
 A body is a folder named after the content it was made from, so that nothing has to be invalidated:
 body.npz and, of finite elements, fields.npy with the mode shapes (m, n_nodes, 3) all over
-it. A layout is a JSON file that names the bodies and their contacts.
+it. A layout is a JSON file that names the bodies and their contacts. Each is checked by its digest
+before it is used, and what does not fit is made anew.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import numpy as np
 
 from fecolumn.foundation._compiled import cache_folder
 from fecolumn.foundation.atomic import write_json
+from fecolumn.foundation.digests import digest_of_json, intact, note, remove_damaged
 from fecolumn.foundation.lock import alone
 from fecolumn.foundation.sources import digest_of, files_of
 from fecolumn.structures.model import BodyModel, StoreyDrifts, Surface
@@ -66,14 +68,17 @@ def body_folder(key: str) -> Path:
 
 def keep_body(key: str, make) -> None:
     """Have a reduced body on disk; `make` returns the model and its fields, or None for these,
-    where there is none yet.
+    where there is none yet, or it is damaged.
     """
     folder = body_folder(key)
-    if folder.is_dir():
+    if intact(folder):
         return
     with alone(folder):  # of the workers of a study that start at once, one makes it
-        if folder.is_dir():
+        if intact(folder):
             return
+        if folder.is_dir():
+            remove_damaged(folder)
+            kept_body.cache_clear()
         model, shapes = make()
         partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
         partial.chmod(0o755)
@@ -82,6 +87,7 @@ def keep_body(key: str, make) -> None:
                 np.savez(file, **_arrays(model))
             if shapes is not None:
                 np.save(partial / "fields.npy", shapes)
+            note(partial, *sorted(file.name for file in partial.iterdir()))
             os.replace(partial, folder)
         finally:
             shutil.rmtree(partial, ignore_errors=True)
@@ -142,13 +148,25 @@ def layout_file(key: str) -> Path:
 def keep_layout(key: str, what: dict) -> None:
     """Write a layout."""
     layout_file(key).parent.mkdir(parents=True, exist_ok=True)
-    write_json(layout_file(key), what)
+    write_json(layout_file(key), {"digest": digest_of_json(what), "layout": what})
 
 
-def kept_layout(key: str) -> dict | None:
-    """The layout of a key, whose bodies are all on disk; None where it has to be made."""
+def kept_layout(key: str, fields: bool = False) -> dict | None:
+    """The layout of a key, whose bodies are all on disk; None where it has to be made.
+
+    fields: whether the modes all over the bodies are needed, too.
+    """
     try:
-        found = json.loads(layout_file(key).read_text())
-    except (OSError, ValueError):
+        kept = json.loads(layout_file(key).read_text())
+        found = kept["layout"]
+        fits = kept["digest"] == digest_of_json(found)
+    except FileNotFoundError:
         return None
-    return found if all(body_folder(one).is_dir() for one in found["models"].values()) else None
+    except (OSError, ValueError, TypeError, KeyError, RecursionError):
+        fits = False
+    if not fits:
+        remove_damaged(layout_file(key))
+        return None
+    needed = () if fields else ("body.npz",)
+    whole = all(intact(body_folder(one), *needed) for one in found["models"].values())
+    return found if whole else None

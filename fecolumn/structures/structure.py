@@ -33,6 +33,7 @@ from fecolumn.structures.layout import Layout, layout_of
 from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
 from fecolumn.structures.pads import with_pads
 from fecolumn.structures.place import Standing, loads, placed
+from fecolumn.structures.sense import check_sense
 from fecolumn.structures.size import size_of
 from fecolumn.structures.store import (
     KEPT_MODES,
@@ -68,14 +69,16 @@ def structure_model(case, file="case", say=lambda text: None) -> StructureModel:
 
 
 def kept_keys(case, file="case") -> dict[str, str]:
-    """Key of each body's reduced model in `store`, on disk."""
-    return _layout(case, file, lambda text: None)["models"]
+    """Key of each body's reduced model in `store`, on disk with the modes all over it."""
+    return _layout(case, file, lambda text: None, fields=True)["models"]
 
 
-def _layout(case, file, say) -> dict:
-    """The layout as `store.keep_layout` keeps it, made if it is not on disk."""
+def _layout(case, file, say, fields: bool = False) -> dict:
+    """The layout as `store.keep_layout` keeps it, made if it is not on disk; fields as of
+    `store.kept_layout`.
+    """
     key = key_of(_geometry(case))
-    found = kept_layout(key)
+    found = kept_layout(key, fields)
     if found is None:
         say(f"meshing {len(case.bodies)} different bodies, at least {size_of(case, file).counts}")
         found = keep_models(case, layout_of(case, file), file, say)
@@ -249,6 +252,7 @@ def assembled(
     )
     replaced = structure.replaced
     tell_of_gaps([one for n, one in enumerate(joints) if n not in replaced], standing, file)
+    check_sense(case, structure, standing, extents, file)
     check_rest(case, structure, standing, file)
     return structure
 

@@ -209,3 +209,20 @@ def test_mutants_of_records_are_refused_or_near_the_record(tmp_path):
             assert np.isfinite(found.acceleration).all()
             if is_cut and len(found.acceleration) > 20:
                 assert found.pga[0] < 9.81 * 0.31
+
+
+@pytest.mark.parametrize("cut", range(1, 18))
+def test_a_file_of_numbers_of_any_length_cut_in_its_last_one_ends_in_no_spike(tmp_path, cut):
+    """As Python and C write them: 9.1234e-08 becomes 9.1234e-0, or 9.1."""
+    values = [float(0.3 * (1 - k / 200) * np.sin(0.05 * k)) for k in range(200)]
+    values.append(9.123456789012345e-08)
+    whole = "time [s],ax [m/s2]\n" + "\n".join(
+        f"{0.01 * k:.2f},{a!r}" for k, a in enumerate(values)
+    )
+    motion = Motion(written(tmp_path, whole[:-cut], "a.csv"))
+    try:
+        found = read_motion(motion, "case.toml")
+    except InputError as error:
+        assert "cut off inside its last number" in str(error) or "is not a number" in str(error)
+    else:
+        assert found.pga[0] < 0.31

@@ -66,10 +66,15 @@ def write_history(folder, n: int = 2001, overturned: bool = False) -> None:
                 "u_critical_m": 0.0762,
                 "outcome": "overturned" if overturned else "at rest",
             }
+            | dict.fromkeys(("u_max_m", "residual_slide_m", "steps", "wall_s", "s_per_step"), 1.0)
+            | {"energy_closure_rel": 0.0}
         )
     )
     (folder / "case.json").write_text(
         json.dumps(
-            {"case": {"column": {"outer_diameter_m": 0.0761, "wall_m": 0.005, "height_m": 1.5}}}
+            {
+                "id": "0",
+                "case": {"column": {"outer_diameter_m": 0.0761, "wall_m": 0.005, "height_m": 1.5}},
+            }
         )
     )

@@ -306,7 +306,9 @@ def test_checkpoint_that_cannot_be_used_is_told_and_the_analysis_starts_afresh(
     )
 
 
-@pytest.mark.parametrize("wrong", ["{", "[]", {"u_max_m": -1.0}, {"case_id": "000000000000"}])
+@pytest.mark.parametrize(
+    "wrong", ["{", "[]", {"u_max_m": -1.0}, {"u_max_m": 0.5}, {"case_id": "000000000000"}]
+)
 def test_summary_that_is_none_is_told_and_the_analysis_made_again(interrupted, tmp_path, wrong):
     case, folder, whole = interrupted
     shutil.copytree(folder, tmp_path / "a")

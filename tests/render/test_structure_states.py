@@ -2,6 +2,8 @@
 faces.
 """
 
+import shutil
+
 import h5py
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ from rocking_structures import GATE, TILTED, analysed, case_of
 from scipy.interpolate import griddata
 
 from fecolumn.engines.reduced.states import NAME
+from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.frames import Frames
 from fecolumn.pictures.render.result import read_result
 from fecolumn.simulation import run
@@ -188,3 +191,11 @@ def test_the_history_turns_every_body_as_its_states_do(gate):
         there = poses.at(result.states.time)
         assert there.rotation == pytest.approx(result.states.rotation[:, number], abs=1e-12)
         assert there.foot == pytest.approx(result.states.center[:, number], abs=1e-12)
+
+
+def test_states_of_another_case_are_refused(standing, tmp_path):
+    shutil.copytree(standing.folder, tmp_path / "run")
+    with h5py.File(tmp_path / "run" / NAME, "a") as file:
+        file.attrs["case_id"] = "0123456789ab"
+    with pytest.raises(InputError, match="states.h5: case_id = '0123456789ab': is of another case"):
+        read_result(tmp_path / "run")

@@ -12,6 +12,8 @@ import pytest
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.cli import main
+from fecolumn.foundation.schema import InputError
+from fecolumn.pictures.figures.history_figures import history_figures
 from fecolumn.simulation import run
 from fecolumn.study.results.parting import QuantityPair, differing_keys
 
@@ -222,3 +224,39 @@ def test_two_analyses_of_a_structure_are_compared_by_what_they_observe(tmp_path,
         )
     said = _compared(capsys, tmp_path / "coarse", tmp_path / "fine")
     assert "integration.dt_s  0.002  0.001     s" in said and "uplift" in said
+
+
+@pytest.mark.parametrize(
+    "name, damage, told",
+    [
+        ("summary.json", lambda text: text[:-40], "summary.json: "),
+        ("summary.json", lambda text: b"[]", "not a table of keys"),
+        ("summary.json", lambda text: text.replace(b'"u_max_m": ', b'"u_max_m": 1'), "digest"),
+        ("summary.json", lambda text: text.replace(b"at rest", b"\xff"), "summary.json: "),
+    ],
+)
+def test_a_damaged_or_edited_summary_is_one_line(folders, tmp_path, capsys, name, damage, told):
+    shutil.copytree(folders / "fine", tmp_path / "fine")
+    file = tmp_path / "fine" / name
+    before = file.read_bytes()
+    file.write_bytes(damage(before))
+    if file.read_bytes() != before:
+        assert main(["compare", str(tmp_path / "fine"), str(folders / "fine")]) == 2
+        error = capsys.readouterr().err
+        assert told in error and error.count("\n") == 1
+        assert "run the case into this folder again" in error
+
+
+@pytest.mark.parametrize("command", ["compare", "render", "figures"])
+def test_a_history_of_another_case_is_one_line(folders, tmp_path, capsys, command):
+    shutil.copytree(folders / "fine", tmp_path / "fine")
+    shutil.copy(folders / "other" / "history.h5", tmp_path / "fine" / "history.h5")
+    if command == "figures":
+        with pytest.raises(InputError, match="is of another case: must be"):
+            history_figures(tmp_path / "fine")
+        return
+    more = [str(folders / "fine")] if command == "compare" else []
+    assert main([command, str(tmp_path / "fine"), *more]) == 2
+    error = capsys.readouterr().err
+    assert "history.h5: case_id = " in error and "is of another case: must be" in error
+    assert error.count("\n") == 1

@@ -55,7 +55,7 @@ def test_what_no_body_of_this_outline_has_is_refused():
         case(inertia_kg_m2=[1.0, 1.0, 3.0])
     with pytest.raises(InputError, match="centre_m .*three numbers"):
         case(centre_m=[1.0])
-    for keys in ({"mass_kg": 1e-300}, {"density_kg_m3": 5e-324}):
+    for keys in ({"mass_kg": 1e-50}, {"density_kg_m3": 1e-50}):
         with pytest.raises(InputError, match="at least 1e-06 kg/m3"):
             drawing(case(**keys), "stele", "weighed.toml")
     with pytest.raises(InputError, match="mesh_unit"):

@@ -223,6 +223,55 @@ WRONG = [
         "links.tie.to",
         "another body than links.tie.body",
     ),
+    (block(kind=["block"]), "bodies.block.kind", "must be one of"),
+    (block(kind={}), "bodies.block.kind", "must be one of"),
+    (
+        stack(joints=dict(joint=dict(friction=0.3))),
+        "joints.joint.friction",
+        "did you mean joints.joint.friction_coefficient?",
+    ),
+    (
+        stack(overturn=dict(displacement_m=5e-324)),
+        "overturn.displacement_m",
+        "and 1e-60 in magnitude unless it is 0",
+    ),
+    (
+        stack(overturn=dict(displacement_m=1e-9)),
+        "overturn.displacement_m",
+        "must be 0 for none, or at least 1e-06 m",
+    ),
+    (
+        stack(overturn=dict(displacement_m=1e-5)),
+        "overturn.displacement_m",
+        "at least 0.00014 m, 0.0001 of the height",
+    ),
+    # weighs 2542 N
+    (
+        stack(links=dict(tie=LINK | dict(breaking_n=0.001))),
+        "links.tie.breaking_n",
+        "must be at least 0.00254 N",
+    ),
+    (
+        stack(links=dict(tie=LINK | dict(yield_n=0.001))),
+        "links.tie.yield_n",
+        "must be at least 0.00254 N",
+    ),
+    # 2700 x 9.81 x 1.2 Pa at its foot
+    (
+        block(youngs_modulus_pa=2700 * 9.81 * 1.2 / 0.29),
+        "bodies.block.youngs_modulus_pa",
+        "which strains it by 29 %",
+    ),
+    (
+        dict(
+            bodies=dict(
+                tube=dict(kind="tube", outer_diameter_m=1.0, height_m=3.0, wall_m=1e-6) | STONE
+            ),
+            joints=dict(foot=dict(slave="tube", on="ground")),
+        ),
+        "bodies.tube",
+        "its elements measure 1e-06 m across",
+    ),
 ]
 
 

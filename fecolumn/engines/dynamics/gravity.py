@@ -17,9 +17,17 @@ from fecolumn.fem.rotation import rotation_matrix
 
 
 class NoEquilibrium(RuntimeError):
-    """The column does not stand: its centre of mass is not over its foot, or contact does not
+    """The structure does not stand: a centre of mass is not over its foot, or contact does not
     converge.
+
+    Attributes
+    ----------
+    mover
+        place of the body that moved furthest in the last proximal step, None where that is not
+        known; `engines.no_rest` names it to the user.
     """
+
+    mover: int | None = None
 
 
 def pseudo_inertia(weight: float, depth: float, inertia: np.ndarray) -> float:
@@ -71,12 +79,12 @@ def standing(system, tolerance: float = 1e-9) -> State:
         no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
     bodies, interface, links = system.bodies, system.interface, system.links
-    state = system.unstrained(bodies.placed)
+    state, mover = system.unstrained(bodies.placed), None
     firmness, turned = _firmness(system), bodies.rotations
     factors, load, pulls, straight = (firmness, 1.0), system.load(np.zeros(3)), None, 0.0
 
     def proximal_step():
-        nonlocal state, pulls, straight
+        nonlocal state, pulls, straight, mover
         before, rims = interface.lay(state)
         stage = Stage(
             target=state.x,
@@ -92,12 +100,14 @@ def standing(system, tolerance: float = 1e-9) -> State:
             turns=interface.foot.filtered,
         )
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
+        away = np.abs(outcome.x - state.x)
+        of_each = [bodies.max(away[rows].max(initial=0.0)) for rows in bodies.rows]
+        mover = int(np.argmax(of_each))
         if outcome.stop is not Stop.CONVERGED:
             raise NoEquilibrium(
                 f"gravity equilibrium: {outcome.stop.value} {outcome.message} (residual "
                 f"{outcome.residual:.2e} of the weight)"
             )
-        moved = bodies.max(np.abs(outcome.x - state.x).max(initial=0.0))
         outcome.contact["anchor"] = before["anchor"]
         state = replace(
             state,
@@ -125,9 +135,13 @@ def standing(system, tolerance: float = 1e-9) -> State:
                 links.pulls(stage, state.x, state.rotation),
                 links.ties(bodies.centers(state.x), state.rotation),
             )
-        return moved
+        return max(of_each)
 
-    iterate_to_rest(proximal_step, bodies.extent)
+    try:
+        iterate_to_rest(proximal_step, bodies.extent)
+    except NoEquilibrium as error:
+        error.mover = mover
+        raise
     system.forget(*factors)
     push = (
         interface.acceleration(state.forces, state.rotation) + straight

@@ -89,19 +89,26 @@ def _settled(engine, firmness: float) -> motions.MotionState:
     resting = resting_scheme(structure, engine.points, firmness)
     # of the turns, which move the bodies by so much wherever they stand
     reach = max(np.ptp(centers[:, :2], axis=0).max(), np.abs(centers[:, 2]).max())
-    steps = 0
+    steps, mover = 0, None
 
     def proximal_step():
-        nonlocal steps
+        nonlocal steps, mover
         while (answer := engine.settle(resting, start, end)) == FAR_BASE:
             engine.extend_base(end)
         if answer == NO_ROOM:
             raise NoRoom
+        of_each = np.maximum(
+            np.abs(end.frames["center"] - start.frames["center"]).max(axis=1),
+            np.abs(work.action.turn).max(axis=1) * reach,
+        )
+        if np.isfinite(of_each).all():
+            mover = int(np.argmax(of_each))
         if answer != OK:
-            raise _Diverged("gravity equilibrium: contact does not converge")
+            raise _Diverged(
+                f"gravity equilibrium: contact does not converge in iteration {steps + 1}"
+            )
         moved = max(
-            np.abs(end.frames["center"] - start.frames["center"]).max(),
-            np.abs(work.action.turn).max() * reach,
+            of_each.max(),
             np.abs(work.elastic.point[1] - work.elastic.point[0]).max(),
         )
         steps += 1
@@ -119,7 +126,11 @@ def _settled(engine, firmness: float) -> motions.MotionState:
         motions.copy(end, start)
         return moved
 
-    iterate_to_rest(proximal_step, 2 * np.abs(centers[:, 2]).max())
+    try:
+        iterate_to_rest(proximal_step, 2 * np.abs(centers[:, 2]).max())
+    except NoEquilibrium as error:
+        error.mover = mover
+        raise
     engine.counts[:] = 0
     start.frames["acceleration"] = -work.action.push * bodies["inverse_mass"][:, None]
     start.frames["acceleration"][bodies["airborne"]] = structure.gravity

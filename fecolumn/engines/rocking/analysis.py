@@ -14,8 +14,7 @@ from fecolumn.engines.analysis import CHECKPOINT, Analysis, energy_closure
 from fecolumn.engines.ending import AT_REST, OVERTURNED, REST_SHARE, STILL_ROCKING, Ending
 from fecolumn.engines.rocking.model import ModelResponse
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
-from fecolumn.engines.summary import NAME
-from fecolumn.foundation.atomic import write_json
+from fecolumn.engines.summary import write_sealed
 from fecolumn.motions.record import GroundMotion
 
 
@@ -184,6 +183,6 @@ class ModelAnalysis(Analysis):
         )
         self.write_history()
         if self.comm.rank == 0:
-            write_json(self.folder / NAME, summary)
+            summary = write_sealed(self.folder, summary)
             (self.folder / CHECKPOINT).unlink(missing_ok=True)
-        return summary
+        return self.comm.bcast(summary)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.engines.dynamics.history import read_history
+from fecolumn.engines.summary import check_owner, summary_of_folder
 from fecolumn.foundation.files import Unreadable, read_json
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.figures.energy_figure import energy_figure
@@ -53,6 +54,7 @@ class HistoryCurves:
         InputError
             missing file, or one without the datasets of a history.
         """
+        check_owner(file)
         try:
             columns = read_history(file)
             energy = {
@@ -97,11 +99,8 @@ def read_ending(folder: Path) -> EndingMark:
     InputError
         no summary that can be read.
     """
-    try:
-        summary = read_json(folder / "summary.json")
-        overturned = bool(summary["overturned"])
-    except (Unreadable, KeyError, TypeError) as error:
-        raise InputError(folder / "summary.json", "", None, f"cannot be read ({error})") from None
+    summary = summary_of_folder(folder)
+    overturned = summary["overturned"]
     try:
         outline = specimen_outline(read_json(folder / "case.json")["case"])
     except (Unreadable, KeyError, TypeError, ValueError, AttributeError):

@@ -11,7 +11,7 @@ from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.reduced.states import NAME as STATES
 from fecolumn.engines.scene.scene import JointFace, Scene
-from fecolumn.engines.summary import NAME, read_summary
+from fecolumn.engines.summary import NAME, check_owner, read_summary
 from fecolumn.foundation.files import Unreadable, is_file, read_json
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.field_frames import FieldFrames, FrameSeries
@@ -271,6 +271,7 @@ def read_rows(file: Path) -> dict[str, np.ndarray]:
     InputError
         none, or one that says nothing of a motion.
     """
+    check_owner(file)
     try:
         history = read_history(file)
     except (OSError, KeyError) as error:

@@ -9,6 +9,7 @@ import numpy as np
 from fecolumn.engines.reduced.states import Snapshot, modes_of, read_states, signature, state_at
 from fecolumn.engines.scene.scene import Scene
 from fecolumn.engines.scene.state_fields import StateFields
+from fecolumn.engines.summary import check_owner
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.field_frames import FrameSeries
 from fecolumn.pictures.render.frame import Fields
@@ -41,6 +42,7 @@ class StateFrames(FrameSeries):
     """
 
     def __init__(self, file: Path, scene: Scene):
+        check_owner(file)
         try:
             self._arrays = read_states(file)
         except (OSError, KeyError) as error:

@@ -9,6 +9,7 @@ import numpy as np
 
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.ending import OVERTURNED, SLID_OFF
+from fecolumn.engines.summary import check_owner
 from fecolumn.pictures.figures.thinning import thinned
 from fecolumn.study.report.sweep import Setting, Sweep
 
@@ -115,6 +116,7 @@ def spread_out(sweep: Sweep, most: int) -> set[str]:
 
 def _trace(folder: Path, run: dict) -> Trace | None:
     try:
+        check_owner(folder / "analyses" / run["case_id"] / "history.h5")
         read = read_history(
             folder / "analyses" / run["case_id"] / "history.h5", ("time", "u_top", "tilt")
         )

@@ -49,9 +49,12 @@ class AnalysisResult:
         Raises
         ------
         InputError
-            the analysis has written none yet.
+            the analysis has written none yet, or it is of another case.
         """
+        from fecolumn.engines.summary import check_owner
+
         file = self.folder / "history.h5"
+        check_owner(file)
         try:
             return read_history(file)
         except OSError as error:
@@ -64,11 +67,16 @@ class AnalysisResult:
 
     @functools.cached_property
     def summary(self) -> dict:
-        """What summary.json says; empty while the analysis has not ended."""
-        from fecolumn.foundation.files import read_json
+        """What summary.json says; empty while the analysis has not ended.
 
-        file = self.folder / "summary.json"
-        return read_json(file) if is_file(file) else {}
+        Raises
+        ------
+        InputError
+            it is damaged, edited, or of another case.
+        """
+        from fecolumn.engines.summary import NAME, summary_of_folder
+
+        return summary_of_folder(self.folder) if is_file(self.folder / NAME) else {}
 
     @functools.cached_property
     def case(self):

@@ -1,0 +1,94 @@
+"""Structures whose numbers, each in its range, make no sense together: told before anything is
+computed.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.case.check_bodies import material_of
+from fecolumn.case.sections import GRAVITY
+from fecolumn.foundation.schema import InputError
+from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.place import loads
+
+# Mean strain of a body at rest below one of its faces: what elements are made for is a tenth of it
+_STRAIN = 0.1
+# Over the height of a structure: way of its top that is no overturning; 0.1 mm of 1 m
+_WAY = 1e-4
+# Over the weight of the lighter body: force of a link that cannot be told from none
+_FORCE = 1e-6
+
+
+def check_sense(case, structure: StructureModel, standing, extents, file) -> None:
+    """Refuse soft bodies that their load flattens, links that hold nothing, and a cap of the top's
+    way that no structure stays below.
+
+    Parameters
+    ----------
+    standing
+        as of `place`.
+    extents
+        of each part, lowest and highest place (2, 3) [m] from its centre of mass.
+    """
+    tops = [one.center[2] + own[:, 2] for one, own in zip(standing, extents)]
+    height = float(np.ptp(np.concatenate(tops)))
+    if 0 < (cap := case.overturn.displacement_m) < _WAY * height:
+        raise InputError(
+            file,
+            "overturn.displacement_m",
+            cap,
+            f"must be 0 for none, or at least {_WAY * height:.3g} m, {_WAY:g} of the height: less "
+            "is no overturning",
+        )
+    _check_forces(case, structure, file)
+    if case.integration.engine != "rigid":
+        _check_strains(case, structure, standing, file)
+
+
+def _check_forces(case, structure: StructureModel, file) -> None:
+    for link in structure.links:
+        ends = [end for end in (link.a, link.b) if end != GROUND]
+        least = _FORCE * GRAVITY * min(structure.parts[end].model.mass for end in ends)
+        for name, keys in case.links.items():
+            if link.name not in (name, *(f"{name} {n + 1}" for n in range(len(structure.parts)))):
+                continue
+            for key in ("breaking_n", "yield_n", "slip_n"):
+                value = getattr(keys, key)
+                if value is not None and value < least:
+                    raise InputError(
+                        file,
+                        f"links.{name}.{key}",
+                        value,
+                        f"must be at least {least:.3g} N, {_FORCE:g} of the weight of what it "
+                        "holds: a link that gives way at less holds nothing; leave it out",
+                    )
+
+
+def _check_strains(case, structure: StructureModel, standing, file) -> None:
+    bodies = [name for name in case.bodies for _ in case.names_of(name)]
+    for joint, load in zip(structure.joints, loads(standing, structure.joints)):
+        if joint.gap or joint.ball:
+            continue
+        surfaces = [(joint.slave, joint.slave_surface)]
+        if joint.master != GROUND:
+            surfaces.append((joint.master, joint.master_surface))
+        area = min(standing[at].model.surfaces[face].areas.sum() for at, face in surfaces)
+        for at, _ in surfaces:
+            body = case.bodies[bodies[at]]
+            if isinstance(body, (Matrices, Storeys)) or not body.deforms or area <= 0:
+                continue
+            stiffness = material_of(body, case.materials).youngs_modulus_pa
+            if load > _STRAIN * area * stiffness:
+                named = body.material and body.youngs_modulus_pa is None
+                own = f"materials.{body.material}" if named else f"bodies.{bodies[at]}"
+                raise InputError(
+                    file,
+                    f"{own}.youngs_modulus_pa",
+                    stiffness,
+                    f"must be at least {load / (_STRAIN * area):.3g} Pa: at rest "
+                    f'"{standing[at].name}" bears {load:.3g} N on {area:.3g} m2, which strains it '
+                    f"by {100 * load / (area * stiffness):.3g} %, and elements are made for "
+                    f"{100 * _STRAIN:g} % at most; what is softer is a pad of its joint",
+                )
