@@ -75,6 +75,10 @@ class Analysis:
         grounds = self.motion.acceleration[: self.steps + 1] if self.motion else np.zeros((0, 3))
         self._steepest = steepest_to_come(np.array([0.0, 0.0, -GRAVITY]), grounds)
 
+    def run(self, stop) -> dict:
+        """Step to the end, or until `stop` says so; the summary."""
+        raise NotImplementedError
+
     def expected(self) -> str:
         """What meshes and analysis will take, in words."""
         raise NotImplementedError

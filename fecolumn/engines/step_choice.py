@@ -8,8 +8,8 @@ that each step is judged by the mean of a few starts, shifted by parts of a step
 from __future__ import annotations
 
 import time
+import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -18,107 +18,21 @@ from fecolumn.case.case import Case
 from fecolumn.case.sections import TRIAL_STEPS
 from fecolumn.engines.analysis import Analysis, AnalysisFailed
 from fecolumn.engines.ending import OVERTURNED, SLID_OFF
+from fecolumn.engines.first_impacts import (
+    FIRST_S,
+    OTHERS_S,
+    SAME,
+    STARTS,
+    TrialResult,
+    Window,
+    change,
+    window_of,
+)
 from fecolumn.engines.trial_run import trial
 from fecolumn.foundation.schema import InputError
 
-#: Change by half the step, over the value at half the step, of the mean loss at the first impacts
-#: and of the largest tilt after them, below which a step is taken; and standard error of that
-#: change above which it cannot be told. Chosen: the loss of a single impact of elastic bodies
-#: scatters by as much with where in the step it lands.
-SAME = 0.05
-#: Starts of each step, shifted by so many parts of it. Chosen: four tell the mean to half the
-#: scatter of one.
-STARTS = 4
-#: Impacts that are looked at, the time [s] within which the first must come, and the time [s] from
-#: then on within which the others must: they bound what the trials cost.
-IMPACTS, FIRST_S, OTHERS_S = 3, 10.0, 2.0
 #: Step [s] where nothing lands in that time: the default of integration.dt_s, nothing being known.
 UNTRIED = 1e-3
-# Energy that impacts take in a step, over that to overturn, from which on something has landed:
-# what a body loses that rocks at a thousandth of its critical tilt
-_LANDS = 1e-6
-# Time [s] without a landing after which the next is of another impact: ten of the longest steps
-_APART_S = 0.02
-# Part of the time between impacts that is left out at either end, where trials may still land
-_LEFT_OUT = 0.25
-
-
-@dataclass(frozen=True, slots=True)
-class Window:
-    """What trials look at: times [s] of the first landing, and between which the tilt after the
-    impacts is taken, the latter the end; and the number of impacts.
-    """
-
-    lands: float
-    begins: float
-    ends: float
-    impacts: int
-
-
-@dataclass(frozen=True, slots=True)
-class TrialResult:
-    """A step [s] and what its starts gave, (starts,) each: loss at the impacts, over the rigid loss
-    or in joules, and largest tilt after them [rad]; how many starts were lost or failed by then.
-    """
-
-    dt: float
-    loss: np.ndarray
-    tilt: np.ndarray
-    lost: int
-
-    def told(self) -> dict:
-        """Of the summary."""
-        scatter = self.loss.std(ddof=1) / self.loss.mean() if self.loss.size > 1 else 0.0
-        return dict(
-            dt_s=self.dt,
-            loss=float(self.loss.mean()) if self.loss.size else None,
-            loss_scatter=float(scatter) if np.isfinite(scatter) else None,
-            tilt_after_rad=float(self.tilt.mean()) if self.tilt.size else None,
-            lost=self.lost,
-        )
-
-
-def change(longer: TrialResult, shorter: TrialResult) -> tuple[float, float, float]:
-    """Changes of mean loss and of mean tilt from a step to a shorter one, over the latter, and the
-    standard error of the first; infinite where starts ended differently.
-    """
-    if longer.lost or shorter.lost:
-        every = longer.lost == shorter.lost == STARTS
-        return (0.0, 0.0, 0.0) if every else (np.inf, np.inf, np.inf)
-    scale = shorter.loss.mean()
-    error = np.sqrt((longer.loss.var(ddof=1) + shorter.loss.var(ddof=1)) / STARTS)
-    if scale <= 0:
-        return np.inf, np.inf, np.inf
-    return (
-        float(abs(longer.loss.mean() - scale) / scale),
-        float(abs(longer.tilt.mean() / shorter.tilt.mean() - 1)),
-        float(error / scale),
-    )
-
-
-def window_of(rows: dict[str, np.ndarray], barrier_j: float) -> Window | None:
-    """The first impacts in the columns of a history; None where nothing lands in time.
-
-    barrier_j: energy to overturn [J].
-    """
-    now = rows["time"]
-    took = np.diff(-rows["energy/impact"], prepend=-rows["energy/impact"][0])
-    landings = now[took > _LANDS * barrier_j]
-    if not landings.size or landings[0] > FIRST_S:
-        return None
-    first = np.flatnonzero(np.diff(landings, prepend=-np.inf) > _APART_S)
-    last = np.append(first[1:], landings.size) - 1
-    begins, ends = landings[first], landings[last]
-    first_s = float(begins[0])
-    limit = min(float(now[-1]), first_s + OTHERS_S)
-    number = int(np.count_nonzero(begins <= limit))
-    if number > IMPACTS:
-        limit, number = min(limit, float(begins[IMPACTS])), IMPACTS
-    end = min(float(ends[number - 1]), limit)
-    if end == limit:  # still landing: the tilt of the last part
-        return Window(first_s, limit - _LEFT_OUT * (limit - first_s), limit, number)
-    left_out = _LEFT_OUT * (limit - end)
-    return Window(first_s, end + left_out, limit - left_out, number)
 
 
 class StepChoice:
@@ -152,17 +66,12 @@ class StepChoice:
         found = window_of(first.history.arrays(), first.barrier_j)
         share = first.rigid_loss_share() is not None
         results: list[TrialResult] = []
-        changes: list[tuple[float, float, float]] = []
+        changes = None
         if found:
             most = sum(round(STARTS * found.ends / dt) for dt in allowed)
             say(f"choosing integration.dt_s: trials of {found.ends:.3g} s, {most:,} steps at most")
-        for dt in allowed if found else ():
-            results.append(self._result(dt, found, share))
-            if len(results) > 1:
-                changes.append(change(*results[-2:]))
-                if max(changes[-1]) < SAME:
-                    break
-        converged = bool(changes) and max(changes[-1]) < SAME
+            results, changes = self._compared(allowed, found, share)
+        converged = changes and max(changes) < SAME
         dt = results[-2 if converged else -1].dt if results else min(UNTRIED, allowed[0])
         told = dict(
             case_id=self._id,
@@ -170,19 +79,32 @@ class StepChoice:
             converged=converged,
             loss_is="rigid_loss_share" if share else "energy_j",
             impacts=found.impacts if found else 0,
-            until_s=found.ends if found else None,
-            loss_change=_number(changes, 0),
-            tilt_change=_number(changes, 1),
-            loss_change_error=_number(changes, 2),
+            until_s=found.ends if found else float(first.history.last()["time"]),
+            **_changes_told(changes),
             same=SAME,
             starts=STARTS,
             trials=[one.told() for one in results],
             steps=self._steps,
             wall_s=time.perf_counter() - began,
         )
-        told["said"] = _sentence(told, changes[-1] if changes else None)
-        say(told["said"])
-        return told
+        said = _sentence(told, changes)
+        say(said)
+        return told | {"said": said}
+
+    def _compared(
+        self, allowed: list[float], window: Window, share: bool
+    ) -> tuple[list[TrialResult], tuple[float, float, float] | None]:
+        """Results of steps, each half of the one before, until two are the same; and the last
+        change, None of one step alone.
+        """
+        results = [self._result(allowed[0], window, share)]
+        changes = None
+        for dt in allowed[1:]:
+            results.append(self._result(dt, window, share))
+            changes = change(*results[-2:])
+            if max(changes) < SAME:
+                break
+        return results, changes
 
     def _allowed(self) -> list[float]:
         """Steps that the case's motions take, the longest first."""
@@ -193,7 +115,9 @@ class StepChoice:
         for dt in TRIAL_STEPS:
             try:
                 for motion in filter(None, motions):
-                    load_motion(motion, dt, self._file)
+                    with warnings.catch_warnings():
+                        warnings.simplefilter("ignore")  # the analysis tells what counts
+                        load_motion(motion, dt, self._file)
             except InputError as error:
                 refused = error
             else:
@@ -231,10 +155,18 @@ class StepChoice:
         return made, outcome
 
     def _first(self, allowed: list[float]) -> tuple[Analysis, list[float]]:
-        """A trial at the longest step that converges, and the steps from there on."""
+        """A trial at the longest step that the case takes, a pad for example, and at which it
+        converges; and the steps from there on.
+        """
+        refused = None
         for place, dt in enumerate(allowed):
-            if made := self._trial(dt, 0.0, FIRST_S + OTHERS_S):
-                return made[0], allowed[place:]
+            try:
+                if made := self._trial(dt, 0.0, FIRST_S + OTHERS_S):
+                    return made[0], allowed[place:]
+            except InputError as error:
+                refused = error
+        if refused:
+            raise refused
         raise AnalysisFailed(
             f"{self._file}: integration.dt_s = 'auto': no trial converges, at steps from "
             f"{allowed[0]:g} to {allowed[-1]:g} s; state a shorter step"
@@ -256,22 +188,23 @@ class StepChoice:
         return TrialResult(dt, np.array(loss), np.array(tilt), lost)
 
 
-def _number(changes: list[tuple[float, float, float]], place: int) -> float | None:
-    """Of the last change, where it is a number."""
-    return changes[-1][place] if changes and np.isfinite(changes[-1][place]) else None
+def _changes_told(changes: tuple[float, float, float] | None) -> dict[str, float | None]:
+    """The last changes of the summary, None where they are no numbers."""
+    names = ("loss_change", "tilt_change", "loss_change_error")
+    values = changes or (np.inf, np.inf, np.inf)
+    return {key: one if np.isfinite(one) else None for key, one in zip(names, values, strict=True)}
 
 
 def _sentence(told: dict, last: tuple[float, float, float] | None) -> str:
     """Why this step, in words."""
     step = f"dt_s = auto: {told['dt_s']:g} s"
     if not told["impacts"]:
-        return (
-            f"{step}, the default: nothing lands in the first {FIRST_S:g} s, so that no step could "
-            "be tried"
-        )
+        why = "the default" if told["dt_s"] == UNTRIED else "the longest that the case takes"
+        tried = min(FIRST_S, told["until_s"])
+        return f"{step}, {why}: nothing lands in the first {tried:.3g} s, so that none was compared"
     impacts = f"the first {told['impacts']} impacts" if told["impacts"] > 1 else "the first impact"
     if last is None:
-        return f"{step}, the only one that the motion takes: nothing was compared"
+        return f"{step}, the only one of those tried that the case takes: none was compared"
     if not np.isfinite(last[0]):
         return f"{step}, the shortest tried: NOT converged, trials of {impacts} end differently"
     changed = f"the loss at {impacts} changes by {100 * last[0]:.2g} %"
@@ -279,6 +212,7 @@ def _sentence(told: dict, last: tuple[float, float, float] | None) -> str:
     if told["converged"]:
         return f"{step}, as {changed} at half of it, {after}"
     return (
-        f"{step}, the shortest tried: NOT converged, {changed} from twice that step, {after} (means "
-        f"of {STARTS} starts, standard error {100 * last[2]:.2g} %); compare many motions, not one"
+        f"{step}, the shortest tried: NOT converged, {changed} from twice that step, {after} "
+        f"(means of {STARTS} starts, standard error {100 * last[2]:.2g} %); compare many motions, "
+        "not one"
     )
