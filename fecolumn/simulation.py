@@ -91,7 +91,7 @@ def run(
             return summary
         if damage and comm.rank == 0:
             warnings.warn(f"{folder / NAME} {damage}; the analysis is made again", stacklevel=2)
-        analysis = begun(case, folder, comm, file, quiet)
+        analysis = started_analysis(case, folder, comm, file, quiet)
         analysis.dt_chosen = chosen
         claim()
         return analysis.run(stop)
@@ -102,7 +102,7 @@ def _speaker(quiet: bool):
     return lambda words: None if quiet else print(words, file=sys.stderr, flush=True)
 
 
-def begun(case: Case, folder: Path, comm, file: str, quiet: bool) -> Analysis:
+def started_analysis(case: Case, folder: Path, comm, file: str, quiet: bool) -> Analysis:
     """The analysis of a case at its start, or where an earlier one in the same folder stopped.
 
     Raises
@@ -129,7 +129,7 @@ def chosen_step(case: Case, file: str, comm=None, stop=lambda: False, say=print)
     Raises
     ------
     InputError, AnalysisFailed
-        as of `begun`.
+        as of `started_analysis`.
     """
     from mpi4py import MPI
 
@@ -138,7 +138,7 @@ def chosen_step(case: Case, file: str, comm=None, stop=lambda: False, say=print)
     comm = comm or MPI.COMM_WORLD
     _analysis_class(case, comm, file)  # which refuses what cannot be analysed
     choice = StepChoice(
-        case, file, lambda one, folder: begun(one, folder, comm, file, quiet=True), stop
+        case, file, lambda one, folder: started_analysis(one, folder, comm, file, quiet=True), stop
     )
     chosen = choice.chosen(say)
     return case.replace({"integration.dt_s": chosen["dt_s"]}), chosen

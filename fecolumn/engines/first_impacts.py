@@ -19,6 +19,8 @@ STARTS = 4
 #: Impacts that are looked at, the time [s] within which the first must come, and the time [s] from
 #: then on within which the others must: they bound what the trials cost.
 IMPACTS, FIRST_S, OTHERS_S = 3, 10.0, 2.0
+#: Of loss and tilt from a step to a shorter one, and the standard error of the former [-]
+Changes = tuple[float, float, float]
 # Energy that impacts take in a step, over that to overturn, from which on something has landed:
 # what a body loses that rocks at a thousandth of its critical tilt
 _LANDS = 1e-6
@@ -63,7 +65,7 @@ class TrialResult:
         )
 
 
-def change(longer: TrialResult, shorter: TrialResult) -> tuple[float, float, float]:
+def change(longer: TrialResult, shorter: TrialResult) -> Changes:
     """Changes of mean loss and of mean tilt from a step to a shorter one, over the latter, and the
     standard error of the first; infinite where starts ended differently.
     """

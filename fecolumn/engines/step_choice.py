@@ -23,6 +23,7 @@ from fecolumn.engines.first_impacts import (
     OTHERS_S,
     SAME,
     STARTS,
+    Changes,
     TrialResult,
     Window,
     change,
@@ -66,34 +67,42 @@ class StepChoice:
         found = window_of(first.history.arrays(), first.barrier_j)
         share = first.rigid_loss_share() is not None
         results: list[TrialResult] = []
-        changes = None
+        half: Changes | None = None
+        limit: Changes | None = None
+        dt = min(UNTRIED, allowed[0])
         if found:
             most = sum(round(STARTS * found.ends / dt) for dt in allowed)
             say(f"choosing integration.dt_s: trials of {found.ends:.3g} s, {most:,} steps at most")
-            results, changes = self._compared(allowed, found, share)
-        converged = changes and max(changes) < SAME
-        dt = results[-2 if converged else -1].dt if results else min(UNTRIED, allowed[0])
+            results, half = self._compared(allowed, found, share)
+            dt = results[-1].dt
+        if found and half and max(half) < SAME:
+            dt, place = results[-2].dt, len(results) - 2
+            if results[-1].dt > allowed[-1]:
+                results.append(self._result(allowed[-1], found, share))
+            limit = change(results[place], results[-1])
         told = dict(
             case_id=self._id,
             dt_s=dt,
-            converged=converged,
+            agrees_at_half=limit is not None if half else None,
+            converged=limit is not None and max(limit) < SAME if half else None,
             loss_is="rigid_loss_share" if share else "energy_j",
             impacts=found.impacts if found else 0,
             until_s=found.ends if found else float(first.history.last()["time"]),
-            **_changes_told(changes),
+            **_changes_told(half),
+            loss_change_shortest=_changes_told(limit)["loss_change"],
             same=SAME,
             starts=STARTS,
             trials=[one.told() for one in results],
             steps=self._steps,
             wall_s=time.perf_counter() - began,
         )
-        said = _sentence(told, changes)
+        said = _sentence(told, half, allowed[-1])
         say(said)
         return told | {"said": said}
 
     def _compared(
         self, allowed: list[float], window: Window, share: bool
-    ) -> tuple[list[TrialResult], tuple[float, float, float] | None]:
+    ) -> tuple[list[TrialResult], Changes | None]:
         """Results of steps, each half of the one before, until two are the same; and the last
         change, None of one step alone.
         """
@@ -188,15 +197,15 @@ class StepChoice:
         return TrialResult(dt, np.array(loss), np.array(tilt), lost)
 
 
-def _changes_told(changes: tuple[float, float, float] | None) -> dict[str, float | None]:
+def _changes_told(changes: Changes | None) -> dict[str, float | None]:
     """The last changes of the summary, None where they are no numbers."""
     names = ("loss_change", "tilt_change", "loss_change_error")
     values = changes or (np.inf, np.inf, np.inf)
     return {key: one if np.isfinite(one) else None for key, one in zip(names, values, strict=True)}
 
 
-def _sentence(told: dict, last: tuple[float, float, float] | None) -> str:
-    """Why this step, in words."""
+def _sentence(told: dict, last: Changes | None, shortest: float) -> str:
+    """Why this step, in words; last: of `change`, shortest: step that could be tried [s]."""
     step = f"dt_s = auto: {told['dt_s']:g} s"
     if not told["impacts"]:
         why = "the default" if told["dt_s"] == UNTRIED else "the longest that the case takes"
@@ -209,8 +218,13 @@ def _sentence(told: dict, last: tuple[float, float, float] | None) -> str:
         return f"{step}, the shortest tried: NOT converged, trials of {impacts} end differently"
     changed = f"the loss at {impacts} changes by {100 * last[0]:.2g} %"
     after = f"the tilt after by {100 * last[1]:.2g} %"
-    if told["converged"]:
-        return f"{step}, as {changed} at half of it, {after}"
+    if told["agrees_at_half"]:
+        said = f"{step}, as {changed} at half of it, {after}"
+        if told["converged"]:
+            return said
+        by = told["loss_change_shortest"]
+        much = "trials end differently" if by is None else f"the loss changes by {100 * by:.2g} %"
+        return f"{said}; NOT the limit of short steps: at {shortest:g} s {much}"
     return (
         f"{step}, the shortest tried: NOT converged, {changed} from twice that step, {after} "
         f"(means of {STARTS} starts, standard error {100 * last[2]:.2g} %); compare many motions, "

@@ -146,7 +146,7 @@ def first_steps(case: Case, file: str, seconds: float) -> FirstSteps:
 
     from fecolumn.case.case import check
     from fecolumn.engines.trial_run import trial
-    from fecolumn.simulation import begun
+    from fecolumn.simulation import started_analysis
 
     began: list[float] = []
 
@@ -156,6 +156,8 @@ def first_steps(case: Case, file: str, seconds: float) -> FirstSteps:
 
     check(case, file)
     plain = case.replace({"output.states_every_s": 0.0, "output.fields_every_s": 0.0})
-    made, _ = trial(lambda folder: begun(plain, folder, MPI.COMM_WORLD, file, quiet=True), enough)
+    made, _ = trial(
+        lambda folder: started_analysis(plain, folder, MPI.COMM_WORLD, file, quiet=True), enough
+    )
     top = np.hypot(*made.history.arrays()["u_top"][:, :2].T)
     return FirstSteps(made.step, case.integration.dt_s, made.stepping_s, float(top.max()))

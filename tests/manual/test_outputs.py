@@ -146,6 +146,15 @@ def test_every_entry_of_a_summary(analysis):
     )
 
 
+def test_every_entry_of_a_step_that_was_chosen():
+    _, chosen = chosen_step(
+        structure(**block(), integration={"engine": "rigid", "duration_s": 0.01, "dt_s": "auto"}),
+        "case",
+        say=lambda words: None,
+    )
+    assert set(listed("outputs", "dt_chosen of summary.json")) == set(chosen)
+
+
 def test_every_column_of_a_studys_tables(tmp_path):
     plan = read_plan(write_study(tmp_path, pulses=range(2)))
     write_tables(
