@@ -24,6 +24,11 @@ Changes = tuple[float, float, float]
 # Energy that impacts take in a step, over that to overturn, from which on something has landed:
 # what a body loses that rocks at a thousandth of its critical tilt
 _LANDS = 1e-6
+# The same over the most that any step's impacts take: rattling before and between counts for none
+_COUNTS = 1e-2
+# Tilt after the impacts over the largest, below which it counts as that much: of what is at rest by
+# then nothing but rounding is left
+_TILT_COUNTS = 0.1
 # Time [s] without a landing after which the next is of another impact: ten of the longest steps
 _APART_S = 0.02
 # Part of the time between impacts that is left out at either end, where trials may still land
@@ -44,41 +49,57 @@ class Window:
 
 @dataclass(frozen=True, slots=True)
 class TrialResult:
-    """A step [s] and what its starts gave, (starts,) each: loss at the impacts, over the rigid loss
-    or in joules, and largest tilt after them [rad]; how many starts were lost or failed by then.
+    """A step [s] and what its starts gave, (starts,) each: loss at the impacts over the rigid loss,
+    nan where that is not known; energy that impacts and friction took [J]; largest tilt of a body
+    after the impacts, and in all [rad]; and how many starts were lost or failed by then.
     """
 
     dt: float
-    loss: np.ndarray
+    share: np.ndarray
+    energy: np.ndarray
+    after: np.ndarray
     tilt: np.ndarray
     lost: int
 
-    def told(self) -> dict:
-        """Of the summary."""
-        scatter = self.loss.std(ddof=1) / self.loss.mean() if self.loss.size > 1 else 0.0
+    def loss(self, shares: bool) -> np.ndarray:
+        """Loss (starts,), over the rigid loss or [J]."""
+        return self.share if shares else self.energy
+
+    def told(self, shares: bool) -> dict:
+        """Of the summary; shares: whether the loss is that over the rigid loss."""
+        loss = self.loss(shares)
+        mean = float(loss.mean()) if loss.size else None
         return dict(
             dt_s=self.dt,
-            loss=float(self.loss.mean()) if self.loss.size else None,
-            loss_scatter=float(scatter) if np.isfinite(scatter) else None,
-            tilt_after_rad=float(self.tilt.mean()) if self.tilt.size else None,
+            loss=mean,
+            loss_scatter=float(loss.std(ddof=1) / mean) if mean and loss.size > 1 else None,
+            tilt_after_rad=float(self.after.mean()) if self.after.size else None,
             lost=self.lost,
         )
 
 
+def know_share(results: list[TrialResult]) -> bool:
+    """Whether the loss over the rigid loss is known of all starts."""
+    return bool(results) and all(np.isfinite(one.share).all() for one in results)
+
+
 def change(longer: TrialResult, shorter: TrialResult) -> Changes:
-    """Changes of mean loss and of mean tilt from a step to a shorter one, over the latter, and the
-    standard error of the first; infinite where starts ended differently.
+    """Changes of mean loss and of mean tilt after the impacts from a step to a shorter one, over
+    the latter, and the standard error of the first; infinite where starts ended differently.
     """
     if longer.lost or shorter.lost:
         every = longer.lost == shorter.lost == STARTS
         return (0.0, 0.0, 0.0) if every else (np.inf, np.inf, np.inf)
-    scale = shorter.loss.mean()
-    error = np.sqrt((longer.loss.var(ddof=1) + shorter.loss.var(ddof=1)) / STARTS)
+    shares = know_share([longer, shorter])
+    before, loss = longer.loss(shares), shorter.loss(shares)
+    scale = float(loss.mean())
     if scale <= 0:
         return np.inf, np.inf, np.inf
+    error = np.sqrt((before.var(ddof=1) + loss.var(ddof=1)) / STARTS)
+    tilt = max(float(shorter.after.mean()), _TILT_COUNTS * float(shorter.tilt.mean()))
     return (
-        float(abs(longer.loss.mean() - scale) / scale),
-        float(abs(longer.tilt.mean() / shorter.tilt.mean() - 1)),
+        float(abs(before.mean() - scale) / scale),
+        float(abs(longer.after.mean() - shorter.after.mean()) / tilt) if tilt else 0.0,
         float(error / scale),
     )
 
@@ -90,7 +111,8 @@ def window_of(rows: dict[str, np.ndarray], barrier_j: float) -> Window | None:
     """
     now = rows["time"]
     took = np.diff(-rows["energy/impact"], prepend=-rows["energy/impact"][0])
-    landings = now[took > _LANDS * barrier_j]
+    largest = took[now <= FIRST_S + OTHERS_S].max()
+    landings = now[took > max(_LANDS * barrier_j, _COUNTS * largest)]
     if not landings.size or landings[0] > FIRST_S:
         return None
     first = np.flatnonzero(np.diff(landings, prepend=-np.inf) > _APART_S)

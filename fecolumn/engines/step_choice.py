@@ -27,9 +27,11 @@ from fecolumn.engines.first_impacts import (
     TrialResult,
     Window,
     change,
+    know_share,
     window_of,
 )
 from fecolumn.engines.trial_run import trial
+from fecolumn.foundation.progress import clock
 from fecolumn.foundation.schema import InputError
 
 #: Step [s] where nothing lands in that time: the default of integration.dt_s, nothing being known.
@@ -65,34 +67,38 @@ class StepChoice:
         began, allowed = time.perf_counter(), self._allowed()
         first, allowed = self._first(allowed)
         found = window_of(first.history.arrays(), first.barrier_j)
-        share = first.rigid_loss_share() is not None
         results: list[TrialResult] = []
         half: Changes | None = None
         limit: Changes | None = None
         dt = min(UNTRIED, allowed[0])
         if found:
             most = sum(round(STARTS * found.ends / dt) for dt in allowed)
-            say(f"choosing integration.dt_s: trials of {found.ends:.3g} s, {most:,} steps at most")
-            results, half = self._compared(allowed, found, share)
+            about = clock(most * first.stepping_s / max(first.step, 1))
+            say(
+                f"choosing integration.dt_s: trials of {found.ends:.3g} s, {most:,} steps at most, "
+                f"about {about}"
+            )
+            results, half = self._compared(allowed, found)
             dt = results[-1].dt
         if found and half and max(half) < SAME:
             dt, place = results[-2].dt, len(results) - 2
             if results[-1].dt > allowed[-1]:
-                results.append(self._result(allowed[-1], found, share))
+                results.append(self._result(allowed[-1], found))
             limit = change(results[place], results[-1])
+        shares = know_share(results)
         told = dict(
             case_id=self._id,
             dt_s=dt,
             agrees_at_half=limit is not None if half else None,
             converged=limit is not None and max(limit) < SAME if half else None,
-            loss_is="rigid_loss_share" if share else "energy_j",
+            loss_is="rigid_loss_share" if shares else "energy_j",
             impacts=found.impacts if found else 0,
             until_s=found.ends if found else float(first.history.last()["time"]),
             **_changes_told(half),
             loss_change_shortest=_changes_told(limit)["loss_change"],
             same=SAME,
             starts=STARTS,
-            trials=[one.told() for one in results],
+            trials=[one.told(shares) for one in results],
             steps=self._steps,
             wall_s=time.perf_counter() - began,
         )
@@ -101,15 +107,15 @@ class StepChoice:
         return told | {"said": said}
 
     def _compared(
-        self, allowed: list[float], window: Window, share: bool
+        self, allowed: list[float], window: Window
     ) -> tuple[list[TrialResult], Changes | None]:
         """Results of steps, each half of the one before, until two are the same; and the last
         change, None of one step alone.
         """
-        results = [self._result(allowed[0], window, share)]
+        results = [self._result(allowed[0], window)]
         changes = None
         for dt in allowed[1:]:
-            results.append(self._result(dt, window, share))
+            results.append(self._result(dt, window))
             changes = change(*results[-2:])
             if max(changes) < SAME:
                 break
@@ -181,20 +187,26 @@ class StepChoice:
             f"{allowed[0]:g} to {allowed[-1]:g} s; state a shorter step"
         )
 
-    def _result(self, dt: float, window: Window, share: bool) -> TrialResult:
-        """All starts of a step; share: whether the loss is that over the rigid loss."""
-        loss, tilt, lost = [], [], 0
+    def _result(self, dt: float, window: Window) -> TrialResult:
+        """All starts of a step."""
+        found, lost = [], 0
         for k in range(STARTS):
-            found = self._trial(dt, k / STARTS, window.ends, window.lands)
-            if found is None or found[1] in (OVERTURNED, SLID_OFF):
+            made = self._trial(dt, k / STARTS, window.ends, window.lands)
+            if made is None or made[1] in (OVERTURNED, SLID_OFF):
                 lost += 1
                 continue
-            rows = found[0].history.arrays()
+            rows, known = made[0].history.arrays(), made[0].rigid_loss_share()
             taken = -float(rows["energy/impact"][-1] + rows["energy/friction"][-1])
-            loss.append((found[0].rigid_loss_share() or 0.0) if share else taken)
+            tilts = [
+                rows[name] for name in rows if name.startswith("body/") and name[-5:] == "/tilt"
+            ]
+            tilted = np.max([rows["tilt"], *tilts], axis=0)
             late = rows["time"] >= min(window.begins, rows["time"][-1])
-            tilt.append(rows["tilt"][late].max())
-        return TrialResult(dt, np.array(loss), np.array(tilt), lost)
+            found.append(
+                (np.nan if known is None else known, taken, tilted[late].max(), tilted.max())
+            )
+        share, energy, after, tilt = np.array(found).reshape(-1, 4).T
+        return TrialResult(dt, share, energy, after, tilt, lost)
 
 
 def _changes_told(changes: Changes | None) -> dict[str, float | None]:

@@ -8,8 +8,6 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 if TYPE_CHECKING:
     from fecolumn.case.case import Case
 
@@ -142,6 +140,7 @@ def first_steps(case: Case, file: str, seconds: float) -> FirstSteps:
     AnalysisFailed
         a step did not converge.
     """
+    import numpy as np
     from mpi4py import MPI
 
     from fecolumn.case.case import check

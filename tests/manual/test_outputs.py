@@ -18,11 +18,11 @@ from fecolumn.cli import main
 sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("study", "report", "structures")]
 
 from rocking_block import ENTRY  # noqa: E402
-from small_structures import structure  # noqa: E402
+from small_structures import block, structure  # noqa: E402
 from study_files import write_study  # noqa: E402
 from synthetic_study import write_synthetic  # noqa: E402
 
-from fecolumn.simulation import run  # noqa: E402
+from fecolumn.simulation import chosen_step, run  # noqa: E402
 from fecolumn.study.plan import read_plan  # noqa: E402
 from fecolumn.study.report.page import write_report  # noqa: E402
 from fecolumn.study.run import complete_study  # noqa: E402

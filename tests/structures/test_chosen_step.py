@@ -62,15 +62,36 @@ def test_window_is_cut_where_impacts_are_late_or_never_end():
     assert window_of(_rows([1.0]), 2e6) is None
 
 
-def test_change_is_that_of_the_means_over_the_shorter_step():
-    tilt = np.full(STARTS, 0.1)
-    longer = TrialResult(2e-3, np.array([1.1, 1.3, 1.1, 1.3]), 1.02 * tilt, 0)
-    shorter = TrialResult(1e-3, np.full(STARTS, 1.0), tilt, 0)
-    error = np.sqrt(np.var([1.1, 1.3, 1.1, 1.3], ddof=1) / STARTS)
-    assert change(longer, shorter) == pytest.approx((0.2, 0.02, error))
-    fell = TrialResult(1e-3, np.empty(0), np.empty(0), STARTS)
+def _result(dt, loss, after=0.1, lost=0, share=True):
+    """Of starts with these losses; the largest tilt is 0.2."""
+    loss = np.array(loss, dtype=float)
+    known = loss if share else np.full_like(loss, np.nan)
+    tilt = np.full(loss.size, 0.2)
+    return TrialResult(dt, known, loss, np.full(loss.size, after), tilt, lost)
+
+
+@pytest.mark.parametrize("share", [True, False])
+def test_change_is_that_of_the_means_over_the_shorter_step(share):
+    scattered, same = [1.1, 1.3, 1.1, 1.3], [1.0] * STARTS
+    longer = _result(2e-3, scattered, after=0.102, share=share)
+    error = np.sqrt(np.var(scattered, ddof=1) / STARTS)
+    assert change(longer, _result(1e-3, same)) == pytest.approx((0.2, 0.02, error))
+    fell = _result(1e-3, [], lost=STARTS)
     assert max(change(longer, fell)) == np.inf and change(fell, fell) == (0, 0, 0)
-    assert fell.told()["loss"] is None and fell.told()["lost"] == STARTS
+    assert fell.told(True)["loss"] is None and fell.told(True)["lost"] == STARTS
+
+
+def test_tilt_of_what_is_at_rest_after_its_impacts_is_measured_by_the_largest():
+    at_rest = [
+        _result(dt, [1.0] * STARTS, after=after) for dt, after in ((2e-3, 3e-9), (1e-3, 1e-9))
+    ]
+    assert change(*at_rest)[1] == pytest.approx(2e-9 / 0.02)
+
+
+def test_rattling_before_the_impacts_that_count_is_none():
+    rows = _rows([1.0, 1.5, 2.0])
+    rows["energy/impact"][round(0.2 / 2e-3) :] -= 0.005
+    assert window_of(rows, 100.0).lands == pytest.approx(1.0)
 
 
 def test_bodies_without_give_lose_the_same_at_every_step_and_take_the_longest(tmp_path, capsys):
@@ -132,9 +153,8 @@ def test_elastic_impacts_that_scatter_are_told_as_not_converged(monkeypatch):
 
 
 def test_a_step_at_which_only_half_agrees_is_told_as_none_of_the_limit(monkeypatch):
-    def result(self, dt, window, share):
-        loss = 1.0 if dt > 4e-4 else 0.7
-        return TrialResult(dt, np.full(STARTS, loss), np.full(STARTS, 0.1), 0)
+    def result(self, dt, window):
+        return _result(dt, [1.0 if dt > 4e-4 else 0.7] * STARTS)
 
     monkeypatch.setattr(step_choice.StepChoice, "_result", result)
     said = []
