@@ -226,7 +226,7 @@ def _warn_of_motion(case, file) -> None:
     except InputError as error:
         warnings.warn(str(error), stacklevel=2)
         return
-    if 0 < end_s < motion_s - case.integration.dt_s:
+    if 0 < end_s < motion_s - case.integration.shortest_s:
         warnings.warn(cut_text(file, end_s, motion_s), stacklevel=2)
 
 

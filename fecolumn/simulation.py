@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
+import sys
 import warnings
 from pathlib import Path
 
 from fecolumn.case.case import Case, check, check_duration, read_case
 from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.engines.analysis import Analysis, AnalysisFailed
-from fecolumn.engines.result_folder import held
+from fecolumn.engines.result_folder import held, kept_choice
 from fecolumn.engines.summary import NAME, read_summary
 from fecolumn.foundation.files import Unreadable, is_file, read_json
 from fecolumn.foundation.schema import InputError
@@ -57,9 +58,6 @@ def run(
     """
     from mpi4py import MPI
 
-    from fecolumn.engines.dynamics.gravity import NoEquilibrium
-    from fecolumn.engines.no_rest import no_rest
-
     comm = comm or MPI.COMM_WORLD
     if isinstance(case, (str, Path)):
         case, file = read_case(case), str(case)
@@ -70,7 +68,14 @@ def run(
         )
     folder, file = Path(folder), file or "case"
     check(case, file)
-    with held(folder, case, comm, file) as claim:
+    chosen = kept_choice(folder)
+    if case.integration.step_is_chosen:
+        if chosen and chosen.get("case_id") == case.id:
+            case = case.replace({"integration.dt_s": chosen["dt_s"]})
+        else:
+            with held(folder, case, comm, file):
+                case, chosen = chosen_step(case, file, comm, stop, _speaker(quiet))
+    with held(folder, case, comm, file, chosen) as claim:
         summary, damage = comm.bcast(_earlier_summary(folder, case.id) if comm.rank == 0 else None)
         if summary:
             found, present = (
@@ -86,12 +91,58 @@ def run(
             return summary
         if damage and comm.rank == 0:
             warnings.warn(f"{folder / NAME} {damage}; the analysis is made again", stacklevel=2)
-        try:
-            analysis = _analysis_class(case, comm, file)(case, folder, comm, file, quiet)
-        except NoEquilibrium as error:
-            raise AnalysisFailed(f"{file}: {no_rest(case, error)}") from None
+        analysis = started_analysis(case, folder, comm, file, quiet)
+        analysis.dt_chosen = chosen
         claim()
         return analysis.run(stop)
+
+
+def _speaker(quiet: bool):
+    """Function that tells a line on stderr, or nothing where `quiet`."""
+    return lambda words: None if quiet else print(words, file=sys.stderr, flush=True)
+
+
+def started_analysis(case: Case, folder: Path, comm, file: str, quiet: bool) -> Analysis:
+    """The analysis of a case at its start, or where an earlier one in the same folder stopped.
+
+    Raises
+    ------
+    InputError
+        the case cannot be analysed.
+    AnalysisFailed
+        there is no gravity equilibrium to start from.
+    """
+    from fecolumn.engines.dynamics.gravity import NoEquilibrium
+    from fecolumn.engines.no_rest import no_rest
+
+    try:
+        return _analysis_class(case, comm, file)(case, folder, comm, file, quiet)
+    except NoEquilibrium as error:
+        raise AnalysisFailed(f"{file}: {no_rest(case, error)}") from None
+
+
+def chosen_step(case: Case, file: str, comm=None, stop=lambda: False, say=print):
+    """The case with the step that trials of its first impacts choose, in place of "auto"; and how
+    it was chosen, of the summary.
+
+    say: function that takes a line of words.
+
+    Raises
+    ------
+    InputError, AnalysisFailed
+        as of `started_analysis`.
+    """
+    from mpi4py import MPI
+
+    from fecolumn.engines.step_choice import StepChoice
+
+    comm = comm or MPI.COMM_WORLD
+    _analysis_class(case, comm, file)  # which refuses what cannot be analysed
+    choice = StepChoice(
+        case, file, lambda one, folder: started_analysis(one, folder, comm, file, quiet=True), stop
+    )
+    chosen = choice.chosen(say)
+    return case.replace({"integration.dt_s": chosen["dt_s"]}), chosen
 
 
 def _analysis_class(case, comm, file) -> type[Analysis]:

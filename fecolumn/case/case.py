@@ -625,6 +625,7 @@ def check(case: Case, file) -> None:
     """
     from fecolumn.case.check_bodies import check_body
     from fecolumn.case.check_link import check_link
+    from fecolumn.case.check_step import check_step
 
     def refuse(key, value, allowed):
         raise InputError(file, key, value, allowed)
@@ -634,6 +635,7 @@ def check(case: Case, file) -> None:
         refuse("overturn.displacement_m", cap, told)
     if case.own:  # checked by the model
         return
+    check_step(case.integration, refuse)
     if not case.bodies:
         refuse("bodies", None, "missing; a structure needs a table [bodies.NAME] at least")
     for name, body in case.bodies.items():
@@ -763,7 +765,7 @@ def _check_integration(case, refuse) -> None:
     time = plan.duration_s or (
         case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0
     )
-    if time / plan.dt_s > MOST_STEPS:
+    if time / plan.shortest_s > MOST_STEPS:
         refuse(
             "integration.dt_s",
             plan.dt_s,

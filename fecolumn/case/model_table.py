@@ -11,8 +11,10 @@ both is analysed: the name of a model, or an engine of bodies.
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 
+from fecolumn.case.check_step import check_step
 from fecolumn.case.model_names import TABLES, model_class, model_engine_of
 from fecolumn.case.sections import Contact, Initial, Integration, Motion, Output, Overturn, located
 from fecolumn.foundation.schema import InputError, Section, build, parameter
@@ -95,6 +97,7 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
         for name, kind in COMMON.items()
         if name != "motion" or "motion" in tables
     }
+    check_step(found["integration"], functools.partial(_refuse, file))
     if found["output"].fields_every_s:
         raise InputError(
             file,
@@ -117,6 +120,10 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
         title=tables.get("title", ""),
         own={table: own},
     )
+
+
+def _refuse(file, key: str, value, allowed: str) -> None:
+    raise InputError(file, key, value, allowed)
 
 
 def model_key_type(key: str):

@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 SUBSTEPS = ("rolling", "impacts", "none")
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 REST = "rest"  # word of motion.free_vibration_s
+AUTO = "auto"  # word of integration.dt_s
+#: Steps among which integration.dt_s = "auto" chooses [s], each half of the one before
+TRIAL_STEPS = (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4)
 MOST_STEPS = 1e8  # of an analysis: its history fills the memory of any machine
 MODEL_ENGINES = (
     "housner",
@@ -126,7 +129,15 @@ class Contact(Section):
 class Integration(Section):
     """Engine and HHT-alpha time integration."""
 
-    dt_s: float = parameter(1e-3, doc="time step", unit="s", above=0, high=0.1)
+    dt_s: float = parameter(
+        1e-3,
+        doc="time step; auto: chosen by trials of the first impacts, with the reduced and the "
+        "rigid engine",
+        unit="s",
+        above=0,
+        high=0.1,
+        words=(AUTO,),
+    )
     alpha_hht: float = parameter(
         -0.2,
         doc="HHT alpha of Hilber, Hughes and Taylor (OpenSees writes 1 + alpha)",
@@ -190,6 +201,16 @@ class Integration(Section):
         choices=("rest", "drawn"),
         since="0.9",
     )
+
+    @property
+    def step_is_chosen(self) -> bool:
+        """Whether the step is still to be chosen: `dt_s` is a word, and no number."""
+        return str(self.dt_s) == AUTO
+
+    @property
+    def shortest_s(self) -> float:
+        """The time step, or the shortest that may be chosen [s]."""
+        return TRIAL_STEPS[-1] if self.step_is_chosen else self.dt_s
 
 
 @dataclass(frozen=True, slots=True)

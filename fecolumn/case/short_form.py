@@ -371,7 +371,7 @@ def check_short_form(case: ShortForm, file) -> None:
     time = case.integration.duration_s or (
         case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0
     )
-    if time / case.integration.dt_s > MOST_STEPS:
+    if time / case.integration.shortest_s > MOST_STEPS:
         refuse(
             "integration.dt_s",
             case.integration.dt_s,

@@ -40,6 +40,8 @@ class Analysis:
         until the motion is over. until_rest: whether the analysis ends when the column is at rest.
     history
         rows so far. stepping_s, earlier_s: wall time of steps, and of earlier runs [s].
+    dt_chosen
+        how the time step was chosen; None where the case states it.
     code
         version and sources that the result is of; of an analysis that went on from other code's
         checkpoint, both sources.
@@ -68,8 +70,13 @@ class Analysis:
         self.history, self.step = History(), 0
         self.stepping_s = self.earlier_s = 0.0
         self.stance, self.top_arm, self.standing_j = None, None, 0.0
+        self.dt_chosen: dict | None = None
         grounds = self.motion.acceleration[: self.steps + 1] if self.motion else np.zeros((0, 3))
         self._steepest = steepest_to_come(np.array([0.0, 0.0, -GRAVITY]), grounds)
+
+    def run(self, stop) -> dict:
+        """Step to the end, or until `stop` says so; the summary."""
+        raise NotImplementedError
 
     def expected(self) -> str:
         """What meshes and analysis will take, in words."""
@@ -361,6 +368,7 @@ class Analysis:
             dofs=dofs,
             steps=self.step,
             dt=plan.dt_s,
+            dt_chosen=self.dt_chosen,
             alpha_hht=plan.alpha_hht,
             motion=self.motion.name if self.motion else "",
             duration_s=end,

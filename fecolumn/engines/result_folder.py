@@ -15,9 +15,11 @@ from fecolumn.foundation.schema import InputError
 
 
 @contextlib.contextmanager
-def held(folder: Path, case: Case, comm, file):
+def held(folder: Path, case: Case, comm, file, chosen: dict | None = None):
     """Hold the folder for one process; yields the function that makes it this case's, for when the
     analysis has started.
+
+    chosen: how the case's step was chosen, which is kept with the case.
 
     Nothing is written where it is another case's, and what does not start leaves the folder free
     for any case.
@@ -66,7 +68,8 @@ def held(folder: Path, case: Case, comm, file):
 
     def claim():
         if lock and not known.is_file():
-            write_json(known, {"id": case.id, "file": str(file), "case": case.as_stated()})
+            told = {"dt_chosen": chosen} if chosen else {}
+            write_json(known, {"id": case.id, "file": str(file), "case": case.as_stated(), **told})
 
     try:
         yield claim
@@ -77,3 +80,14 @@ def held(folder: Path, case: Case, comm, file):
                 if made:
                     folder.rmdir()
             lock.close()
+
+
+def kept_choice(folder: Path) -> dict | None:
+    """How the step of the case of a result folder was chosen, None where it was stated, or there
+    is no case.
+    """
+    try:
+        chosen = read_json(folder / "case.json").get("dt_chosen")
+    except (OSError, Unreadable, AttributeError):
+        return None
+    return chosen if isinstance(chosen, dict) else None

@@ -24,6 +24,7 @@ DECIDING = (
     "case/check_full.py",
     "case/check_grounds.py",
     "case/check_link.py",
+    "case/check_step.py",
     "case/mesh_file_keys.py",
     "case/model_keys.py",
     "case/model_names.py",

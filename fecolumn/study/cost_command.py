@@ -4,14 +4,9 @@ from __future__ import annotations
 
 import argparse
 import sys
-import tempfile
 import time
-import warnings
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
-
-import numpy as np
 
 if TYPE_CHECKING:
     from fecolumn.case.case import Case
@@ -72,6 +67,7 @@ def main(args: argparse.Namespace) -> int:
     from fecolumn.engines.pace import cheaper
     from fecolumn.foundation.progress import clock
     from fecolumn.foundation.schema import InputError
+    from fecolumn.simulation import chosen_step
 
     if not _RANGE[0] <= args.seconds <= _RANGE[1]:
         allowed = f"must lie between {_RANGE[0]:g} and {_RANGE[1]:g}"
@@ -80,6 +76,8 @@ def main(args: argparse.Namespace) -> int:
     if case.integration.engine in MODEL_ENGINES:
         allowed = "is a model of rigid bodies: its analysis takes seconds, and no key makes it less"
         raise InputError(args.case, "integration.engine", case.integration.engine, allowed)
+    if case.integration.step_is_chosen:
+        case = chosen_step(case, args.case, say=_tell)[0]
     duration = _duration(case, args.case)
     _say("as it is")
     own = first_steps(case, args.case, args.seconds)
@@ -108,7 +106,11 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _say(setting: str) -> None:
-    print(f"measuring: {setting}", file=sys.stderr, flush=True)
+    _tell(f"measuring: {setting}")
+
+
+def _tell(words: str) -> None:
+    print(words, file=sys.stderr, flush=True)
 
 
 def _duration(case: Case, file: str) -> float:
@@ -138,31 +140,23 @@ def first_steps(case: Case, file: str, seconds: float) -> FirstSteps:
     AnalysisFailed
         a step did not converge.
     """
-    from fecolumn.engines.analysis import CHECKPOINT
-    from fecolumn.engines.dynamics.checkpoint import read_arrays
-    from fecolumn.simulation import run
+    import numpy as np
+    from mpi4py import MPI
+
+    from fecolumn.case.case import check
+    from fecolumn.engines.trial_run import trial
+    from fecolumn.simulation import started_analysis
 
     began: list[float] = []
-    ended = False
 
-    def stop() -> bool:
-        nonlocal ended
+    def enough() -> bool:
         began.append(time.monotonic())
-        ended = began[-1] - began[0] >= seconds
-        return ended
+        return began[-1] - began[0] >= seconds
 
+    check(case, file)
     plain = case.replace({"output.states_every_s": 0.0, "output.fields_every_s": 0.0})
-    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            summary = run(plain, folder, file=file, quiet=True, stop=stop)
-        except KeyboardInterrupt:
-            if not ended:
-                raise
-            saved = read_arrays(Path(folder) / CHECKPOINT)
-            top = np.hypot(*saved["rows.u_top"][:, :2].T)
-            steps, wall_s, peak = int(saved["step"]), float(saved["stepping_s"]), float(top.max())
-        else:
-            steps, peak = summary["steps"], summary["u_max_m"]
-            wall_s = steps * summary["s_per_step"]
-    return FirstSteps(steps, case.integration.dt_s, wall_s, peak)
+    made, _ = trial(
+        lambda folder: started_analysis(plain, folder, MPI.COMM_WORLD, file, quiet=True), enough
+    )
+    top = np.hypot(*made.history.arrays()["u_top"][:, :2].T)
+    return FirstSteps(made.step, case.integration.dt_s, made.stepping_s, float(top.max()))

@@ -23,6 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from fecolumn.case.case import Case, case_from_tables, check_duration
+from fecolumn.case.check_step import check_stated
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.paths import taken_over
@@ -233,6 +234,7 @@ class _Maker:
         """The case at a level of each factor."""
         case = case_from_tables(self._tables(places), self.path)
         check_duration(case, self.path)
+        check_stated(case, self.path)
         if case.motion:
             self._refuse_missing(case.motion)
         return case

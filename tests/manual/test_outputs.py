@@ -18,11 +18,11 @@ from fecolumn.cli import main
 sys.path[:0] = [str(ROOT / "tests" / folder) for folder in ("study", "report", "structures")]
 
 from rocking_block import ENTRY  # noqa: E402
-from small_structures import structure  # noqa: E402
+from small_structures import block, structure  # noqa: E402
 from study_files import write_study  # noqa: E402
 from synthetic_study import write_synthetic  # noqa: E402
 
-from fecolumn.simulation import run  # noqa: E402
+from fecolumn.simulation import chosen_step, run  # noqa: E402
 from fecolumn.study.plan import read_plan  # noqa: E402
 from fecolumn.study.report.page import write_report  # noqa: E402
 from fecolumn.study.run import complete_study  # noqa: E402
@@ -144,6 +144,15 @@ def test_every_entry_of_a_summary(analysis):
     assert set(listed("outputs", "summary.json")) | of_parts == set(
         json.loads((analysis / "summary.json").read_text())
     )
+
+
+def test_every_entry_of_a_step_that_was_chosen():
+    _, chosen = chosen_step(
+        structure(**block(), integration={"engine": "rigid", "duration_s": 0.01, "dt_s": "auto"}),
+        "case",
+        say=lambda words: None,
+    )
+    assert set(listed("outputs", "dt_chosen of summary.json")) == set(chosen)
 
 
 def test_every_column_of_a_studys_tables(tmp_path):

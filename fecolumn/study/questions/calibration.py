@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.case import case_from_tables
+from fecolumn.case.check_step import check_stated
 from fecolumn.foundation.schema import InputError, merge, nested
 from fecolumn.pictures.figures.axis_text import axis_unit
 from fecolumn.statistics.profile import ProfiledFit, ProfiledParameter
@@ -78,6 +79,7 @@ class RockingCalibration:
             names the key and its value.
         """
         middle = np.full(len(self.ranges), 0.5)
+        check_stated(self.case(middle), self.file)
         for place in range(middle.size):
             for end in (0.0, 1.0):
                 ends = middle.copy()
