@@ -102,3 +102,9 @@ def test_there_are_few_rooms():
     modules = [one.name for one in PACKAGE.glob("*.py") if one.name != "__init__.py"]
     assert len(folders) <= FOLDERS, sorted(folders)
     assert len(modules) <= MODULES, sorted(modules)
+
+
+def test_no_two_test_files_have_one_name():
+    """Test files are no packages: pytest imports them by their names alone."""
+    names = collections.Counter(file.name for file in (ROOT / "tests").rglob("test_*.py"))
+    assert [name for name, times in names.items() if times > 1] == []

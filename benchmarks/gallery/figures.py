@@ -119,6 +119,21 @@ def two_sides(_: Work, target: Path) -> str:
     return "from verification.joints"
 
 
+def devices(_: Work, target: Path) -> str:
+    """Loops of devices that stop a block, as `fecolumn verify -k devices` draws them."""
+    from matplotlib.figure import Figure
+
+    from fecolumn.pictures.figures.style import styled
+    from fecolumn.verification.devices import run as holds
+
+    rows = holds("rigid")
+    with styled():
+        figure = Figure(figsize=rows.size, layout="constrained")
+        rows.draw(figure)
+        figure.savefig(target, dpi=133)
+    return "from verification.devices"
+
+
 def collapse(_: Work, target: Path) -> str:
     """How the multi-drum column falls, drums computed by the rigid engine."""
     from benchmarks.gallery.collapse import collapse as draw
@@ -149,6 +164,7 @@ FIGURES = {
     "impact": ("fecolumn/case/manual/impact.png", impact),
     "rolling": ("fecolumn/case/manual/rolling.png", rim),
     "two-sides": ("fecolumn/case/manual/two-sides.png", two_sides),
+    "devices": ("fecolumn/case/manual/devices.png", devices),
     "collapse": ("fecolumn/case/manual/collapse.png", collapse),
     "arch": ("fecolumn/case/manual/arch.png", arch),
     "colonnade": ("fecolumn/case/manual/colonnade.gif", colonnade),

@@ -63,7 +63,7 @@ def test_manual_has_the_table_of_keys_as_it_is_now():
             "dt_s",
             [
                 "[integration]",
-                "dt_s [s]: greater than 0 and at most 0.1; default 0.001",
+                'dt_s [s]: greater than 0 and at most 0.1 or "auto"; default 0.001',
                 "[motion]",
             ],
         ),
