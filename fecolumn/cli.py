@@ -13,6 +13,7 @@ import os
 import sys
 import traceback
 import warnings
+from pathlib import Path
 from typing import cast
 
 
@@ -139,6 +140,11 @@ def _parser() -> argparse.ArgumentParser:
         "-o", "--output", required=True, metavar="DIR", help="result folder, one a case"
     )
     run.add_argument("-q", "--quiet", action="store_true", help="no progress line")
+    run.add_argument(
+        "--profile",
+        action="store_true",
+        help="time each step: a table and a histogram of what the time went to",
+    )
     resume = add("resume", "go on with an analysis from its last checkpoint", main=_resume)
     resume.add_argument("output", metavar="DIR", help="result folder of fecolumn run")
     resume.add_argument("-q", "--quiet", action="store_true", help="no progress line")
@@ -240,7 +246,7 @@ def _prepare(args) -> int:
 def _run(args) -> int:
     from fecolumn.case.case import read_case
 
-    return _analyse(read_case(args.case), args.output, args.case, args.quiet)
+    return _analyse(read_case(args.case), args.output, args.case, args.quiet, args.profile)
 
 
 def _resume(args) -> int:
@@ -250,7 +256,7 @@ def _resume(args) -> int:
     return _analyse(case, args.output, file, args.quiet)
 
 
-def _analyse(case, folder, file, quiet) -> int:
+def _analyse(case, folder, file, quiet, profile=False) -> int:
     from mpi4py import MPI
 
     from fecolumn.engines.ending import ending_text, peak_text
@@ -260,7 +266,7 @@ def _analyse(case, folder, file, quiet) -> int:
 
     try:
         with held_interrupts() as stop:
-            summary = run(case, folder, file=file, quiet=quiet, stop=stop)
+            summary = run(case, folder, file=file, quiet=quiet, profile=profile, stop=stop)
     except AnalysisFailed as error:
         return _refuse(error, 1)
     if MPI.COMM_WORLD.rank == 0:
@@ -274,7 +280,22 @@ def _analyse(case, folder, file, quiet) -> int:
             f"{1e3 * summary['s_per_step']:.2g} ms/step, energy closure "
             f"{summary['energy_closure_rel']:.1e}"
         )
+        if profile:
+            _tell_step_times(Path(folder))
     return 0
+
+
+def _tell_step_times(folder: Path) -> None:
+    """Print what the time of the steps went to, and draw it."""
+    from fecolumn.engines.step_times import NAME, read_step_times, table_of
+    from fecolumn.pictures.figures.step_times_figure import step_times_figure
+
+    if not (folder / NAME).exists():
+        _refuse(f"{folder} was analysed without --profile: a new folder is timed", 0)
+        return
+    rows = read_step_times(folder / NAME)
+    print(f"\n{table_of(rows)}\n")
+    print("drawn:", ", ".join(map(str, step_times_figure(rows, folder / "step_times"))))
 
 
 if __name__ == "__main__":

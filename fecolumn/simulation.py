@@ -26,6 +26,7 @@ def run(
     comm=None,
     file: str = "",
     quiet: bool = False,
+    profile: bool = False,
     stop=lambda: False,
 ) -> dict:
     """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
@@ -42,6 +43,9 @@ def run(
         the case's file, for messages where `case` is none.
     quiet
         no progress on stderr.
+    profile
+        write the wall time of each step, and what it did, into step_times.csv of the folder; see
+        `fecolumn.engines.step_times`. Steps are then made one at a time.
     stop
         asked after every step whether to save and raise KeyboardInterrupt; see
         `fecolumn.foundation.interrupt`.
@@ -93,6 +97,8 @@ def run(
             warnings.warn(f"{folder / NAME} {damage}; the analysis is made again", stacklevel=2)
         analysis = started_analysis(case, folder, comm, file, quiet)
         analysis.dt_chosen = chosen
+        if profile:
+            analysis.time_steps()
         claim()
         return analysis.run(stop)
 

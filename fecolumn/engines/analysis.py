@@ -17,8 +17,10 @@ from fecolumn.engines.ending import (
     STILL_ROCKING,
     Ending,
 )
+from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.summary import write_sealed
 from fecolumn.foundation.files import is_file
+from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.sources import code, code_text
 
 CHECKPOINT = "checkpoint.npz"
@@ -71,12 +73,34 @@ class Analysis:
         self.stepping_s = self.earlier_s = 0.0
         self.stance, self.top_arm, self.standing_j = None, None, 0.0
         self.dt_chosen: dict | None = None
+        self.step_times: StepTimes | None = None
         grounds = self.motion.acceleration[: self.steps + 1] if self.motion else np.zeros((0, 3))
         self._steepest = steepest_to_come(np.array([0.0, 0.0, -GRAVITY]), grounds)
 
     def run(self, stop) -> dict:
         """Step to the end, or until `stop` says so; the summary."""
         raise NotImplementedError
+
+    def time_steps(self) -> None:
+        """Note how long each step from now on takes, for which steps are made one at a time.
+
+        Raises
+        ------
+        InputError
+            the engine has no steps of contact.
+        """
+        engine = self.case.integration.engine
+        raise InputError(
+            "--profile",
+            "integration.engine",
+            engine,
+            "is a rocking model, whose steps have no contact to solve: the reduced, the rigid and "
+            "the full engine can be profiled",
+        )
+
+    def made_in_s(self) -> float:
+        """Wall time [s] of the steps so far."""
+        return self.stepping_s
 
     def expected(self) -> str:
         """What meshes and analysis will take, in words."""

@@ -11,6 +11,7 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.analysis import CHECKPOINT, Analysis
 from fecolumn.engines.pace import Pace
 from fecolumn.engines.reduced_engine import begins_unstrained, upright
+from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.fem.rotation import out_of_frames
 from fecolumn.foundation.schema import InputError
@@ -248,6 +249,10 @@ class FullAnalysis(OfStructure, Analysis):
             self.stepper.record,
             self.system.factorizations,
         )
+
+    def time_steps(self) -> None:
+        """Note how long each step takes."""
+        self.step_times = StepTimes(self.stepper.record)
 
     def _agree(self, due: bool, ended: bool) -> tuple[bool, bool]:
         """Checkpoint due, stop asked for: so for all ranks where it is so for one."""

@@ -50,10 +50,13 @@ class Pace:
         self._began = self._judged = self._looked = analysis.step, analysis.stepping_s
         self._record = dataclasses.replace(record)
         self._told, self._slow = False, SLOW_S
+        self._made_in_s = analysis.made_in_s()
         self._s_per_step = 0.0
 
     def chunk(self, most: int) -> int:
         """Steps until the next look, `most` at most."""
+        if self._analysis.step_times:
+            return 1
         if not self._s_per_step:
             return min(_FIRST_STEPS, most)
         return max(1, min(most, int(LOOK_S / self._s_per_step)))
@@ -63,6 +66,7 @@ class Pace:
         now = self._analysis.step, self._analysis.stepping_s
         if now[0] == self._looked[0]:
             return
+        self._note_step(record)
         if not self._s_per_step:  # the first steps of a full-order engine compile
             self._s_per_step = _each(self._looked, now)
             self._began = self._judged = self._looked = now
@@ -81,8 +85,20 @@ class Pace:
             self._told = True
             self._tell()
 
+    def _note_step(self, record) -> None:
+        """Note a step where each is timed."""
+        analysis = self._analysis
+        made_in_s = analysis.made_in_s()
+        if analysis.step_times:
+            last = analysis.history.last()
+            spent = made_in_s - self._made_in_s
+            analysis.step_times.note(last["time"], spent, int(last["active_nodes"]), record)
+        self._made_in_s = made_in_s
+
     def end(self) -> None:
-        """Remove the file of the pace."""
+        """Remove the file of the pace, and write the times of steps."""
+        if self._analysis.step_times and self._analysis.comm.rank == 0:
+            self._analysis.step_times.write(self._analysis.folder)
         with contextlib.suppress(OSError):
             (self._analysis.folder / NAME).unlink(missing_ok=True)
 

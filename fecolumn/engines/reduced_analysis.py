@@ -24,6 +24,7 @@ from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.engines.reduced.run import advance
 from fecolumn.engines.reduced.states import States, state_of
 from fecolumn.engines.reduced_engine import begins_unstrained, engine_of, upright
+from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure, columns_of
 from fecolumn.foundation._compiled import compiled, interpreted
 from fecolumn.foundation.atomic import write_bytes
@@ -153,6 +154,14 @@ class ReducedAnalysis(OfStructure, Analysis):
             engine.record,
             0,
         )
+
+    def time_steps(self) -> None:
+        """Note how long each step takes, without the call of compiled code that each then is."""
+        self.step_times = StepTimes(self.engine.record, self.engine.call_s())
+
+    def made_in_s(self) -> float:
+        """Wall time [s] of the compiled steps so far."""
+        return self.engine.spent_s
 
     def off_base(self, failure) -> Ending | None:
         """The Ending of a step that failed because a foot met the edge of its ground, or None."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 
 from fecolumn.case.sections import SUBSTEPS
@@ -39,6 +41,8 @@ from fecolumn.engines.reduced.observe import ENERGY, outcome_of_row
 from fecolumn.engines.reduced.run import LENGTHS, Chunk, Course, advance
 from fecolumn.foundation._compiled import compile_for, interpreted
 
+# Calls without a step of which the median is taken
+_CALLS = 50
 # for the halves of a failed step: the point of no return and rest are looked for at its end only
 _NO_END, _NO_REST, _NO_STEPS = np.array([np.inf]), (0.0, -np.inf), np.empty(0)
 _STOPS = {
@@ -100,6 +104,7 @@ class Engine:
             self.motion_at_rest(),
         )
         self._schemes = {}
+        self.spent_s = 0.0  # wall time of compiled steps [s]
         self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
         upright = np.tile(np.eye(3), (len(eye.center), 1, 1))
         self._need_below(eye.center, upright, self.spare.grounds, 0)
@@ -268,12 +273,22 @@ class Engine:
                     return rows[:done], True
         return rows, False
 
+    def call_s(self) -> float:
+        """Wall time [s] of a call of compiled steps that makes none."""
+        nothing, spent = (np.empty((0, 3 * len(self.bases))), np.empty((0, self.eye.width))), []
+        for _ in range(_CALLS):
+            before = self.spent_s
+            self._steps(self.hht, *nothing, _NO_STEPS, _NO_REST)
+            spent.append(self.spent_s - before)
+        return float(np.median(spent))
+
     def _steps(self, hht, grounds, rows, steepest, rest) -> tuple[int, int]:
-        made, answer = advance(
-            *self._arguments(
-                self._schemes_of(hht), self.motion, self.spare, grounds, steepest, rest, rows
-            )
+        arguments = self._arguments(
+            self._schemes_of(hht), self.motion, self.spare, grounds, steepest, rest, rows
         )
+        began = time.perf_counter()
+        made, answer = advance(*arguments)
+        self.spent_s += time.perf_counter() - began
         if answer == ROLLS_FAST:
             parts = (
                 scheme(self.structure, self.points, HHT(hht.dt / 2**k, hht.alpha))
