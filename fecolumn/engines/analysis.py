@@ -99,7 +99,7 @@ class Analysis:
         )
 
     def made_in_s(self) -> float:
-        """Wall time [s] of the steps so far."""
+        """Time [s] of the steps so far, by which they are profiled."""
         return self.stepping_s
 
     def expected(self) -> str:

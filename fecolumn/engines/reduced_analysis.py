@@ -160,7 +160,7 @@ class ReducedAnalysis(OfStructure, Analysis):
         self.step_times = StepTimes(self.engine.record, self.engine.call_s())
 
     def made_in_s(self) -> float:
-        """Wall time [s] of the compiled steps so far."""
+        """Processor time [s] of the compiled steps so far."""
         return self.engine.spent_s
 
     def off_base(self, failure) -> Ending | None:

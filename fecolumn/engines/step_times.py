@@ -26,33 +26,33 @@ _BANDS = (2, 8, 40, 95)
 
 
 class StepTimes:
-    """Wall times of steps, made one at a time, and what they did.
+    """Times of steps, made one at a time, and what they did.
 
-    call_s: wall time [s] of a call without a step, which is taken off each.
+    call_s: time [s] of a call without a step, which is taken off each.
     """
 
     def __init__(self, record: Record, call_s: float = 0.0):
         self._call_s, self._record = call_s, dataclasses.replace(record)
         self._rows: list[list[float]] = []
 
-    def note(self, time_s: float, wall_s: float, points: int, record: Record) -> None:
-        """Note a step that ended at `time_s` and took `wall_s` [s].
+    def note(self, time_s: float, spent_s: float, points: int, record: Record) -> None:
+        """Note a step that ended at `time_s` and took `spent_s` [s].
 
         points: contact points that carry at its end; record: of all steps so far.
         """
         counts = np.subtract(dataclasses.astuple(record), dataclasses.astuple(self._record))
         self._record = dataclasses.replace(record)
-        wall_us = 1e6 * max(wall_s - self._call_s, 0.0)
-        self._rows.append([time_s, wall_us, points, *counts.tolist()])
+        spent_us = 1e6 * max(spent_s - self._call_s, 0.0)
+        self._rows.append([time_s, spent_us, points, *counts.tolist()])
 
     def write(self, folder: Path) -> None:
         """Write the rows."""
-        header = ["time [s]", "wall time [us]", "carrying points", *COUNTS]
+        header = ["time [s]", "step [us]", "carrying points", *COUNTS]
         write_csv(folder / NAME, [header, *self._rows])
 
 
 def read_step_times(path: Path) -> np.ndarray:
-    """Rows (k, 3 + counts) of `StepTimes.write`: time [s], wall time [us], points, counts."""
+    """Rows (k, 3 + counts) of `StepTimes.write`: time [s], step [us], points, counts."""
     return np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
 
 
@@ -98,11 +98,11 @@ def table_of(rows: np.ndarray) -> str:
     ]
     whole = max(rows[:, 1].sum(), np.finfo(float).tiny)
     for name, some in [*kinds_of(rows), ("all", rows)]:
-        wall = some[:, 1]
-        middle, most = np.percentile(wall, [50, 95])
+        spent = some[:, 1]
+        middle, most = np.percentile(spent, [50, 95])
         lines.append(
-            f"| {name} | {len(some):,} | {wall.sum() / whole:.0%} | {middle:,.0f} | {most:,.0f} | "
-            f"{wall.max():,.0f} | {some[:, place['contact_iterations']].mean():.2g} | "
+            f"| {name} | {len(some):,} | {spent.sum() / whole:.0%} | {middle:,.0f} | {most:,.0f} | "
+            f"{spent.max():,.0f} | {some[:, place['contact_iterations']].mean():.2g} | "
             f"{some[:, place['impact_iterations']].mean():.2g} |"
         )
     return "\n".join(lines)

@@ -67,11 +67,11 @@ def test_profile_of_a_run_has_each_step_and_all_its_counts(engine, tmp_path, cap
     printed, summary = capsys.readouterr().out, read_summary(out)
     with open(out / NAME, encoding="utf-8") as file:
         header = next(csv.reader(file))
-    assert header == ["time [s]", "wall time [us]", "carrying points", *COUNTS]
+    assert header == ["time [s]", "step [us]", "carrying points", *COUNTS]
     rows = read_step_times(out / NAME)
     assert len(rows) == summary["steps"] and (rows[:, 1] >= 0).all()
     assert rows[-1, 0] == pytest.approx(summary["duration_s"])
-    assert 1e-6 * rows[:, 1].sum() <= summary["s_per_step"] * summary["steps"]
+    assert 0 < 1e-6 * rows[:, 1].sum() <= summary["cpu_s"]
     for number, name in enumerate(COUNTS):
         assert rows[:, 3 + number].sum() == summary[name], name
     assert "share of the time" in printed and (out / "step_times.png").stat().st_size > 10_000

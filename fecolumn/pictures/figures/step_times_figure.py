@@ -14,13 +14,13 @@ _BINS = 12
 
 
 def step_times_figure(rows: np.ndarray, path: Path) -> list[Path]:
-    """Histogram of the wall times of steps: their number, and the time they take, stacked by what
+    """Histogram of the times of steps: their number, and the time they take, stacked by what
     they do.
 
     rows: of `engines.step_times.read_step_times`; path: without its ending.
     """
-    wall = np.maximum(rows[:, 1], 0.1)
-    low, high = np.floor(np.log10(wall.min())), np.ceil(np.log10(wall.max()) + 1e-9)
+    spent = np.maximum(rows[:, 1], 0.1)
+    low, high = np.floor(np.log10(spent.min())), np.ceil(np.log10(spent.max()) + 1e-9)
     edges = np.logspace(low, high, int(_BINS * max(high - low, 1)) + 1)
     kinds = kinds_of(rows)
     with styled():
@@ -29,7 +29,7 @@ def step_times_figure(rows: np.ndarray, path: Path) -> list[Path]:
         for axes, title, power in zip(
             figure.subplots(1, 2), ("share of the steps [%]", "share of the time [%]"), (0, 1)
         ):
-            whole = (wall**power).sum()
+            whole = (spent**power).sum()
             axes.hist(
                 times,
                 edges,
@@ -38,6 +38,6 @@ def step_times_figure(rows: np.ndarray, path: Path) -> list[Path]:
                 color=[LINES[number % len(LINES)][0] for number in range(len(kinds))],
                 label=[name for name, _ in kinds],
             )
-            axes.set(xscale="log", xlabel="wall time of a step [µs]", ylabel=title)
+            axes.set(xscale="log", xlabel="time of a step [µs]", ylabel=title)
         figure.axes[0].legend()
         return save(figure, path)
