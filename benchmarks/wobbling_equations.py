@@ -143,10 +143,7 @@ def derive() -> dict[str, sp.Expr]:
     inertia = sp.hessian(sp.expand(kinetic), rates)
     inertia = inertia.applyfunc(reduced)
     assert inertia[0, 1] == 0 and not inertia[0, 0].has(tilt), "tilt and azimuth do not part"
-    shift, top, slab_top = (
-        here(one)
-        for one in (mass * place(centre * up) + slab * slab_shift, place(height * up), slab_shift)
-    )
+    shift = here(mass * place(centre * up) + slab * slab_shift)
     assert shift[1] == 0, "the centre of mass leaves the plane of its tilt"
     stretch = 2 * radius * sp.sin(tilt / 2)
     return {
@@ -155,8 +152,6 @@ def derive() -> dict[str, sp.Expr]:
         "lever": shift[0],
         "rise": shift[2] - mass * centre,
         "tendon": pull * stretch + stiffness * stretch**2 / 2,
-        "top": top[0],
-        "slab_shift": slab_top[0],
     }
 
 
@@ -237,12 +232,6 @@ def source() -> str:
             "Derivatives by the tilt of mass times height and times lever of the weight [kg m],\n"
             "    and of the tendon's energy [N m].\n"
             "    ",
-        ),
-        (
-            "shifts",
-            "tilt",
-            [found["top"], found["slab_shift"]],
-            "Displacement of the top's centre and of the slab towards the azimuth [m].",
         ),
     ]
     return _HEAD.format(version=sp.__version__) + "\n\n".join(_function(*one) for one in functions)

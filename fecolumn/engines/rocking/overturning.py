@@ -150,30 +150,17 @@ def linear_overturning(shape: str, frequency) -> np.ndarray:
     return 1 + LINEAR[shape] * np.asarray(frequency, float)
 
 
-def design_slenderness(amplitude, period, p, pulse: str = "rectangular") -> np.ndarray:
-    """Least tan(alpha) that stands a pulse: (a_p/g) p T_p/(gamma + p T_p) (Makris and Vassiliou
-    2012).
+def slenderness_factor(duration, pulse: str = "rectangular") -> np.ndarray:
+    """phi(p T_p) = p T_p/(gamma + p T_p): least tan(alpha) of a block that stands a pulse, over
+    a_p/g (Makris and Vassiliou 2012).
 
     Parameters
     ----------
-    amplitude
-        a_p [m/s2].
-    period
-        T_p [s].
-    p
-        [rad/s].
+    duration
+        p T_p [-].
     pulse
         of DESIGN; the rectangular one asks for the most.
     """
-    return (
-        np.asarray(amplitude, float)
-        / GRAVITY
-        * slenderness_factor(np.asarray(period, float) * np.asarray(p, float), pulse)
-    )
-
-
-def slenderness_factor(duration, pulse: str = "rectangular") -> np.ndarray:
-    """phi(p T_p) = p T_p/(gamma + p T_p) of `design_slenderness`."""
     return np.asarray(duration, float) / (DESIGN[pulse] + np.asarray(duration, float))
 
 

@@ -306,16 +306,3 @@ def moments(body, tilt):
         4 * slab * x1 * x10 - x2 * x7 - x2 * x9 + x3 * x8 + x5 * x7 + x5 * x9,
         x10 * (pull + stiffness * x1 * x6),
     )
-
-
-@njit(alone=True)
-def shifts(body, tilt):
-    """Displacement of the top's centre and of the slab towards the azimuth [m]."""
-    radius = body[0]
-    height = body[2]
-    x0 = (1 / 2) * tilt
-    x1 = height * math.cos(x0)
-    x2 = math.sin(x0)
-    x3 = radius * x2
-    x4 = 2 * x2
-    return x4 * (x1 + x3), x4 * (x1 + 2 * x3)

@@ -17,66 +17,22 @@ import numpy as np
 
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.frame import RockingFrame
+from fecolumn.engines.rocking.outline import RollingCircle
 from fecolumn.engines.rocking.restraint import Restraint
-from fecolumn.engines.rocking.wobbling import Wobbling, bore, cylinder_body, round_outline
+from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.foundation.schema import Section, parameter
+from fecolumn.foundation.schema import parameter
 
 
-@dataclass(frozen=True, slots=True)
-class WobblingFrameSection(Section):
-    """Slab on equal round columns that roll on their rims."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WobblingFrameSection(RollingCircle):
+    """Slab on equal round columns that roll on their rims; a tendon is anchored in its column and
+    the slab.
+    """
 
     column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
     slab_mass_kg: float = parameter(doc="mass of the slab", unit="kg", above=0, high=1e9)
     columns: int = parameter(4, doc="number of columns", low=1, high=10_000)
-    outer_diameter_m: float | None = parameter(
-        None,
-        doc="outer diameter of a column; or slenderness_rad and half_diagonal_m",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    height_m: float | None = parameter(
-        None,
-        doc="height of a column; or slenderness_rad and half_diagonal_m",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    slenderness_rad: float | None = parameter(
-        None, doc="alpha of a column", unit="rad", above=0, high=1.5
-    )
-    half_diagonal_m: float | None = parameter(
-        None, doc="R of a column: distance of its centre from the rim", unit="m", above=0, high=1000
-    )
-    wall_m: float | None = parameter(
-        None, doc="wall thickness of tubes; left out: solid cylinders", unit="m", above=0, high=500
-    )
-    tendon_n_m: float = parameter(
-        0.0,
-        doc="stiffness of each column's restraint, anchored in column and slab: tendon and "
-        "springs in series",
-        unit="N/m",
-        low=0,
-        high=1e12,
-    )
-    tendon_prestress_n: float = parameter(
-        0.0, doc="force of each tendon upright", unit="N", low=0, high=1e12
-    )
-    restitution: float = parameter(
-        1.0,
-        doc="rate of the tilt after over before, where it passes upright in a plane; "
-        "rolling past upright loses nothing",
-        low=0,
-        high=1,
-    )
-    friction_coefficient: float = parameter(
-        0.6,
-        doc="Coulomb friction coefficient of the feet: only checked, the columns do not slide",
-        above=0,
-        high=10,
-    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,10 +51,10 @@ class WobblingFrame(Wobbling):
         InputError
             keys that do not fit together.
         """
-        radius, height = round_outline(section, cls.TABLE, file)
+        radius, height = section.half_and_height(cls.TABLE, file)
         body = cylinder_body(
             radius,
-            bore(section, radius, cls.TABLE, file),
+            section.bore(radius, cls.TABLE, file),
             height,
             section.column_mass_kg,
             section.slab_mass_kg / section.columns,
