@@ -161,7 +161,7 @@ def _nearest(line, values):
 
 
 def generated(gmsh, dimension: int = 3) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 3) [m] and bricks (m, 8), their nodes in the order of VTK, of the current model; or
+    """Points (n, 3) [m] and bricks (m, 8), their nodes in VTK's order, of the current model; or
     quadrilaterals (m, 4) of a plane one, which has two dimensions.
 
     Raises

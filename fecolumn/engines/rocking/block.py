@@ -13,14 +13,14 @@ import numpy as np
 
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.impact import body_restitution, one_sided_restitution
-from fecolumn.engines.rocking.outline import RockingRectangle
+from fecolumn.engines.rocking.outline_keys import RockingKeys
 from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.foundation.schema import InputError, parameter
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BlockSection(RockingRectangle):
+class BlockSection(RockingKeys):
     """Rectangular rigid block that rocks along x, about the edges of its foot; with depth_m along
     y, too, as if each did not know of the other.
     """

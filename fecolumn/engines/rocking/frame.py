@@ -16,7 +16,7 @@ import numpy as np
 
 from fecolumn.engines.rocking.block import described
 from fecolumn.engines.rocking.impact import frame_restitution
-from fecolumn.engines.rocking.outline import RockingRectangle
+from fecolumn.engines.rocking.outline_keys import RockingKeys
 from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.swing import GRAVITY
@@ -24,7 +24,7 @@ from fecolumn.foundation.schema import parameter
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FrameSection(RockingRectangle):
+class FrameSection(RockingKeys):
     """Equal rectangular columns that carry a beam and rock along x."""
 
     column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)

@@ -12,7 +12,7 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.model import ModelResponse, balanced
-from fecolumn.engines.rocking.outline import Rectangle
+from fecolumn.engines.rocking.outline_keys import RectangleKeys
 from fecolumn.engines.rocking.podium_impact import CRV, LAWS, podium_restitution
 from fecolumn.engines.rocking.storeys import PROFILES, ElasticBuilding, storeys
 from fecolumn.foundation.schema import InputError, parameter
@@ -22,7 +22,7 @@ _SHARE = 30  # steps in the period of the highest mode
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PodiumSection(Rectangle):
+class PodiumSection(RectangleKeys):
     """Building of equal storeys on a beam on rocking rectangular columns, along x."""
 
     column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)

@@ -18,7 +18,7 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction
-from fecolumn.engines.rocking.outline import RollingCircle
+from fecolumn.engines.rocking.outline_keys import RollingKeys
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import InputError, parameter
 from fecolumn.motions.record import GroundMotion
@@ -31,7 +31,7 @@ _ROUND = 0.02
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WobblingSection(RollingCircle):
+class WobblingSection(RollingKeys):
     """Round rigid column that rolls on the rim of its foot."""
 
     density_kg_m3: float = parameter(

@@ -17,7 +17,7 @@ import numpy as np
 
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.frame import RockingFrame
-from fecolumn.engines.rocking.outline import RollingCircle
+from fecolumn.engines.rocking.outline_keys import RollingKeys
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
 from fecolumn.foundation._compiled import interpreted
@@ -25,7 +25,7 @@ from fecolumn.foundation.schema import parameter
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class WobblingFrameSection(RollingCircle):
+class WobblingFrameSection(RollingKeys):
     """Slab on equal round columns that roll on their rims; a tendon is anchored in its column and
     the slab.
     """

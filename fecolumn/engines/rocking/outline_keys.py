@@ -12,7 +12,7 @@ from fecolumn.foundation.schema import InputError, Section, parameter
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Outline(Section):
+class OutlineKeys(Section):
     """A body of a height and a size across."""
 
     ACROSS: ClassVar[str]
@@ -66,7 +66,7 @@ class Outline(Section):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Rectangle(Outline):
+class RectangleKeys(OutlineKeys):
     """A rectangle that rocks along x."""
 
     ACROSS: ClassVar[str] = "width_m"
@@ -81,7 +81,7 @@ class Rectangle(Outline):
 
 
 @dataclass(frozen=True, kw_only=True)  # of two bases one alone can have slots
-class Restrained(Section):
+class RestraintKeys(Section):
     """Friction, and a tendon, of each body of a model."""
 
     friction_coefficient: float = parameter(
@@ -104,7 +104,7 @@ class Restrained(Section):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RockingRectangle(Restrained, Rectangle):
+class RockingKeys(RestraintKeys, RectangleKeys):
     """A rectangle that rocks about its edges."""
 
     restitution: float | None = parameter(
@@ -117,7 +117,7 @@ class RockingRectangle(Restrained, Rectangle):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RollingCircle(Restrained, Outline):
+class RollingKeys(RestraintKeys, OutlineKeys):
     """A cylinder or tube that rolls on the rim of its foot."""
 
     ACROSS: ClassVar[str] = "outer_diameter_m"
