@@ -39,13 +39,13 @@ from fecolumn.engines.rocking.impact import (
     rectangular_restitution,
 )
 from fecolumn.engines.rocking.overturning import (
+    critical_tilt_rate,
     half_sine_overturning,
     half_sine_phase,
     linear_overturning,
     outcomes,
     overturning_bands,
     slenderness_factor,
-    verge_velocity,
 )
 from fecolumn.engines.rocking.swing import GRAVITY, PEAK, rock_one, row_of_block
 from fecolumn.motions.record import GroundMotion
@@ -366,7 +366,7 @@ def _closed_forms():
     yield Row(
         "velocity that reaches the verge over p alpha, alpha 0.01 [-] (M, Eq. 39)",
         1.0,
-        verge_velocity(0.01) / 0.01,
+        critical_tilt_rate(0.01) / 0.01,
         1e-5,
     )
     for ratio, low, below in ((1.0, 1.167, -6), (2.0, 1.333, -9), (3.0, 1.5, -8)):
@@ -513,7 +513,7 @@ def _worst_impulses():
     yield Row(
         "least impulse of all: tilt velocity after many over that which reaches the verge [-] (D)",
         1.0,
-        float(speeds[-1]) / (p * verge_velocity(TEN)),
+        float(speeds[-1]) / (p * critical_tilt_rate(TEN)),
         1e-12,
     )
 

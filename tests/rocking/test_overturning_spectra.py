@@ -7,12 +7,12 @@ import pytest
 
 from fecolumn.engines.rocking.overturning import (
     Band,
+    critical_tilt_rate,
     half_sine_overturning,
     linear_overturning,
     outcomes,
     overturning_bands,
     slenderness_factor,
-    verge_velocity,
 )
 from fecolumn.engines.rocking.swing import GRAVITY, rock_all, rock_one, row_of_block
 
@@ -104,7 +104,9 @@ def test_verge_is_reached_from_upright_at_its_velocity_and_not_below():
     ground, row = np.zeros((2, 2)), row_of_block(alpha, 1.0, 0.9)
     for share, falls in ((1 - 1e-6, False), (1 + 1e-6, True)):
         assert (
-            math.isinf(rock_one(ground, 0.01, row, tilt_rate=share * verge_velocity(alpha))[2][0])
+            math.isinf(
+                rock_one(ground, 0.01, row, tilt_rate=share * critical_tilt_rate(alpha))[2][0]
+            )
             == falls
         )
 

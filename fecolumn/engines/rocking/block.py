@@ -289,7 +289,7 @@ def described(plane: Plane, several: bool = False) -> dict[str, tuple[float, str
     there are several.
     """
     along = f" along {'xy'[plane.axis]}" if several else ""
-    tilt, displacement, energy = plane.verge()
+    tilt, displacement, energy = plane.critical_state()
     found = {
         "mass": (plane.mass, "kg"),
         f"slenderness alpha{along}": (plane.alpha[0], "rad"),

@@ -17,6 +17,8 @@ import numpy as np
 from fecolumn.motions.record import GroundMotion
 
 SAFE, OVERTURNED = "safe", "overturned"
+#: Terms of the energy that are of a state, not added up over time.
+STATE_TERMS = ("kinetic", "strain", "gravity")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -132,7 +134,8 @@ class Model(Protocol):
 
 def balanced(**terms: np.ndarray) -> dict[str, np.ndarray]:
     """Terms of the energy (n,) [J] as of ModelResponse, and their closure."""
-    total = terms["kinetic"] + terms["strain"] + terms["gravity"]
+    kinetic, strain, gravity = (terms[name] for name in STATE_TERMS)
+    total = kinetic + strain + gravity
     closure = total - total[0] - terms["base_work"] - terms["impact"]
     return terms | dict(closure=closure - terms["damping"] if "damping" in terms else closure)
 

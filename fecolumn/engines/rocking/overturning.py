@@ -164,8 +164,8 @@ def slenderness_factor(duration, pulse: str = "rectangular") -> np.ndarray:
     return np.asarray(duration, float) / (DESIGN[pulse] + np.asarray(duration, float))
 
 
-def verge_velocity(slenderness: float) -> float:
-    """Tilt velocity over p that takes a block upright to the verge: sqrt(2 (1 - cos alpha)), alpha
-    where it is slender (Eq. 39 of Makris 2014).
+def critical_tilt_rate(slenderness: float) -> float:
+    """Tilt velocity over p that takes a block from upright to the critical tilt:
+    sqrt(2 (1 - cos alpha)), alpha where it is slender (Eq. 39 of Makris 2014).
     """
     return math.sqrt(2 * (1 - math.cos(slenderness)))

@@ -154,7 +154,7 @@ class Plane:
             self.mass * GRAVITY * self.radius[k] * math.cos(self.alpha[k])
         )
 
-    def verge(self) -> tuple[float, float, float]:
+    def critical_state(self) -> tuple[float, float, float]:
         """Least critical tilt of its sides [rad], displacement of the top there [m], energy that
         takes it there [J].
         """
@@ -293,17 +293,17 @@ class PlanarModel:
     @property
     def critical_tilt(self) -> float:
         """As of Model, the least of its planes."""
-        return min(plane.verge()[0] for plane in self.planes)
+        return min(plane.critical_state()[0] for plane in self.planes)
 
     @property
     def critical_displacement(self) -> float:
         """As of Model, of the plane with the least critical tilt."""
-        return min(plane.verge() for plane in self.planes)[1]
+        return min(plane.critical_state() for plane in self.planes)[1]
 
     @property
     def energy_to_overturn(self) -> float:
         """As of Model, the least of its planes."""
-        return min(plane.verge()[2] for plane in self.planes)
+        return min(plane.critical_state()[2] for plane in self.planes)
 
     def respond(
         self,
