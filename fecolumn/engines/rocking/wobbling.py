@@ -61,6 +61,8 @@ class Wobbling:
 
     TABLE: ClassVar[str] = "wobbling"
     SECTION: ClassVar[type] = WobblingSection
+    #: Rims on which the point rolls whose displacement counts: a slab lies on the upper one, too
+    RIMS: ClassVar[int] = 1
 
     body: np.ndarray
     columns: int = 1
@@ -139,6 +141,16 @@ class Wobbling:
         return math.atan2(self.body[0], self.body[1])
 
     @property
+    def frequency(self) -> float:
+        """P [rad/s]: p^2 = (1 + 2 gamma) m_c g R/(I + 4 gamma m_c R^2), I of a column about a point
+        of its rim, gamma the mass of a slab over that of the columns (Reggiani Manzo and Vassiliou
+        2022, equation 6).
+        """
+        rise, lever, _ = interpreted(equations.moments)(self.body, 0.0)
+        inertia, _ = interpreted(equations.inertia)(self.body, 0.0)
+        return math.sqrt(self.body[9] * math.hypot(rise, lever) / inertia)
+
+    @property
     def critical_tilt(self) -> float:
         """Tilt at which nothing rights it any more [rad]; a right angle where a tendon
         always does.
@@ -167,10 +179,8 @@ class Wobbling:
         return self.body[9] * rise + tendon
 
     def moved(self, tilt) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement towards the azimuth and up [m] of the point whose displacement counts, here
-        the top's centre.
-        """
-        tilt, radius, height = np.asarray(tilt, float), self.body[0], self.body[2]
+        """Displacement towards the azimuth and up [m] of the top's centre, or of the slab."""
+        tilt, radius, height = np.asarray(tilt, float), self.RIMS * self.body[0], self.body[2]
         down = 2 * np.sin(tilt / 2) ** 2
         return radius * down + height * np.sin(tilt), radius * np.sin(tilt) - height * down
 
@@ -241,16 +251,12 @@ class Wobbling:
 
     def describe(self) -> dict[str, tuple[float, str]]:
         """Derived parameters, name to (value, unit)."""
-        (rise, lever, tendon), along = (
-            interpreted(equations.moments)(self.body, 0.0),
-            interpreted(equations.inertia)(self.body, 0.0)[0],
-        )
-        pace = self.body[9] * math.hypot(rise, lever) / along
+        rise, lever, tendon = interpreted(equations.moments)(self.body, 0.0)
         return {
             "mass": (self.columns * (self.body[3] + self.body[4]), "kg"),
             "slenderness alpha": (self.slenderness, "rad"),
             "R": (math.hypot(self.body[0], self.body[1]), "m"),
-            "frequency parameter p": (math.sqrt(pace), "rad/s"),
+            "frequency parameter p": (self.frequency, "rad/s"),
             "uplift at": ((self.body[9] * rise + tendon) / (self.body[9] * lever), "g"),
             "critical tilt": (self.critical_tilt, "rad"),
             "displacement of the top there": (self.critical_displacement, "m"),

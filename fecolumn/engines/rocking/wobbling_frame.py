@@ -13,14 +13,10 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
-from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.outline_keys import RollingKeys
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
-from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import parameter
 
 
@@ -41,6 +37,7 @@ class WobblingFrame(Wobbling):
 
     TABLE: ClassVar[str] = "wobbling_frame"
     SECTION: ClassVar[type] = WobblingFrameSection
+    RIMS: ClassVar[int] = 2
 
     @classmethod
     def of_section(cls, section: WobblingFrameSection, file) -> WobblingFrame:
@@ -87,24 +84,6 @@ class WobblingFrame(Wobbling):
         """gamma: the slab's mass over that of all columns."""
         return self.body[4] / self.body[3]
 
-    @property
-    def frequency(self) -> float:
-        """p_hat [rad/s]: p_hat^2 = (1 + 2 gamma) m_c g R/(I + 4 gamma m_c R^2), I of a column about
-        a point of its rim (equation 6).
-        """
-        rise, lever, _ = interpreted(equations.moments)(self.body, 0.0)
-        return math.sqrt(
-            self.body[9]
-            * math.hypot(rise, lever)
-            / interpreted(equations.inertia)(self.body, 0.0)[0]
-        )
-
-    def moved(self, tilt) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement of the slab towards the azimuth and up [m]."""
-        tilt, radius, height = np.asarray(tilt, float), self.body[0], self.body[2]
-        down = 2 * np.sin(tilt / 2) ** 2
-        return 2 * radius * down + height * np.sin(tilt), 2 * radius * np.sin(tilt) - height * down
-
     def pushover(self, tilt) -> tuple[float, float]:
         """Displacement of the slab [m] at a tilt >= 0, and the horizontal force on it [N] that
         holds it there: exact, from virtual work.
@@ -116,7 +95,6 @@ class WobblingFrame(Wobbling):
         """Derived parameters, name to (value, unit)."""
         force = self.planar.linear_pushover([0.0, 1.0])
         return Wobbling.describe(self) | {
-            "frequency parameter p": (self.frequency, "rad/s"),
             "mass ratio gamma": (self.mass_ratio, "-"),
             "critical stiffness of a tendon": (self.planar.critical_tendon_stiffness, "N/m"),
             "horizontal force at uplift, slender": (force[0], "N"),
