@@ -1,6 +1,7 @@
-"""`fecolumn run --profile`: each step of one kind, its time and its counts those of the analysis."""
+"""`fecolumn run --profile`: each step is of one kind, its time and counts are the analysis's."""
 
 import csv
+import json
 
 import pytest
 
@@ -8,7 +9,7 @@ from fecolumn.cli import main
 from fecolumn.engines import step_times
 from fecolumn.engines.dynamics.record import Record
 from fecolumn.engines.step_times import COUNTS, NAME, StepTimes, kinds_of, read_step_times, table_of
-from fecolumn.engines.summary import read_summary
+from fecolumn.engines.summary import NAME as SUMMARY
 
 BLOCK = """
 [bodies.block]
@@ -26,6 +27,10 @@ tilt_rad = 0.05
 engine = "{engine}"
 duration_s = 0.8
 """
+
+
+def _summary(folder) -> dict:
+    return json.loads((folder / SUMMARY).read_text())
 
 
 def test_each_step_is_of_one_kind_and_the_first_that_holds(tmp_path):
@@ -64,7 +69,7 @@ def test_profile_of_a_run_has_each_step_and_all_its_counts(engine, tmp_path, cap
     text = BLOCK.format(engine=engine)
     case.write_text(text if engine == "rigid" else text.replace("0.8", "0.02"))
     assert main(["run", str(case), "-o", str(out), "-q", "--profile"]) == 0
-    printed, summary = capsys.readouterr().out, read_summary(out)
+    printed, summary = capsys.readouterr().out, _summary(out)
     with open(out / NAME, encoding="utf-8") as file:
         header = next(csv.reader(file))
     assert header == ["time [s]", "step [us]", "carrying points", *COUNTS]
@@ -84,7 +89,7 @@ def test_the_same_motion_with_and_without_profile(tmp_path):
     case.write_text(BLOCK.format(engine="rigid"))
     for name, more in (("with", ["--profile"]), ("without", [])):
         assert main(["run", str(case), "-o", str(tmp_path / name), "-q", *more]) == 0
-    timed, plain = (read_summary(tmp_path / name) for name in ("with", "without"))
+    timed, plain = (_summary(tmp_path / name) for name in ("with", "without"))
     assert timed["u_max_m"] == plain["u_max_m"] and timed["energy_j"] == plain["energy_j"]
     assert not (tmp_path / "without" / NAME).exists()
 
