@@ -443,8 +443,8 @@ class Analysis:
             s_per_step=self.stepping_s / max(self.step, 1),
             energy_closure_rel=energy_closure(rows),
             energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS},
-            **more,
         )
+        summary |= more
         self.write_history()
         if self.comm.rank == 0:
             summary = write_sealed(self.folder, summary)
