@@ -1,5 +1,6 @@
 """The force of a link over its elongation: elastic beyond its play, yielding with kinematic
-hardening, at once or along a curve; and over the rate: viscous, linear or a power of it.
+hardening, at once or along a curve; over the rate: viscous, linear or a power of it; and how much
+of a point of a bond is left.
 """
 
 from __future__ import annotations
@@ -173,3 +174,33 @@ def drag_of(link, rate):
     if speed < link.slow:
         return link.damping * link.slow ** (link.power - 1.0) * rate
     return link.damping * speed**link.power * np.sign(rate)
+
+
+@njit
+def damage_of(normal, shear, opened, slipped):
+    """Share of its stiffness, 0 to 1, that a point of a bond has lost which has opened and slipped
+    so far [m], by its links along the normal and in shear.
+
+    Coulomb's criterion with a tension cut-off: damage begins at a tension of normal.breaks, or
+    where shear and rubs times tension reach the cohesion, the force at shear.breaks; from there on
+    the force falls linearly with the way until nothing is left at `fails`.
+    """
+    pulled = normal.stiffness * opened
+    cohesion = shear.stiffness * shear.breaks
+    return max(
+        _softened(opened / normal.breaks, normal.fails / normal.breaks),
+        _softened(
+            (shear.stiffness * slipped + normal.rubs * pulled) / cohesion,
+            shear.fails / shear.breaks,
+        ),
+    )
+
+
+@njit
+def _softened(over, fails):
+    """Damage at `over` times the way at which it begins, 1 from `fails` times that on."""
+    if over <= 1.0:
+        return 0.0
+    if over >= fails:
+        return 1.0
+    return (1.0 - 1.0 / over) * fails / (fails - 1.0)
