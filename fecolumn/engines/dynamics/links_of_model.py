@@ -149,10 +149,10 @@ def fastest(
     pulls, places = [], []
     for place, (link, its) in enumerate(zip(links, stiffness)):
         sides = [(int(link["a"]), link["arm_a"], 1.0), (int(link["b"]), link["arm_b"], -1.0)]
-        ends = [arm if b == BASE else bodies[b][2] + bodies[b][3] @ arm for b, arm, _ in sides]
-        length = np.linalg.norm(ends[1] - ends[0])
+        tips = [arm if b == BASE else bodies[b][2] + bodies[b][3] @ arm for b, arm, _ in sides]
+        length = np.linalg.norm(tips[1] - tips[0])
         # one of no length may come to pull in any direction
-        for along in [(ends[1] - ends[0]) / length] if length else np.eye(3):
+        for along in [(tips[1] - tips[0]) / length] if length else np.eye(3):
             row = np.zeros(rigid + modes * len(bodies))
             for side, (b, arm, sign) in enumerate(sides):
                 if b != BASE:
