@@ -265,7 +265,7 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
         (f"link/{link.name}/{name}", count) for link in structure.links for name, count in OF_LINK
     ]
     names += [
-        (f"bond/{one}/{name}", count) for one in bond_names(structure) for name, count in OF_BOND
+        (f"bond/{one}/{name}", count) for one in glued_names(structure) for name, count in OF_BOND
     ]
     columns, place = {}, 0
     for name, count in names:
@@ -288,7 +288,7 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
     return columns
 
 
-def bond_names(structure: StructureModel) -> list[str]:
+def glued_names(structure: StructureModel) -> list[str]:
     """Names of the glued joints; one with two sides has that of its first."""
     return [
         structure.joints[joint.pair].name if joint.pair >= 0 else joint.name
@@ -356,7 +356,7 @@ def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
     }
     bonds = {
         name: _peaks_of_bond(rows["time"], {one: rows[f"bond/{name}/{one}"] for one, _ in OF_BOND})
-        for name in bond_names(structure)
+        for name in glued_names(structure)
     }
     return dict(bodies=bodies, interfaces=interfaces, storeys=storeys, links=links) | (
         dict(bonds=bonds) if bonds else {}

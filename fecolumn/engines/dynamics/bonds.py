@@ -1,7 +1,7 @@
 """Bonded joints as links: each contact point is held by a spring along the normal, which only pulls
 and shares its place with the contact, and by two along the face.
 
-A link is as long as LONG times the way at which nothing of it is left and ends on the master's
+A link is as long as LONG times the way at which nothing of a point is left and ends on the master's
 side, so that it keeps its direction in the master's frame to that share.
 """
 
@@ -15,7 +15,7 @@ from fecolumn.contact.points import BASE
 from fecolumn.engines.dynamics.links import LINK
 
 # Length of a link of a bond over the way at which it has failed
-LONG = 1e4
+LONG = 2e3
 
 
 class BondLinks(NamedTuple):
@@ -73,7 +73,7 @@ def _links_of_point(model, joint, point: np.ndarray, area: float) -> np.ndarray:
     rows["area"], rows["rubs"], rows["leads"] = area, joint.friction, [True, False, False]
     rows["pulls"], rows["pushes"] = True, [False, True, True]
     rows["yields"], rows["bends"], rows["power"] = np.inf, np.inf, 1.0
-    rows["length"] = LONG * rows["fails"].max()
+    rows["length"] = LONG * rows["fails"].min()
     for row, along in zip(rows, axes.T[[2, 0, 1]]):
         near = _held_at(model, joint.slave, joint.ground, point)
         far = _held_at(model, joint.master, joint.ground, point + row["length"] * along)

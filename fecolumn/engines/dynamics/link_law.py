@@ -183,24 +183,17 @@ def damage_of(normal, shear, opened, slipped):
 
     Coulomb's criterion with a tension cut-off: damage begins at a tension of normal.breaks, or
     where shear and rubs times tension reach the cohesion, the force at shear.breaks; from there on
-    the force falls linearly with the way until nothing is left at `fails`.
+    the force falls linearly with the way until nothing is left at `fails`, in between by the shares
+    of the strain energy along and across the face.
     """
-    pulled = normal.stiffness * opened
+    pulled, sheared = normal.stiffness * opened, shear.stiffness * slipped
     cohesion = shear.stiffness * shear.breaks
-    return max(
-        _softened(opened / normal.breaks, normal.fails / normal.breaks),
-        _softened(
-            (shear.stiffness * slipped + normal.rubs * pulled) / cohesion,
-            shear.fails / shear.breaks,
-        ),
-    )
-
-
-@njit
-def _softened(over, fails):
-    """Damage at `over` times the way at which it begins, 1 from `fails` times that on."""
+    over = max(opened / normal.breaks, (sheared + normal.rubs * pulled) / cohesion)
     if over <= 1.0:
         return 0.0
+    across, along = pulled * opened, sheared * slipped
+    fails = across * normal.fails / normal.breaks + along * shear.fails / shear.breaks
+    fails /= across + along
     if over >= fails:
         return 1.0
     return (1.0 - 1.0 / over) * fails / (fails - 1.0)
