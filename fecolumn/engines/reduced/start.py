@@ -8,7 +8,12 @@ import numpy as np
 
 from fecolumn.contact.points import may_touch
 from fecolumn.contact.problem import FAR_BASE, NO_ROOM, OK, near_points
-from fecolumn.contact.tolerances import FIRMER_TIMES, LINKS_FIRM, SLIDES_KEPT
+from fecolumn.contact.tolerances import (
+    FIRMER_TIMES,
+    LINKS_FIRM,
+    LINKS_PROGRESS,
+    SLIDES_KEPT,
+)
 from fecolumn.contact.work import move_anchors
 from fecolumn.engines.dynamics.gravity import (
     NoEquilibrium,
@@ -126,7 +131,8 @@ def _settled(engine, firmness: float) -> motions.MotionState:
         return moved
 
     try:
-        iterate_to_rest(proximal_step, 2 * np.abs(centers[:, 2]).max())
+        progress = LINKS_PROGRESS if len(structure.links) else None
+        iterate_to_rest(proximal_step, 2 * np.abs(centers[:, 2]).max(), progress)
     except NoEquilibrium as error:
         error.mover = mover
         raise
