@@ -12,6 +12,7 @@ from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
 from fecolumn.engines.dynamics.bonds import bonded
 from fecolumn.engines.ending import AT_REST, OVERTURNED, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.engines.fallen_bodies import FallenBodies
+from fecolumn.engines.peak_acceleration import peak_acceleration
 from fecolumn.engines.reduced.observe import (
     COLUMNS,
     OF_BODY,
@@ -330,7 +331,13 @@ def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
         )
 
     bodies = {
-        part.name: dict(tilt_max_rad=largest(f"body/{part.name}/tilt")) for part in structure.parts
+        part.name: dict(
+            tilt_max_rad=largest(f"body/{part.name}/tilt"),
+            acceleration_max_m_s2=peak_acceleration(
+                rows["time"], rows[f"body/{part.name}/displacement"], rows["ground"]
+            ),
+        )
+        for part in structure.parts
     }
     interfaces = {
         joint.name: dict(
