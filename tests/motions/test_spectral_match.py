@@ -129,7 +129,9 @@ def test_scaled_motions_fit_the_target_in_the_mean_of_logarithms(files, capsys):
         assert abs(off.mean()) < 1e-12
     with open(files / "scaled.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    assert all(float(row["scale_factor"]) > 0 and "misfit_ln" in row for row in rows)
+    assert all(
+        float(row["parameter_scale_factor"]) > 0 and row["parameter_misfit_ln"] for row in rows
+    )
     assert (files / "scaled.png").read_bytes().startswith(b"\x89PNG")
 
 
