@@ -75,11 +75,8 @@ def test_a_point_that_softens_takes_its_fracture_energy_either_way(axis):
     assert stress[-1] == 0.0 and ways[np.argmax(kept <= 0)] == pytest.approx(
         2 * energy / strength, rel=1e-3
     )
-    assert (
-        np.trapezoid(stress, ways)
-        if hasattr(np, "trapezoid")
-        else np.trapz(stress, ways) == pytest.approx(energy, rel=1e-4)
-    )
+    taken = ((stress[1:] + stress[:-1]) * np.diff(ways) / 2).sum()
+    assert taken == pytest.approx(energy, rel=1e-4)
 
 
 def test_a_joint_that_has_failed_is_a_plain_one():

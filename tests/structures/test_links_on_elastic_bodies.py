@@ -1,5 +1,5 @@
-"""Links pull at the surface of elastic bodies in the reduced engine: a rod on a spring, a post pulled
-at its top, and what a body's shape is between its nodes.
+"""Links pull at the surface of elastic bodies in the reduced engine: a rod on a spring, a post
+pulled at its top, and what a body's shape is between its nodes.
 """
 
 import numpy as np
