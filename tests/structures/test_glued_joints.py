@@ -1,4 +1,4 @@
-"""Wax, putty and mortar in joints: failed ones are plain, moving masters, energy, results, refusals;
+"""Wax, putty and mortar in joints: failed ones are plain, moving masters, energy, refusals;
 closed forms are rows of `fecolumn verify -k devices`.
 """
 
@@ -25,17 +25,11 @@ RIGID = dict(integration=dict(engine="rigid", dt_s=2e-4), contact=dict(interior_
 
 def waxed(joint=None, **tables):
     """A rocking block on the ground on wax of these keys."""
-    return structure(
-        **merge(
-            block(),
-            RIGID,
-            dict(
-                joints=dict(foot=WAX | (joint or {})),
-                initial=dict(block=dict(spin_rad_s=[0, 0.35, 0])),
-            ),
-            tables,
-        )
+    rocking = dict(
+        joints=dict(foot=WAX | (joint or {})),
+        initial=dict(block=dict(spin_rad_s=[0, 0.35, 0])),
     )
+    return structure(**merge(merge(merge(block(), RIGID), rocking), tables))
 
 
 def point(tension=3.0, cohesion=2.0, mu=0.5, energy=0.0):
@@ -93,16 +87,12 @@ def test_a_joint_that_has_failed_is_a_plain_one():
 @pytest.mark.parametrize("engine", ["rigid", "reduced"])
 @pytest.mark.parametrize("energy", [0.0, 60.0])
 def test_a_block_breaks_off_a_moving_block_and_the_energy_closes(engine, energy):
-    tables = merge(
-        stack(joints=dict(joint=WAX | dict(fracture_energy_j_m2=energy))),
-        dict(
-            integration=dict(engine=engine, dt_s=2e-4, start="drawn"),
-            contact=dict(interior_points=9),
-        ),
-        dict(
-            initial=dict(lower=dict(velocity_m_s=[0.4, 0, 0]), upper=dict(spin_rad_s=[0, 1.2, 0]))
-        ),
+    more = dict(
+        integration=dict(engine=engine, dt_s=2e-4, start="drawn"),
+        contact=dict(interior_points=9),
+        initial=dict(lower=dict(velocity_m_s=[0.4, 0, 0]), upper=dict(spin_rad_s=[0, 1.2, 0])),
     )
+    tables = merge(stack(joints=dict(joint=WAX | dict(fracture_energy_j_m2=energy))), more)
     columns, rows = columns_and_rows(structure(**tables), 0.3)
     (name,) = {one.split("/")[1] for one in columns if one.startswith("bond/")}
     failed, closure = columns[f"bond/{name}/failed"], columns["energy/closure"]

@@ -28,6 +28,9 @@ from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.model import resting_scheme
 from fecolumn.foundation._compiled import interpreted
 
+# Times that the inertia of iterations is found anew from what modes give in one of that inertia
+_PASSES = 5
+
 
 def gravity_equilibrium(engine) -> motions.MotionState:
     """Gravity equilibrium, by the same proximal steps as the full-order engine: it needs no
@@ -59,7 +62,11 @@ def gravity_equilibrium(engine) -> motions.MotionState:
     held = [
         (body["mass"], body["inertia"], center, np.eye(3)) for body, center in zip(bodies, centers)
     ]
-    firmness = max(firmness, LINKS_FIRM * fastest(structure, structure.links["stiffness"], held)[0])
+    for _ in range(_PASSES if len(structure.links) else 0):
+        # modes give the less in an iteration the less firm it is
+        shrinks = list(firmness / (firmness + structure.squares))
+        found = fastest(structure, structure.links["stiffness"], held, shrinks)[0]
+        firmness = max(firmness, LINKS_FIRM * found)
     firmest = max(10.0**FIRMER_TIMES * firmness, 2 / engine.hht.dt**2)
     while True:
         try:
