@@ -105,7 +105,7 @@ def bond_section(sweep: Sweep) -> PageSection | None:
 
 
 def _three(unit: float):
-    def told(*values) -> str:
+    def written(*values) -> str:
         return ", ".join(number(unit * value) for value in values)
 
-    return told
+    return written
