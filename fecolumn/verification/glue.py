@@ -40,7 +40,7 @@ _WAX = dict(tension_pa=_STRENGTH, bond_stiffness_n_m3=_STIFFNESS)
 _STRONG = 1e8
 
 
-def glued(engine: str, joint: dict, height: float = 1.0, step: float = _STEP, **more):
+def waxed_block(engine: str, joint: dict, height: float = 1.0, step: float = _STEP, **more):
     """Case of a block on the ground with wax of these keys below it."""
     body = dict(
         kind="block",
@@ -70,7 +70,7 @@ def glue_rows(engine: str, drawn: list):
 
 
 def _thrown(engine, joint, velocity, seconds, step=_STEP, height=1.0):
-    case = glued(
+    case = waxed_block(
         engine,
         joint,
         height,
@@ -167,7 +167,7 @@ def _peeled(engine, height: float = 1.0):
     pad = dict(stiffness_n_m3=_STIFFNESS)
     for name, below, pull in (("a rigid foot", {}, 600.0), ("a pad of its stiffness", pad, 300.0)):
         links = dict(tendon=tendon | dict(prestress_n=pull))
-        case = glued(engine, _WAX | below, height, 1e-3, links=links)
+        case = waxed_block(engine, _WAX | below, height, 1e-3, links=links)
         columns, _ = columns_and_rows(case, 2e-3)
         force = float(columns["link/tendon/tension"][0])
         x, areas = points_of(case)
@@ -189,7 +189,7 @@ def _peeled(engine, height: float = 1.0):
 
 
 def points_of(case) -> tuple[np.ndarray, np.ndarray]:
-    """Of the points of the glued joint of a case of `glued`: places along x from the edge at +x
+    """Of the points of the glued joint of a case of `waxed_block`: places along x from the edge at +x
     (k,) [m], and areas (k,) [m2].
     """
     model = structure_model(case)
@@ -200,7 +200,7 @@ def points_of(case) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _overturned(engine, height: float = 1.0, most: float = 10.0, seconds: float = 2.0):
-    case = glued(engine, _WAX | dict(friction_coefficient=0.9), height, 1e-3)
+    case = waxed_block(engine, _WAX | dict(friction_coefficient=0.9), height, 1e-3)
     x, areas = points_of(case)
     wax = _STRENGTH * (areas @ x**2) / _LENGTH
     ramp = np.zeros((round(seconds / 1e-3), 3))
