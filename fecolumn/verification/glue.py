@@ -189,7 +189,7 @@ def _peeled(engine, height: float = 1.0):
 
 
 def points_of(case) -> tuple[np.ndarray, np.ndarray]:
-    """Of the points of the glued joint of a case of `waxed_block`: places along x from the edge at +x
+    """Of the points of the joint of a case of `waxed_block`: places along x from the edge at +x
     (k,) [m], and areas (k,) [m2].
     """
     model = structure_model(case)

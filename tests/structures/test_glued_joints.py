@@ -14,6 +14,7 @@ from fecolumn.engines.dynamics.links import LINK
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import InputError, merge
+from fecolumn.pictures.figures.history_figures import history_figures
 from fecolumn.simulation import run
 from fecolumn.structures.structure import structure_model
 from fecolumn.study.bond_peaks import BOND_COLUMNS, peaks_of_bonds
@@ -75,7 +76,9 @@ def test_a_point_that_softens_takes_its_fracture_energy_either_way(axis):
 
 def test_a_joint_that_has_failed_is_a_plain_one():
     """Bit for bit: what is broken pulls nothing."""
-    glued, plain = waxed(), waxed(dict.fromkeys(WAX, 0.0) | dict(cohesion_pa=None))
+    drawn = dict(integration=dict(start="drawn"))
+    none = dict.fromkeys(WAX, 0.0) | dict(cohesion_pa=None)
+    glued, plain = waxed(**drawn), waxed(none, **drawn)
     engines = [engine_of(case, structure_model(case), "small.toml") for case in (glued, plain)]
     engines[0].motion.ties["broken"], engines[0].motion.ties["damage"] = True, 1.0
     rows = [engine.advance(np.zeros((1500, 3)))[0] for engine in engines]
@@ -121,8 +124,10 @@ def test_glue_holds_what_hangs_until_its_weight_is_too_much():
     weight = 20.0 * 9.80665 / 0.04
     columns, _ = columns_and_rows(hanging(1.2 * weight), 0.02)
     stress = next(values for name, values in columns.items() if name.endswith("/stress"))
-    np.testing.assert_allclose(stress, weight, rtol=1e-3)
-    assert np.abs(columns["body/lamp/displacement"]).max() < 1.01 * weight / 5e7
+    # the areas of its points are not quite even, so that it hangs a little askew
+    assert weight < stress.max() < 1.1 * weight
+    sunk = -columns["body/lamp/displacement"][:, 2]
+    np.testing.assert_allclose(sunk, weight / 5e7, rtol=5e-3)
     with pytest.raises(InputError, match="cannot rest.*tension_pa"):
         structure_model(hanging(0.8 * weight))
 
@@ -136,6 +141,7 @@ def test_summary_history_figure_and_tables_tell_of_it(tmp_path):
     assert bond["work_j"] == rows[f"bond/{name}/work"][-1] > 0
     first = rows["time"][np.argmax(rows[f"bond/{name}/failed"] > 0)]
     assert bond["first_failed_at_s"] == first > 0
+    assert tmp_path / "run" / "bonds.png" in history_figures(tmp_path / "run")
     assert (tmp_path / "run" / "bonds.png").read_bytes().startswith(b"\x89PNG")
     ((row),) = peaks_of_bonds([summary, summary])
     told = dict(zip(BOND_COLUMNS, row))
@@ -166,8 +172,7 @@ engine = "rigid"
 """
     )
     study.write_text(
-        'extends = "case.toml"\n[study]\ntitle = "wax"\n'
-        '[study.vary]\n"motion.source" = "lick:1-2"\n'
+        'title = "wax"\ncase = "case.toml"\n[axes]\n"motion.source" = ["lick:1", "lick:2"]\n'
     )
     assert main(["study", str(study), "-o", str(tmp_path / "out"), "-j", "1"]) == 0
     with open(tmp_path / "out" / "bonds.csv", encoding="utf-8") as file:
