@@ -126,7 +126,7 @@ def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_pat
     entries = {
         name: next(iter(parts.values()))
         for name, parts in summary.items()
-        if name in ("bodies", "interfaces", "storeys", "links")
+        if name in ("bodies", "interfaces", "storeys", "links", "bonds")
     }
     assert set(listed("outputs", "summary.json")) | set(entries) == set(summary)
     assert set(listed("outputs", "summary.json of a structure")) == set(entries) | {
