@@ -13,7 +13,7 @@ from fecolumn.contact.record import record
 from fecolumn.engines.dynamics.link_law import (
     damage_of,
     drag_of,
-    follow_way,
+    follow_elongation,
     strain_of,
     stretch_of,
 )
@@ -137,7 +137,7 @@ def pull(link, tie, begin, way, length, dt, target):
     before, elastic, rate = tie.length, 0.0, (length - tie.length) / dt
     if not tie.broken:
         s0, change = stretch_of(link, before - link.length - tie.flowed), length - before
-        s1, flow, lost = follow_way(link, tie, length)
+        s1, flow, lost = follow_elongation(link, tie, length)
         stiffness = link.stiffness * (1.0 - tie.damage)
         first, last = stiffness * s0, stiffness * s1
         elastic = (first + last) / 2
@@ -213,7 +213,7 @@ def end_links(linked, start, end, dt):
             continue
         trial = stretch_of(link, length - link.length - tie.flowed)
         viscous = drag_of(link, (length - tie.length) / dt)
-        stretch, flow, yielding = follow_way(link, tie, length)
+        stretch, flow, yielding = follow_elongation(link, tie, length)
         new.flowed += flow
         held = strain_of(link, stretch, new.flowed)
         lost = viscous * (length - tie.length) + yielding
