@@ -702,6 +702,49 @@ class Interface(Section):
         high=1e12,
         since="0.7",
     )
+    tension_pa: float = parameter(
+        0.0,
+        doc="tensile strength of wax, putty or mortar between the faces, which holds each contact "
+        "point until it fails there; 0: nothing holds them together",
+        unit="Pa",
+        low=0,
+        high=1e9,
+        since="0.11",
+    )
+    cohesion_pa: float | None = parameter(
+        None,
+        doc="shear strength of that layer without pressure, friction comes on top; left out: "
+        "tension_pa",
+        unit="Pa",
+        above=0,
+        high=1e9,
+        since="0.11",
+    )
+    fracture_energy_j_m2: float = parameter(
+        0.0,
+        doc="energy that the layer takes per area until it has failed, its stress falling in a "
+        "straight line; 0: it fails at once",
+        unit="J/m2",
+        low=0,
+        high=1e7,
+        since="0.11",
+    )
+    bond_stiffness_n_m3: float = parameter(
+        0.0,
+        doc="stiffness of that layer per area: its modulus over its thickness",
+        unit="N/m3",
+        low=0,
+        high=1e15,
+        since="0.11",
+    )
+    bond_shear_stiffness_n_m3: float = parameter(
+        0.0,
+        doc="stiffness of that layer per area along the faces; 0 takes 0.4 of bond_stiffness_n_m3",
+        unit="N/m3",
+        low=0,
+        high=1e15,
+        since="0.11",
+    )
     interior_points: int | None = parameter(
         None,
         doc="contact points inside the outlines of the slave's face; left out: that of [contact]",

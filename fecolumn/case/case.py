@@ -624,6 +624,7 @@ def check(case: Case, file) -> None:
     may stand.
     """
     from fecolumn.case.check_bodies import check_body
+    from fecolumn.case.check_bond import check_bond
     from fecolumn.case.check_link import check_link
     from fecolumn.case.check_step import check_step
 
@@ -659,6 +660,9 @@ def check(case: Case, file) -> None:
         if all(case.is_held(one) for one in (interface.slave, interface.on)):
             told = f'"{interface.slave}" and "{interface.on}" are both fixed'
             refuse(f"joints.{name}", None, f"must name a body that moves: {told}")
+        own = interface.friction_coefficient
+        friction = case.contact.friction_coefficient if own is None else own
+        check_bond(f"joints.{name}", interface, friction, refuse)
     for name, link in case.links.items():
         _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
         _check_name(case, f"links.{name}.to", link.to, refuse)

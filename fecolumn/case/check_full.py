@@ -30,6 +30,14 @@ def check_full(case, refuse) -> None:
                 "must be 0 where integration.kinematics is not 'corotated': modes are those of "
                 "the unstrained body",
             )
+    for name, joint in case.joints.items():
+        if joint.tension_pa:
+            refuse(
+                f"joints.{name}.tension_pa",
+                joint.tension_pa,
+                'must be left out with integration.engine = "full", which holds no joint by wax or '
+                "mortar: the reduced and the rigid engine compute it",
+            )
     if case.contact.impact == "none":
         _check_no_impacts(case, refuse)
 

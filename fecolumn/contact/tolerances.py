@@ -198,6 +198,9 @@ REST = 1e-11
 #: is found: a slender column needs a pad whose stiffness against tilting is 1.6 times its weight
 #: times the height of its centre.
 REST_ITERATIONS, REST_PROGRESS = 50, 0.5
+#: The same where links hold bodies: a soft link of a block that nothing else holds along its base
+#: brings it back slowly, in steps that are small from the first.
+LINKS_PROGRESS = 0.99
 #: Iterations after which points keep the slides that they have made. Until then friction is that of
 #: a point's whole way, whatever the iterations did. Where all points of a joint slide, as of a
 #: light stone that a heavy one spreads below it, friction of 1.5 makes that balance unstable and

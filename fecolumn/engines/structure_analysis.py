@@ -9,9 +9,18 @@ import numpy as np
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import FELL, critical_displacement
 from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
+from fecolumn.engines.dynamics.bonds import bonded
 from fecolumn.engines.ending import AT_REST, OVERTURNED, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.engines.fallen_bodies import FallenBodies
-from fecolumn.engines.reduced.observe import COLUMNS, OF_BODY, OF_INTERFACE, OF_LINK, OF_MARK
+from fecolumn.engines.peak_acceleration import peak_acceleration
+from fecolumn.engines.reduced.observe import (
+    COLUMNS,
+    OF_BODY,
+    OF_BOND,
+    OF_INTERFACE,
+    OF_LINK,
+    OF_MARK,
+)
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.lost import limits_of
@@ -25,6 +34,8 @@ _WHOLE = (
     "broken",
 )  # columns of whole numbers, by the last word of their names
 
+# Rounding of the sum of areas that have failed, over all
+_ALL = 1e-9
 # Share of its yield force at which a link is said to yield that comes to it along a curve
 _YIELDED = 0.9
 
@@ -232,8 +243,9 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
     and "center" of pressure [m] in the table frame, 0 where nothing carries;
     "mark/NAME.MARK/displacement" [m]; "link/NAME/tension" [N], "elongation" from its unstressed
     length and the part of it that has "yielded" [m], "work" that it has taken [J], whether it is
-    "broken"; "storey/NAME N/drift" [m]
-    along x and y of the table, "shear" [N], its elastic part.
+    "broken"; "bond/NAME/stress" and "shear_stress" [Pa], the largest of the points of a glued
+    joint, the share of its area that has "failed" and "work" that it has taken [J];
+    "storey/NAME N/drift" [m] along x and y of the table, "shear" [N], its elastic part.
     """
     names = [(name, count) for name, count in COLUMNS]
     names += [
@@ -252,6 +264,9 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
     ]
     names += [
         (f"link/{link.name}/{name}", count) for link in structure.links for name, count in OF_LINK
+    ]
+    names += [
+        (f"bond/{one}/{name}", count) for one in glued_names(structure) for name, count in OF_BOND
     ]
     columns, place = {}, 0
     for name, count in names:
@@ -272,6 +287,14 @@ def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndar
                 f"storey/{part.name} {number}/shear": stiffness * drift,
             }
     return columns
+
+
+def glued_names(structure: StructureModel) -> list[str]:
+    """Names of the glued joints; one with two sides has that of its first."""
+    return [
+        structure.joints[joint.pair].name if joint.pair >= 0 else joint.name
+        for joint in bonded(structure)
+    ]
 
 
 def of_both_sides(columns: dict, structure: StructureModel) -> dict:
@@ -297,8 +320,8 @@ def of_both_sides(columns: dict, structure: StructureModel) -> dict:
 
 
 def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
-    """Of the summary: largest values of bodies, interfaces, storeys and links by name, from the
-    columns of a history.
+    """Of the summary: largest values of bodies, interfaces, storeys, links and glued joints by
+    name, from the columns of a history.
     """
 
     def largest(name):
@@ -308,7 +331,13 @@ def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
         )
 
     bodies = {
-        part.name: dict(tilt_max_rad=largest(f"body/{part.name}/tilt")) for part in structure.parts
+        part.name: dict(
+            tilt_max_rad=largest(f"body/{part.name}/tilt"),
+            acceleration_max_m_s2=peak_acceleration(
+                rows["time"], rows[f"body/{part.name}/displacement"], rows["ground"]
+            ),
+        )
+        for part in structure.parts
     }
     interfaces = {
         joint.name: dict(
@@ -332,7 +361,28 @@ def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
         )
         for link in structure.links
     }
-    return dict(bodies=bodies, interfaces=interfaces, storeys=storeys, links=links)
+    bonds = {
+        name: _peaks_of_bond(rows["time"], {one: rows[f"bond/{name}/{one}"] for one, _ in OF_BOND})
+        for name in glued_names(structure)
+    }
+    return dict(bodies=bodies, interfaces=interfaces, storeys=storeys, links=links) | (
+        dict(bonds=bonds) if bonds else {}
+    )
+
+
+def _peaks_of_bond(time: np.ndarray, rows: dict[str, np.ndarray]) -> dict:
+    """Largest stresses of a glued joint, the share of its area that has failed, when the first and
+    the last of it did, and what it has taken; from its columns.
+    """
+    begun, done = rows["failed"] > 0, rows["failed"] > 1 - _ALL
+    return dict(
+        tension_max_pa=float(rows["stress"].max()),
+        shear_max_pa=float(rows["shear_stress"].max()),
+        failed_share=float(rows["failed"][-1]) if not done[-1] else 1.0,
+        work_j=float(rows["work"][-1]),
+        first_failed_at_s=float(time[np.argmax(begun)]) if begun.any() else None,
+        all_failed_at_s=float(time[np.argmax(done)]) if done.any() else None,
+    )
 
 
 def _peaks_of_link(time: np.ndarray, rows: dict[str, np.ndarray], link) -> dict:

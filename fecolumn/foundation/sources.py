@@ -20,6 +20,7 @@ DECIDING = (
     "case/bodies.py",
     "case/case.py",
     "case/check_bodies.py",
+    "case/check_bond.py",
     "case/check_found.py",
     "case/check_full.py",
     "case/check_grounds.py",

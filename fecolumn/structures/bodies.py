@@ -60,16 +60,16 @@ class Drawing:
         """Points (n, 3) [m] that it consists of."""
         return self.system.coordinates if self.shape is None else self.shape.mesh.points
 
-    def model(self, patches: dict[str, Patch], n_modes: int) -> tuple[BodyModel, np.ndarray | None]:
-        """The body reduced to its patches; with the modes (m, n_nodes, 3) all over it where it is
-        of finite elements.
+    def model(self, patches: dict[str, Patch], n_modes: int) -> tuple[BodyModel, tuple | None]:
+        """The body reduced to its patches; with its nodes (n_nodes, 3) [m] and the modes (m,
+        n_nodes, 3) all over it where it is of finite elements.
         """
         model, fields = self._flat_model(patches, n_modes)
         return with_balls(model, self.body), fields
 
     def _flat_model(
         self, patches: dict[str, Patch], n_modes: int
-    ) -> tuple[BodyModel, np.ndarray | None]:
+    ) -> tuple[BodyModel, tuple | None]:
         if isinstance(self.body, Matrices):
 
             def refuse(allowed):

@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 from fecolumn.case.sections import GRAVITY
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
+from fecolumn.structures.bonds import pulls_of_bonds
 from fecolumn.structures.model import GROUND
 from fecolumn.structures.place import footing
 
@@ -288,6 +289,12 @@ def check_rest(case, structure, standing, file) -> None:
                 act(column, joint.master, -force, point)
                 columns.append(column)
                 bounds.append((0, None))
+        for point, along, least, most in pulls_of_bonds(standing, joint) if joint.bond else ():
+            column = np.zeros(rows)
+            act(column, joint.slave, along, point)
+            act(column, joint.master, -along, point)
+            columns.append(column)
+            bounds.append((least, most))
     for link in structure.links:
         a = standing[link.a].center + link.arm_a
         b = link.arm_b if link.b == GROUND else standing[link.b].center + link.arm_b
@@ -329,5 +336,6 @@ def check_rest(case, structure, standing, file) -> None:
             None,
             f"{names} cannot rest: no contact forces within friction hold the weight as "
             "the bodies stand; "
-            "give a start by [initial.NAME], or other places, friction or links",
+            "give a start by [initial.NAME] or integration.start = 'drawn', or other places, "
+            "friction, links or tension_pa",
         )

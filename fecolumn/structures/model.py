@@ -173,6 +173,23 @@ class Ball:
 
 
 @dataclass(frozen=True)
+class Bond:
+    """What glues the faces of a joint together: wax, putty or mortar.
+
+    rows: (k,) places of the points that it holds in the slave's surface. stiffness, shear_stiffness
+    [N/m3] of the layer per area; tension, cohesion [Pa]: its strengths across and along the faces;
+    energy [J/m2]: that it takes to fail, 0 of one that fails at once.
+    """
+
+    rows: np.ndarray
+    stiffness: float
+    shear_stiffness: float
+    tension: float
+    cohesion: float
+    energy: float
+
+
+@dataclass(frozen=True)
 class Joint:
     """A surface of one body on a surface of another, or on the ground: it may open, slide and roll.
 
@@ -186,7 +203,8 @@ class Joint:
     ground: place of the ground among those of the case, of a joint with one. gap: between the faces
     at the start [m]. rolling: coefficient
     of the rim's resistance, see `contact.rolling`; pad: what lies between, see
-    `contact.pad`, None where nothing does.
+    `contact.pad`, None where nothing does; bond: what glues the faces together, None where nothing
+    does.
     pair, outlines: of a joint with the roles exchanged, by which a joint has two sides: place of
         the joint that it belongs to, -1 of others; (n, 2, 3), (m, 2, 3) [m] ends of the sides of
         the outlines of the slave's and the master's face from the centres of mass,
@@ -209,6 +227,7 @@ class Joint:
     pad: Pad | None = None
     ground: int = 0
     gap: float = 0.0
+    bond: Bond | None = None
 
 
 @dataclass(frozen=True)
@@ -234,7 +253,8 @@ class Link:
     both infinite where it never does. ground: place of the ground that holds it, where b is one.
     hardening: stiffness after yielding over that before. bends: exponent of the curve between them,
     infinite of a corner. power: of the rate, in the dashpot's force; slow: rate [m/s] below which a
-    power below 1 gives way to proportion.
+    power below 1 gives way to proportion. shape_a, shape_b: (3, m) [1/sqrt(kg)] of the bodies'
+    modes at its ends, None where these follow the rigid motion alone.
     """
 
     name: str
@@ -256,6 +276,8 @@ class Link:
     bends: float = math.inf
     power: float = 1.0
     slow: float = 0.0
+    shape_a: np.ndarray | None = None
+    shape_b: np.ndarray | None = None
 
 
 @dataclass(frozen=True)

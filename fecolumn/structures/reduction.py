@@ -46,8 +46,9 @@ def body_of(shape: Shape, material: Material, comm=None):
 
 def elastic_model(
     shape: Shape, faces: list[Face], patches: dict[str, Patch], material: Material, n_modes: int
-) -> tuple[BodyModel, np.ndarray]:
-    """Reduce a body of finite elements; also the shapes (m, n_nodes, 3) of the modes all over it.
+) -> tuple[BodyModel, tuple[np.ndarray, np.ndarray]]:
+    """Reduce a body of finite elements; also its nodes (n_nodes, 3) [m] from the centre of mass and
+    the shapes (m, n_nodes, 3) of the modes there.
 
     At the nodes of all patches: rigid motion, elastic modes
     of the free body, and the exact flexibility by inertia relief. Marks: "top", the mean over the
@@ -85,7 +86,7 @@ def elastic_model(
         },
         marks=marks,
     )
-    return model, reduced.fields
+    return model, (body.all_X - body.center, reduced.fields)
 
 
 def rigid_model(

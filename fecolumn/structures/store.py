@@ -2,9 +2,10 @@
 same structure.
 
 A body is a folder named after the content it was made from, so that nothing has to be invalidated:
-body.npz and, of finite elements, fields.npy with the mode shapes (m, n_nodes, 3) all over
-it. A layout is a JSON file that names the bodies and their contacts. Each is checked by its digest
-before it is used, and what does not fit is made anew.
+body.npz and, of finite elements, fields.npy with the mode shapes (m, n_nodes, 3) all over it and
+nodes.npy with the nodes (n_nodes, 3) [m] from the centre of mass. A layout is a JSON file that
+names the bodies and their contacts. Each is checked by its digest before it is used, and what does
+not fit is made anew.
 """
 
 from __future__ import annotations
@@ -45,6 +46,9 @@ SOURCES = (
 )
 #: Modes that a body keeps at least, so that analyses with fewer share it.
 KEPT_MODES = 30
+# Nodes by which the shape at a point between them is found, and how near a node a point is it, over
+# the body's size
+_NEAREST, _AT_NODE = 12, 1e-9
 
 
 def key_of(what) -> str:
@@ -79,18 +83,41 @@ def keep_body(key: str, make) -> None:
         if folder.is_dir():
             remove_damaged(folder)
             kept_body.cache_clear()
-        model, shapes = make()
+        model, fields_of_all = make()
         partial = Path(tempfile.mkdtemp(prefix=f".{folder.name}-", dir=folder.parent))
         partial.chmod(0o755)
         try:
             with open(partial / "body.npz", "wb") as file:
                 np.savez(file, **_arrays(model))
-            if shapes is not None:
-                np.save(partial / "fields.npy", shapes)
+            if fields_of_all is not None:
+                np.save(partial / "nodes.npy", fields_of_all[0])
+                np.save(partial / "fields.npy", fields_of_all[1])
             note(partial, *sorted(file.name for file in partial.iterdir()))
             os.replace(partial, folder)
         finally:
             shutil.rmtree(partial, ignore_errors=True)
+
+
+def shape_at(key: str, arm: np.ndarray) -> np.ndarray | None:
+    """Shape (3, m) [1/sqrt(kg)] of a kept body's modes at a point (3,) [m] from its centre of mass;
+    None of a body without finite elements.
+
+    Of the nodes nearest to it that linear field which fits them best, the nearer the better: at a
+    node its own shape.
+    """
+    folder = body_folder(key)
+    if not (folder / "fields.npy").is_file():
+        return None
+    nodes, shapes = (np.load(folder / name, mmap_mode="r") for name in ("nodes.npy", "fields.npy"))
+    away = np.linalg.norm(nodes - arm, axis=1)
+    near = np.argsort(away, kind="stable")[:_NEAREST]
+    if away[near[0]] < _AT_NODE * np.ptp(nodes, axis=0).max():
+        return np.array(shapes[:, near[0]]).T
+    own = shapes[:, near].transpose(1, 2, 0)
+    weights = 1 / away[near]
+    linear = np.column_stack([np.ones(len(near)), nodes[near] - arm])
+    shares = np.linalg.pinv(linear * weights[:, None])[0] * weights
+    return np.einsum("n,nam->am", shares, own)
 
 
 @functools.lru_cache(maxsize=32)

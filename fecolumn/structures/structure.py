@@ -18,6 +18,7 @@ from fecolumn.contact.rim import Rim
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.mass import mass_properties
 from fecolumn.structures import model as models
+from fecolumn.structures.bonds import check_starts, with_bonds
 from fecolumn.structures.check import (
     check_joints,
     check_layout,
@@ -42,6 +43,7 @@ from fecolumn.structures.store import (
     kept_body,
     kept_layout,
     key_of,
+    shape_at,
 )
 
 # Keys of a body that no operator has
@@ -63,7 +65,7 @@ def structure_model(case, file="case", say=lambda text: None) -> StructureModel:
     InputError
         a structure that cannot be, told by the names of its bodies, interfaces and links.
     """
-    found = _layout(case, file, say)
+    found = _layout(case, file, say, fields=bool(case.links) and case.integration.n_modes != 0)
     wanted = {name: kept_body(one) for name, one in found["models"].items()}
     return assembled(case, wanted, found, file, say)
 
@@ -206,6 +208,8 @@ def assembled(
     joints = _with_hertz(case, joints, standing, copies)
     interfaces = [one["interface"] for one in layout["contacts"]]
     joints = with_pads(case, joints, standing, interfaces, file)
+    joints = with_bonds(case, joints, standing, interfaces, file)
+    check_starts(joints, standing, file)
     parts = tuple(
         Part(
             one.name,
@@ -219,7 +223,11 @@ def assembled(
         )
         for (name, _), one, there in zip(copies, standing, placed(standing, joints, file))
     )
-    links = tuple(link for name in case.links for link in _links(case, name, places, standing))
+    links = tuple(
+        _with_shapes(link, copies, standing, layout.get("models", {}))
+        for name in case.links
+        for link in _links(case, name, places, standing)
+    )
     outlines = {
         name: one and one | {"points": np.array(one["points"]) - bodies[name].center}
         for name, one in layout["outlines"].items()
@@ -453,6 +461,19 @@ def _links(case, name: str, places, standing: list[Standing]):
             keys.damping_exponent,
             keys.linear_below_m_s if keys.damping_exponent < 1 else 0.0,
         )
+
+
+def _with_shapes(link: Link, copies, standing: list[Standing], keys: dict) -> Link:
+    """A link with the shapes of the modes at its ends; keys: of the bodies in `store`."""
+
+    def shape(place: int, arm: np.ndarray):
+        if place == models.GROUND or not len(standing[place].model.frequencies):
+            return None
+        key = keys.get(copies[place][0])
+        found = key and shape_at(key, arm)
+        return None if found is None else found[:, : len(standing[place].model.frequencies)]
+
+    return replace(link, shape_a=shape(link.a, link.arm_a), shape_b=shape(link.b, link.arm_b))
 
 
 def _observed(case, parts, places, file) -> tuple[int, str]:

@@ -66,13 +66,14 @@ def peaks_of_links(summaries: list[dict[str, Any]]) -> list[LinkPeaks]:
             len(links),
             sum(link["yielded_at_s"] is not None for link in links),
             sum(link["broke_at_s"] is not None for link in links),
-            tuple(_quantiles([link[peak] for link in links]) for peak in PEAKS),
+            tuple(peak_quantiles([link[peak] for link in links]) for peak in PEAKS),
             float(np.median([link["work_j"] for link in links])),
         )
         for name, links in found.items()
     ]
 
 
-def _quantiles(values: list[float]) -> tuple[float, float, float]:
+def peak_quantiles(values: list[float]) -> tuple[float, float, float]:
+    """Median, that which 84 % of the values stay below, and the largest."""
     median, upper = np.quantile(values, [0.5, 0.84])
     return float(median), float(upper), float(max(values))

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fecolumn.motions import lick, makers
+from fecolumn.study.match_command import add_match_actions
 
 if TYPE_CHECKING:
     from fecolumn.motions.ensemble import Ensemble
@@ -152,6 +153,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", required=True, metavar="DIR", help="folder of the motion and the picture"
     )
     correct.set_defaults(command=_correct)
+
+    add_match_actions(actions, _all_of, store)
 
     plot = actions.add_parser(
         "plot",
@@ -516,23 +519,25 @@ def _plot(args: argparse.Namespace) -> int:
     return 0
 
 
+def _all_of(args: argparse.Namespace) -> list[GroundMotion]:
+    """The motions of args.sources, where their ensemble is to be written in args.output."""
+    from fecolumn.motions.chosen import chosen_motions
+
+    if args.command is not _convert or Path(args.output).suffix in (".h5", ".hdf5"):
+        _ensemble_path(args.output)
+    return [
+        _read(one, args)
+        for source in args.sources
+        for one in chosen_motions(source, "SOURCE", "fecolumn motions")
+    ]
+
+
 def _convert(args: argparse.Namespace) -> int:
     from fecolumn.foundation.folder import written
-    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.ensemble import Ensemble
-    from fecolumn.motions.ensemble_file import members
     from fecolumn.motions.export import write_text_files
-    from fecolumn.motions.record import UnusableRecord
 
-    if Path(args.output).suffix in (".h5", ".hdf5"):
-        _ensemble_path(args.output)
-    motions = []
-    for source in args.sources:
-        try:
-            found = members(source)
-        except UnusableRecord as error:
-            raise InputError("fecolumn motions convert", "SOURCE", source, str(error)) from None
-        motions += [_read(one, args) for one in found]
+    motions = _all_of(args)
     if Path(args.output).suffix in (".h5", ".hdf5"):
         return store(
             Ensemble(

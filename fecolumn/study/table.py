@@ -12,6 +12,7 @@ from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
+from fecolumn.study.bond_peaks import BOND_COLUMNS, peaks_of_bonds
 from fecolumn.study.link_peaks import LINK_COLUMNS, peaks_of_links
 from fecolumn.study.plan import Plan
 from fecolumn.study.store import DONE
@@ -84,9 +85,9 @@ def ensemble(summaries: list[dict[str, Any]]) -> EnsembleSummary:
 
 def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> None:
     """Write table.csv and analyses.csv, the same bytes for the same results, and timing.csv; of
-    structures with links links.csv, too.
+    structures with links links.csv, and with glued joints bonds.csv, too.
     """
-    table, timing, links = [], [], []
+    table, timing, links, bonds = [], [], [], []
     for values, done, planned in combinations(plan, rows):
         texts = [str(value) for value in values.values()]
         if done:
@@ -107,10 +108,8 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
             timing.append(
                 [*texts, row.n, f"{row.s_per_step:.6f}", f"{sum(s['wall_s'] for s in done):.2f}"]
             )
-            links += [
-                [*texts, *(f"{v:.6e}" if isinstance(v, float) else v for v in link.row)]
-                for link in peaks_of_links(done)
-            ]
+            links += [[*texts, *_told(link.row)] for link in peaks_of_links(done)]
+            bonds += [[*texts, *_told(row)] for row in peaks_of_bonds(done)]
         else:
             table.append([*texts, planned, 0] + [""] * (len(_TABLE) - 2))
     axes = list(plan.analyses[0].combination)
@@ -118,10 +117,17 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
     write_csv(Path(folder) / "timing.csv", [[*axes, "n", "s_per_step", "wall_s"], *timing])
     if links:
         write_csv(Path(folder) / "links.csv", [[*axes, *LINK_COLUMNS], *links])
+    if bonds:
+        write_csv(Path(folder) / "bonds.csv", [[*axes, *BOND_COLUMNS], *bonds])
     write_csv(
         Path(folder) / "analyses.csv",
         [["case_id", *plan.axes, "state", *_ANALYSES], *map(_analysis_row, rows)],
     )
+
+
+def _told(row: list[Any]) -> list[Any]:
+    """A row of peaks as it stands in a table."""
+    return [f"{value:.6e}" if isinstance(value, float) else value for value in row]
 
 
 def _analysis_row(row: dict[str, Any]) -> list[Any]:

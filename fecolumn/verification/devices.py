@@ -2,7 +2,7 @@
 friction damper, a viscous damper and a stop with a gap, and through ropes that break.
 
 Requirement: each lets the block go as far, and takes as much, as its law says, whatever the step,
-and the energy balance closes.
+and the energy balance closes. Glued joints: see `glue`.
 
 Closed forms, of a block of mass m and velocity v, with F the yield force, k the stiffness, E = F /
 k, h the hardening:
@@ -23,6 +23,7 @@ import math
 import numpy as np
 
 from fecolumn.case.case import case_from_tables
+from fecolumn.verification.glue import glue_rows
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.structures_feet import CLOSED, closure_over_kinetic, columns_and_rows
 
@@ -48,14 +49,21 @@ def run(engine: str, long: bool = False) -> CaseRows:
         )
         rows += _viscous(engine, step, drawn)
     rows += [*_stop(engine, drawn), *_ropes(engine)]
+    torn: list[tuple] = []
+    rows += glue_rows(engine, torn)
 
     def draw(figure):
-        for axes, (name, way, force) in zip(figure.subplots(1, 5, squeeze=False)[0], drawn):
+        grid = figure.subplots(1, 6, squeeze=False)[0]
+        for axes, (name, way, force) in zip(grid, drawn):
             axes.plot(1e3 * way, 1e-3 * force)
             axes.set(title=name, xlabel="elongation [mm]")
-        figure.axes[0].set_ylabel("force [kN]")
+        grid[0].set_ylabel("force [kN]")
+        for name, way, stress in torn:
+            grid[-1].plot(1e3 * way, 1e-3 * stress, label=name)
+        grid[-1].set(title="wax torn off", xlabel="opening [mm]", ylabel="stress [kPa]")
+        grid[-1].legend(fontsize="x-small")
 
-    return CaseRows(rows, draw, (11.0, 2.6))
+    return CaseRows(rows, draw, (13.0, 2.6))
 
 
 def pushed(links: dict, engine: str, seconds: float, step: float):

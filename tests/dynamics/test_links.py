@@ -7,7 +7,14 @@ import pytest
 
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import frames_at, grounds_at
-from fecolumn.engines.dynamics.links import LINK, TIE, end_links, pull_links
+from fecolumn.engines.dynamics.links import (
+    LINK,
+    TIE,
+    Held,
+    Linked,
+    end_links,
+    pull_links,
+)
 
 LENGTH, STIFFNESS, YIELDS, DT = 1.0, 2e6, 4e3, 1e-3
 ELASTIC = YIELDS / STIFFNESS  # elongation at which it yields [m]
@@ -53,13 +60,16 @@ def walked(
     link["bends"], link["power"] = np.inf, 1.0
     for name, value in more.items():
         link[name] = value
+    linked, grounds = Linked(link, np.zeros((1, 2, 3, 0))), grounds_at([0.0])
     ties["length"], turn, tensions, taken, done = LENGTH, np.eye(3)[None], [], 0.0, 0.0
     for before, after in zip(frames, frames[1:]):
         later = ties.copy()
-        pull_links(
-            link, ties, grounds_at([0.0]), before, turn, grounds_at([0.0]), after, turn, DT, pulls
+        start, end = (
+            Held(grounds, place, turn, np.zeros((1, 3, 0)), own)
+            for place, own in ((before, ties), (after, later))
         )
-        kept, lost = end_links(link, grounds_at([0.0]), after, turn, ties, later, DT)
+        pull_links(linked, start, end, DT, pulls)
+        kept, lost = end_links(linked, start, end, DT)
         # the force on the body pulls it towards the ground, at the origin
         done -= pulls[0, 0] * (after["center"][0, 0] - before["center"][0, 0])
         ties, taken = later, taken + lost

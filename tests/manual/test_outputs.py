@@ -85,7 +85,7 @@ def test_every_dataset_of_the_states_with_its_unit(analysis):
 
 
 def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_path):
-    """Of bodies, joints, marks, storeys and links the name is left out."""
+    """Of bodies, joints, marks, storeys, links and glued joints the name is left out."""
     building = dict(
         kind="storeys",
         length_m=0.6,
@@ -100,9 +100,12 @@ def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_pat
     )
     block = dict(kind="block", length_m=0.6, width_m=0.6, height_m=0.4, element_size_m=0.3)
     tie = dict(kind="spring", body="lower", to_point_m=[1, 0, 0], stiffness_n_m=1e3)
+    wax = dict(tension_pa=1e5, bond_stiffness_n_m3=1e7)
     case = structure(
         bodies=dict(lower=block, upper=building),
-        joints=dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")),
+        joints=dict(
+            foot=dict(slave="lower", on="ground") | wax, joint=dict(slave="upper", on="lower")
+        ),
         links=dict(tie=tie),
         integration=dict(duration_s=0.01),
     )
@@ -113,7 +116,7 @@ def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_pat
         if isinstance(item, h5py.Dataset):
             found[
                 f"{kind}/NAME/{rest.rpartition('/')[2]}"
-                if kind in ("body", "interface", "mark", "storey", "link")
+                if kind in ("body", "interface", "mark", "storey", "link", "bond")
                 else name
             ] = item.attrs["unit"]
 
@@ -123,7 +126,7 @@ def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_pat
     entries = {
         name: next(iter(parts.values()))
         for name, parts in summary.items()
-        if name in ("bodies", "interfaces", "storeys", "links")
+        if name in ("bodies", "interfaces", "storeys", "links", "bonds")
     }
     assert set(listed("outputs", "summary.json")) | set(entries) == set(summary)
     assert set(listed("outputs", "summary.json of a structure")) == set(entries) | {

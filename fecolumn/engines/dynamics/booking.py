@@ -6,10 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.contact.pose import frames_at
 from fecolumn.contact.work import losses
 from fecolumn.engines.dynamics.hht import HHT
-from fecolumn.engines.dynamics.links import end_links
 from fecolumn.engines.dynamics.system import State
 
 
@@ -73,15 +71,7 @@ def book_step(system, made: StepMade, ledger) -> float:
     rolling = bodies.dot(step, made.resisted) if system.resistance else 0.0
     taken = 0.0
     if system.links:
-        tied, taken = end_links(
-            system.links.links,
-            after.grounds,
-            frames_at(bodies.centers(after.x)),
-            after.rotation,
-            start.ties,
-            after.ties,
-            hht.dt,
-        )
+        tied, taken = system.links.end(start.ties, after, hht.dt)
         after.static += tied
     contact = bodies.dot(step, worked) - rolling + after.static - start.static + taken
     contact -= made.carried

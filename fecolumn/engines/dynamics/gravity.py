@@ -42,14 +42,17 @@ def pseudo_inertia(weight: float, depth: float, inertia: np.ndarray) -> float:
     return FIRMNESS * weight * depth / float(np.linalg.eigvalsh(inertia[:2, :2])[0])
 
 
-def iterate_to_rest(proximal_step, height: float) -> None:
+def iterate_to_rest(proximal_step, height: float, progress: float | None = None) -> None:
     """Make proximal steps until one moves the structure by less than the rounding of its `height`
     [m] allows to tell; a step returns by how much it moved.
 
     Backward-Euler steps without velocity: each is a proximal-point iteration on the energy with
     contact and contracts by the ratio of inertia to stiffness, about 1e-4, so that a handful
-    reaches rounding. On a pad that tilts under a small moment it is nearer to 1, and many are
-    needed.
+    reaches rounding. On a pad that tilts under a small moment, or held by a soft link alone, it is
+    nearer to 1, and many are needed.
+
+    progress: share of itself to which a step must have come in REST_ITERATIONS of them;
+    REST_PROGRESS unless given.
 
     Raises
     ------
@@ -57,12 +60,13 @@ def iterate_to_rest(proximal_step, height: float) -> None:
         it does not come to rest, or all too slowly: its pad hardly holds it upright.
     """
     moved, steps, yardstick = np.inf, 0, np.inf
+    progress = REST_PROGRESS if progress is None else progress
     while True:
         moved, steps = proximal_step(), steps + 1
         if moved < REST * height:
             return
         if steps % REST_ITERATIONS == 0:
-            if not moved < REST_PROGRESS * yardstick:
+            if not moved < progress * yardstick:
                 break
             yardstick = moved
     raise NoEquilibrium(

@@ -23,8 +23,8 @@ UNITS = {
     "theta_x": "rad",
     "theta_y": "rad",
 }
-#: Of columns of a structure's bodies, interfaces, marks, storeys and links, by the last word of
-#: their names.
+#: Of columns of a structure's bodies, interfaces, marks, storeys, links and glued joints, by the
+#: last word of their names.
 UNITS_OF_PARTS = {
     "displacement": "m",
     "tilt": "rad",
@@ -41,6 +41,9 @@ UNITS_OF_PARTS = {
     "work": "J",
     "rotation": "rad",
     "broken": "-",
+    "stress": "Pa",
+    "shear_stress": "Pa",
+    "failed": "-",
 }
 MEANING = {
     "u_top": "displacement of the top's centre relative to the base",

@@ -1,5 +1,6 @@
 """The force of a link over its elongation: elastic beyond its play, yielding with kinematic
-hardening, at once or along a curve; and over the rate: viscous, linear or a power of it.
+hardening, at once or along a curve; over the rate: viscous, linear or a power of it; and how much
+of a point of a bond is left.
 """
 
 from __future__ import annotations
@@ -173,3 +174,26 @@ def drag_of(link, rate):
     if speed < link.slow:
         return link.damping * link.slow ** (link.power - 1.0) * rate
     return link.damping * speed**link.power * np.sign(rate)
+
+
+@njit
+def damage_of(normal, shear, opened, slipped):
+    """Share of its stiffness, 0 to 1, that a point of a bond has lost which has opened and slipped
+    so far [m], by its links along the normal and in shear.
+
+    Coulomb's criterion with a tension cut-off: damage begins at a tension of normal.breaks, or
+    where shear and rubs times tension reach the cohesion, the force at shear.breaks; from there on
+    the force falls linearly with the way until nothing is left at `fails`, in between by the shares
+    of the strain energy along and across the face.
+    """
+    pulled, sheared = normal.stiffness * opened, shear.stiffness * slipped
+    cohesion = shear.stiffness * shear.breaks
+    over = max(opened / normal.breaks, (sheared + normal.rubs * pulled) / cohesion)
+    if over <= 1.0:
+        return 0.0
+    across, along = pulled * opened, sheared * slipped
+    fails = across * normal.fails / normal.breaks + along * shear.fails / shear.breaks
+    fails /= across + along
+    if over >= fails:
+        return 1.0
+    return (1.0 - 1.0 / over) * fails / (fails - 1.0)

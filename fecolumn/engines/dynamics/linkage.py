@@ -6,27 +6,27 @@ import numpy as np
 
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import frames_at
-from fecolumn.engines.dynamics.links import TIE, end_links, pull_links
+from fecolumn.engines.dynamics.links import TIE, Held, Linked, end_links, pull_links
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import out_of_frames
 
 
 class Linkage:
-    """Forces of links (nl,) of LINK as nodal forces and accelerations of a Composite.
+    """Forces of links, a Linked, as nodal forces and accelerations of a Composite.
 
     A link is held by the rigid motion of its bodies: by the places that its ends have from the
     centres of mass, turned by the mean rotations.
     """
 
-    def __init__(self, bodies, links: np.ndarray):
-        self._bodies, self.links = bodies, links
+    def __init__(self, bodies, linked: Linked):
+        self._bodies, self.linked, self.links = bodies, linked, linked.links
         made = bodies.of_each(lambda part, _: rigid_fields(part))
         self._fields, self._momenta, masses = zip(*made)
         self._inverse = [np.linalg.inv(one) for one in masses]
         #: Bound of the square of the fastest frequency of the bodies on their links [1/s2].
         self.stiffest = sum(
             float(link["stiffness"]) * sum(self._gives(b, arm) for b, arm in ends_of(link))
-            for link in links
+            for link in self.links
         )
 
     def _gives(self, b: int, arm) -> float:
@@ -42,12 +42,21 @@ class Linkage:
         """Strain energy [J] of the links at rest in a State, whose ties become those of the links
         at rest.
         """
-        before, frames = state.ties.copy(), frames_at(self._bodies.centers(state.x))
-        kept, _ = end_links(
-            self.links, state.grounds, frames, state.rotation, before, state.ties, np.inf
-        )
+        kept, _ = self.end(state.ties.copy(), state, np.inf)
         state.ties["work"] = 0.0  # what they lose on the way there is not of the motion
         return kept
+
+    def end(self, ties: np.ndarray, state, dt: float) -> tuple[float, float]:
+        """`end_links` of a step dt [s] from `ties` to a State, whose ties become those of its
+        end.
+        """
+        centers = self._bodies.centers(state.x)
+        after = self._held(state.grounds, centers, state.rotation, state.ties)
+        return end_links(self.linked, after._replace(ties=ties), after, dt)
+
+    def _held(self, grounds, centers, rotation, ties) -> Held:
+        modal = np.zeros((len(centers), 3, 0))
+        return Held(grounds, frames_at(centers), rotation, modal, ties)
 
     def ties(self, centers: np.ndarray, rotation: np.ndarray) -> np.ndarray:
         """Ties (nl,) of TIE of links that have not been loaded, of bodies with centres of mass (nb,
@@ -67,18 +76,9 @@ class Linkage:
         the bodies turned by `rotation`.
         """
         pulls = np.zeros((len(self.links), 3))
-        pull_links(
-            self.links,
-            stage.ties,
-            stage.grounds[0],
-            frames_at(stage.centers),
-            stage.rotation,
-            stage.grounds[1],
-            frames_at(self._bodies.centers(x)),
-            rotation,
-            float(stage.dt),
-            pulls,
-        )
+        start = self._held(stage.grounds[0], stage.centers, stage.rotation, stage.ties)
+        end = self._held(stage.grounds[1], self._bodies.centers(x), rotation, stage.ties)
+        pull_links(self.linked, start, end, float(stage.dt), pulls)
         return pulls
 
     def carried(self, pulls, start, end) -> float:

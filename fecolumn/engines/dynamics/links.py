@@ -1,15 +1,22 @@
 """Links between points of two bodies, or of a body and the ground: tendons, springs, struts, stops,
-restrainers with play, dashpots and friction dampers.
+restrainers with play, dashpots and friction dampers; and those of bonded joints, see `bonds`.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
-from scipy.optimize import bisect
 
 from fecolumn.contact.points import BASE
 from fecolumn.contact.record import record
-from fecolumn.engines.dynamics.link_law import drag_of, follow_elongation, strain_of, stretch_of
+from fecolumn.engines.dynamics.link_law import (
+    damage_of,
+    drag_of,
+    follow_elongation,
+    strain_of,
+    stretch_of,
+)
 from fecolumn.foundation._compiled import njit
 
 #: A link from body a to body b, -1 for a ground; ground: which one then; arm_a, arm_b: (3,) of its
@@ -20,7 +27,10 @@ from fecolumn.foundation._compiled import njit
 #: length that has flowed [N/m]; bends: exponent of the curve along which it comes to flow, infinite
 #: where it does so at once; power: of the rate of elongation, to which a dashpot's force is
 #: proportional, from `slow` [m/s] on; breaks: elongation beyond its play [m] at which it fails;
-#: infinite where it does not.
+#: infinite where it does not. bond: 0, or number from 1 of the bonded joint of which it holds a
+#: point: three links, of which the first, which leads, is along the normal; area: that the point
+#: stands for [m2]; breaks is then where damage begins, fails: where nothing is left [m]; rubs:
+#: shear strength that a tension takes, over the tension.
 LINK = record(
     ("a", "i8"),
     ("b", "i8"),
@@ -39,137 +49,69 @@ LINK = record(
     ("power", "f8"),
     ("slow", "f8"),
     ("breaks", "f8"),
+    ("bond", "i8"),
+    ("leads", "?"),
+    ("area", "f8"),
+    ("fails", "f8"),
+    ("rubs", "f8"),
 )
 #: What a link carries from step to step: its length now and the part of it that has flowed [m];
 #: force [N], pull > 0, a dashpot's part of it the mean over the step; work: energy that its
-#: dashpot, yielding and breaking have taken [J]; whether it is broken.
-TIE = record(("length", "f8"), ("flowed", "f8"), ("force", "f8"), ("work", "f8"), ("broken", "?"))
-# Share of a change of the links' forces that the motion within a step may answer at once: beyond it
-# the step is too long for the links
-STIFFEST = 0.5
+#: dashpot, yielding and breaking have taken [J]; whether it is broken; damage: share of its
+#: stiffness that a link of a bond has lost.
+TIE = record(
+    ("length", "f8"),
+    ("flowed", "f8"),
+    ("force", "f8"),
+    ("work", "f8"),
+    ("broken", "?"),
+    ("damage", "f8"),
+)
 
 
-def links_of(model, hht) -> np.ndarray:
-    """Links (nl,) of LINK.
-
-    Raises
-    ------
-    ValueError
-        links too stiff, or dashpots too strong, for the step; names the one with most of it and the
-        longest step.
+class Held(NamedTuple):
+    """What links hold, as `pull_links` and `end_links` take it of a motion: grounds (G,) of GROUND;
+    bodies with frames (nb,), rotation (nb, 3, 3) and modal (nb, 3, m), of which the first row are
+    coordinates; ties (nl,) of TIE.
     """
-    links = np.zeros(len(model.links), LINK)
-    for row, link in zip(links, model.links):
-        sides = [
-            (model.parts[b] if b != BASE else None, np.asarray(arm, float))
-            for b, arm in ((link.a, link.arm_a), (link.b, link.arm_b))
-        ]
-        ends = [arm if part is None else part.center + part.rotation @ arm for part, arm in sides]
-        length = np.linalg.norm(ends[1] - ends[0])
-        held = link.slack + link.prestress / link.stiffness if link.prestress else 0.0
-        row["a"], row["b"], row["arm_a"], row["arm_b"] = link.a, link.b, link.arm_a, link.arm_b
-        row["length"], row["play"], row["stiffness"], row["damping"] = (
-            length - held,
-            link.slack,
-            link.stiffness,
-            link.damping,
-        )
-        row["pulls"], row["pushes"], row["yields"] = link.pulls, link.pushes, link.yield_n
-        row["hardens"] = link.stiffness * link.hardening / (1.0 - link.hardening)
-        row["bends"], row["power"], row["slow"] = link.bends, link.power, link.slow
-        row["ground"] = link.ground
-        row["breaks"] = link.breaking_n / link.stiffness if link.stiffness else np.inf
-    bodies = [
-        (part.model.mass, part.model.inertia, part.center, part.rotation) for part in model.parts
-    ]
 
-    steepest = _steepest(links)
-
-    def answered(dt):
-        square, place = fastest(links, links["stiffness"] + steepest / dt, bodies)
-        return square * dt**2 / 2, place
-
-    share, place = answered(hht.dt)
-    if share > STIFFEST:
-        longest, link = (
-            bisect(lambda dt: answered(dt)[0] - STIFFEST, 1e-9 * hht.dt, hht.dt, rtol=1e-3),
-            model.links[place],
-        )
-        much = " and ".join(
-            f"{value:g} {unit}"
-            for value, unit in (
-                (link.stiffness, "N/m"),
-                (link.damping, "N s/m" if link.power == 1 else "N at 1 m/s"),
-            )
-            if value
-        )
-        slower = ""
-        if link.damping and link.power < 1:
-            speed = link.slow * (share / STIFFEST) ** (1 / (1 - link.power))
-            slower = f", or linear_below_m_s of {speed:.2g} m/s or more"
-        raise ValueError(
-            f"links.{link.name}: {much} between such light bodies, with the links "
-            f"beside it, needs steps of at most {longest:.2g} s{slower}"
-        )
-    return links
+    grounds: np.ndarray
+    frames: np.ndarray
+    rotation: np.ndarray
+    modal: np.ndarray
+    ties: np.ndarray
 
 
-def _steepest(links: np.ndarray) -> np.ndarray:
-    """Largest change (nl,) of the dashpots' forces per rate [N s/m], up to 1 m/s."""
-    power, slow = links["power"], links["slow"]
-    below = np.where(power < 1, slow, 1.0) ** (power - 1)
-    return links["damping"] * np.maximum(power, 1.0) * below
+class Linked(NamedTuple):
+    """links: (nl,) of LINK; ends: (nl, 2, 3, m) shapes of the modes at their ends a and b."""
 
-
-def fastest(links: np.ndarray, stiffness: np.ndarray, bodies: list[tuple]) -> tuple[float, int]:
-    """Square of the fastest frequency [1/s2] at which free rigid bodies swing on their links, were
-    these as stiff as `stiffness` (nl,) [N/m]; place of the link that does most.
-
-    bodies: mass [kg], inertia (3, 3) [kg m2], centre of mass (3,) [m] and rotation (3, 3) of each.
-    """
-    if not len(links):
-        return 0.0, 0
-    pulls, places = [], []
-    for place, (link, its) in enumerate(zip(links, stiffness)):
-        sides = [(int(link["a"]), link["arm_a"], 1.0), (int(link["b"]), link["arm_b"], -1.0)]
-        ends = [arm if b == BASE else bodies[b][2] + bodies[b][3] @ arm for b, arm, _ in sides]
-        length = np.linalg.norm(ends[1] - ends[0])
-        # one of no length may come to pull in any direction
-        for along in [(ends[1] - ends[0]) / length] if length else np.eye(3):
-            row = np.zeros(6 * len(bodies))
-            for b, arm, sign in sides:
-                if b != BASE:
-                    mass, inertia, _, rotation = bodies[b]
-                    # in the body's frame, over the roots of mass and inertia
-                    local = rotation.T @ along
-                    row[6 * b : 6 * b + 3] += sign * local / np.sqrt(mass)
-                    row[6 * b + 3 : 6 * b + 6] += sign * np.linalg.solve(
-                        np.linalg.cholesky(inertia), np.cross(arm, local)
-                    )
-            pulls.append(np.sqrt(its) * row)
-            places.append(place)
-    squares, shapes = np.linalg.eigh(np.array(pulls) @ np.transpose(pulls))
-    return float(squares[-1]), places[int(np.argmax(np.abs(shapes[:, -1])))]
+    links: np.ndarray
+    ends: np.ndarray
 
 
 @njit
-def _end_of(b, arm, ground, frames, rotation, target):
-    """Target (3,): where an end of a link is; ground: that which holds it, where one does."""
+def _end_of(link, side, shape, at, target):
+    """Target (3,): where an end of a link is, 0 or 1; shape: (3, m) of the modes there."""
+    b, arm = link.b if side else link.a, link.arm_b if side else link.arm_a
+    x, y, z = arm[0], arm[1], arm[2]
+    if b == BASE:
+        moved = at.grounds[link.ground].moved
+        target[0], target[1], target[2] = x + moved[0], y + moved[1], z + moved[2]
+        return
+    for k in range(shape.shape[1]):
+        q = at.modal[b, 0, k]
+        x, y, z = x + shape[0, k] * q, y + shape[1, k] * q, z + shape[2, k] * q
+    R, center = at.rotation[b], at.frames[b].center
     for a in range(3):
-        if b == BASE:
-            target[a] = arm[a] + ground.moved[a]
-        else:
-            R = rotation[b]
-            target[a] = frames[b].center[a] + R[a, 0] * arm[0] + R[a, 1] * arm[1] + R[a, 2] * arm[2]
+        target[a] = center[a] + R[a, 0] * x + R[a, 1] * y + R[a, 2] * z
 
 
 @njit
-def span(link, grounds, frames, rotation, target):
-    """Target (3,): way from end a to end b [m]; its length."""
+def span(linked, n, at, target):
+    """Target (3,): way from end a to end b [m] of link n, held as `at` says; its length."""
     other = np.empty(3)
-    ground = grounds[link.ground]
-    _end_of(link.a, link.arm_a, ground, frames, rotation, other)
-    _end_of(link.b, link.arm_b, ground, frames, rotation, target)
+    _end_of(linked.links[n], 0, linked.ends[n, 0], at, other)
+    _end_of(linked.links[n], 1, linked.ends[n, 1], at, target)
     square = 0.0
     for a in range(3):
         target[a] -= other[a]
@@ -196,7 +138,8 @@ def pull(link, tie, begin, way, length, dt, target):
     if not tie.broken:
         s0, change = stretch_of(link, before - link.length - tie.flowed), length - before
         s1, flow, lost = follow_elongation(link, tie, length)
-        first, last = link.stiffness * s0, link.stiffness * s1
+        stiffness = link.stiffness * (1.0 - tie.damage)
+        first, last = stiffness * s0, stiffness * s1
         elastic = (first + last) / 2
         if (flow != 0.0 or s0 * s1 <= 0.0) and abs(change) > 1e-12 * link.length:
             held_back = link.hardens * (tie.flowed + flow / 2) * flow
@@ -213,26 +156,21 @@ def pull(link, tie, begin, way, length, dt, target):
 
 
 @njit
-def pull_links(
-    links,
-    ties,
-    grounds,
-    frames,
-    rotation,
-    later_grounds,
-    later_frames,
-    later_rotation,
-    dt,
-    pulls,
-):
-    """Pulls (nl, 3): forces [N] of links with `ties` (nl,) on their ends a, in a step that brings
-    grounds and bodies from the first places and rotations to the later ones; the largest change
-    over the largest force.
+def pull_links(linked, start, end, dt, pulls):
+    """Pulls (nl, 3): forces [N] of links on their ends a, in a step that brings what they hold from
+    `start` to `end`, with the ties of its start; the largest change over the largest force.
+
+    linked: what has links and ends as Linked has; start, end: what has the places of Held.
     """
     begin, way, force, change, largest = np.empty(3), np.empty(3), np.empty(3), 0.0, 0.0
+    links, ties = linked.links, start.ties
     for n in range(len(links)):
-        span(links[n], grounds, frames, rotation, begin)
-        length = span(links[n], later_grounds, later_frames, later_rotation, way)
+        if ties[n].broken:
+            for a in range(3):
+                pulls[n, a] = 0.0
+            continue
+        span(linked, n, start, begin)
+        length = span(linked, n, end, way)
         pull(links[n], ties[n], begin, way, length, dt, force)
         for a in range(3):
             change, largest = max(change, abs(force[a] - pulls[n, a])), max(largest, abs(force[a]))
@@ -246,29 +184,32 @@ def strain_of_links(links, ties):
     energy = 0.0
     for n in range(len(links)):
         if not ties[n].broken:
-            over = ties[n].length - links[n].length - ties[n].flowed
-            energy += strain_of(links[n], stretch_of(links[n], over), ties[n].flowed)
+            over, left = ties[n].length - links[n].length - ties[n].flowed, 1.0 - ties[n].damage
+            energy += left * strain_of(links[n], stretch_of(links[n], over), ties[n].flowed)
     return energy
 
 
 @njit
-def end_links(links, grounds, frames, rotation, before, after, dt):
-    """Carry ties (nl,) on to the end of a step: strain energy at its end, energy that their
-    dashpots, yielding and breaking have taken in it [J].
+def end_links(linked, start, end, dt):
+    """Carry the ties of `start` on to those of `end`, where links are held as it says: strain
+    energy then, energy that their dashpots, yielding and breaking have taken in the step [J].
+
+    Arguments as of `pull_links`; of start only the ties count.
     """
     kept = taken = 0.0
-    way = np.empty(3)
+    way, links = np.empty(3), linked.links
     for n in range(len(links)):
-        link, tie, new = links[n], before[n], after[n]
-        length = span(link, grounds, frames, rotation, way)
-        new.flowed, new.broken, new.length, new.work, new.force = (
+        link, tie, new = links[n], start.ties[n], end.ties[n]
+        length = span(linked, n, end, way)
+        new.flowed, new.broken, new.length, new.work, new.force, new.damage = (
             tie.flowed,
             tie.broken,
             length,
             tie.work,
             0.0,
+            tie.damage,
         )
-        if tie.broken:
+        if tie.broken or link.bond > 0:
             continue
         trial = stretch_of(link, length - link.length - tie.flowed)
         viscous = drag_of(link, (length - tie.length) / dt)
@@ -285,4 +226,33 @@ def end_links(links, grounds, frames, rotation, before, after, dt):
             kept += held
         new.work += lost
         taken += lost
+    for n in range(len(links)):
+        if links[n].leads and not end.ties[n].broken:
+            held, lost = _end_point(links[n : n + 3], end.ties[n : n + 3])
+            kept += held
+            taken += lost
     return kept, taken
+
+
+@njit
+def _end_point(links, ties):
+    """Damage of a point of a bond at the end of a step, whose three links have the lengths that
+    they have then: strain energy that is left, and energy that is taken [J].
+    """
+    held, slipped, opened = 0.0, 0.0, 0.0
+    for k in range(3):
+        stretch = stretch_of(links[k], ties[k].length - links[k].length)
+        held += strain_of(links[k], stretch, 0.0)
+        ties[k].force = links[k].stiffness * stretch
+        if k == 0:
+            opened = stretch
+        else:
+            slipped += stretch * stretch
+    before = ties[0].damage
+    now = max(before, damage_of(links[0], links[1], opened, np.sqrt(slipped)))
+    lost = (now - before) * held
+    ties[0].work += lost
+    for k in range(3):
+        ties[k].damage, ties[k].broken = now, now >= 1.0
+        ties[k].force *= 1.0 - now
+    return (1.0 - now) * held, lost

@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.contact.joints import joints_of
 from fecolumn.engines.dynamics.hht import HHT
-from fecolumn.engines.dynamics.links import links_of
+from fecolumn.engines.dynamics.links_of_model import links_of
 from fecolumn.engines.dynamics.system import State, System, Touching
 from fecolumn.fem.composite import Composite, CompositeDamping, CompositeKinematics
 from fecolumn.fem.corotated import Corotated

@@ -134,7 +134,7 @@ class System:
     hht
         time integration whose step decides the filter of the contact.
     links
-        (nl,) of LINK.
+        a `links.Linked`.
     """
 
     def __init__(
@@ -157,7 +157,7 @@ class System:
         factor = self._factor(*factors)
         foot = CompositeFoot(bodies, touching.nodes, factor, *factors, touching.filtered)
         self.interface = ContactInterface(bodies, foot, self.bases, touching.joints, self.levels)
-        self.links = Linkage(bodies, links) if links is not None and len(links) else None
+        self.links = Linkage(bodies, links) if links is not None and len(links.links) else None
         self._add(*factors, hht.rate_factor, factor, bodies.unturned)
         self.resistance = (
             Resistance(self) if (self.interface.interfaces["rolling"] > 0).any() else None

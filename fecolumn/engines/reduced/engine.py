@@ -12,7 +12,7 @@ from fecolumn.contact.ball import from_center
 from fecolumn.contact.joints import left_faces
 from fecolumn.contact.overturning import STANDS, steepest_to_come
 from fecolumn.contact.points import BASE, FLAT_GROUND
-from fecolumn.contact.pose import SLAVE, frames_at, grounds_at, poses_of
+from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
     ENDED,
@@ -155,13 +155,12 @@ class Engine:
         table = centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
         return np.einsum("pba,pb->pa", poses["frame"], table - poses["origin"])
 
-    def link_lengths(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
-        """Lengths (nl,) [m] of the links; arguments as of `places`."""
-        frames, grounds = frames_at(centers), grounds_at(self.view.levels)
+    def link_lengths(self, motion: motions.MotionState) -> np.ndarray:
+        """Lengths (nl,) [m] of the links of a motion."""
         return np.array(
             [
-                interpreted(span)(link, grounds, frames, rotations, np.empty(3))
-                for link in self.structure.links
+                interpreted(span)(self.structure, n, motion, np.empty(3))
+                for n in range(len(self.structure.links))
             ]
         )
 

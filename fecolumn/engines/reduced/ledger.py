@@ -146,9 +146,7 @@ def book(structure, scheme, work, start, end, ledger):
             # with the rate that the damping meets, see dynamics.stepper
             rate = end.modal[b, RATE, k] - dt * al**2 / (4 * scheme.beta) * push
             damping -= (q1 - q0) * structure.damping[b, k] * (start.modal[b, RATE, k] + rate) / 2
-    tied, taken = end_links(
-        structure.links, end.grounds, end.frames, end.rotation, start.ties, end.ties, dt
-    )
+    tied, taken = end_links(structure, start, end, dt)
     carried = _work_of_grounds(structure, work, start, end)
     moved_base += carried + _work_of_held(structure, work, start, end)
     done -= carried

@@ -23,8 +23,9 @@ class Structure(NamedTuple):
     which contact forces drive modes and modes move the nodes. squares: (nb, m) w^2 [1/s2]; damping:
     (nb, m) [1/s] damping force on a mode over its rate, 2 zeta w. reach: (N,) [m/sqrt(J)] largest
     displacement of a node by modes that store the energy 1/2 J. interfaces: (ni,) of INTERFACE;
-    rim: points on the circles of all of them; overlaps: joints of two sides; links: (nl,) of LINK;
-    gravity: (3,) [m/s2]. found: contact that is found, whose interfaces and
+    rim: points on the circles of all of them; overlaps: joints of two sides; links: (nl,) of LINK,
+    those of bonded joints last; ends: (nl, 2, 3, m) F phi at the ends of each; gravity: (3,)
+    [m/s2]. found: contact that is found, whose interfaces and
     points come after those of the joints.
     """
 
@@ -36,6 +37,7 @@ class Structure(NamedTuple):
     rim: np.ndarray
     overlaps: Overlaps
     links: np.ndarray
+    ends: np.ndarray
     gravity: np.ndarray
     found: Found
 

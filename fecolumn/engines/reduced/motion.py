@@ -213,33 +213,18 @@ def follow(
     advance
         (nb, 3) dt times the spins at the start.
     """
-    change = 0.0
+    change, linked = 0.0, len(structure.links) > 0
     _sum_forces(points, listed, end.contact, elastic, action)
     for sweep in range(SWEEPS):
-        change = max(
-            _turn_frames(structure, action),
-            pull_links(
-                structure.links,
-                start.ties,
-                start.grounds,
-                start.frames,
-                start.rotation,
-                end.grounds,
-                end.frames,
-                end.rotation,
-                scheme.dt,
-                action.pulls,
-            ),
-        )
+        change = _turn_frames(structure, action)
+        if linked:
+            change = max(change, pull_links(structure, start, end, scheme.dt, action.pulls))
         if sweep > 0 and change <= SETTLED:
             break
         _carry_bodies(structure, scheme, start, free_center, advance, end, action)
-    _push_modes(structure, points, listed, end.contact, action)
-    for b in range(len(start.frames)):
-        for k in range(free_modal.shape[1]):
-            end.modal[b, COORDINATE, k] = scheme.shrink[b, k] * (
-                free_modal[b, k] + scheme.half * action.modal[b, k]
-            )
+        if linked and free_modal.shape[1] > 0:
+            _carry_modes(structure, scheme, points, listed, start, free_modal, end, action)
+    _carry_modes(structure, scheme, points, listed, start, free_modal, end, action)
     elastic.now[END] += 1
     # false of what is not a number, too
     return change <= UNSETTLED
@@ -272,7 +257,7 @@ def _sum_forces(points, listed, contact, elastic, action):
 @njit
 def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
     """`follow`, with frames and links where they are, without modes."""
-    bodies = structure.bodies.body
+    bodies, arm = structure.bodies.body, np.empty(3)
     spread = np.zeros((len(bodies), 3, 3))
     for b in range(len(bodies)):
         for a in range(3):
@@ -301,10 +286,15 @@ def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
             if b == BASE:
                 continue
             ends = structure.links[n].arm_b if side else structure.links[n].arm_a
+            for a in range(3):
+                arm[a] = ends[a]
+                for k in range(structure.ends.shape[3]):
+                    q = (start.modal[b, COORDINATE, k] + end.modal[b, COORDINATE, k]) / 2
+                    arm[a] += structure.ends[n, side, a, k] * q
             for c in range(3):
                 value = -action.pulls[n, c] if side else action.pulls[n, c]
                 for a in range(3):
-                    spread[b, a, c] += ends[a] * value
+                    spread[b, a, c] += arm[a] * value
                 action.push[b, c] += value
     for b in range(len(bodies)):
         for a in range(3):
@@ -325,6 +315,41 @@ def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
             action.turn[b],
         )
         turn_by(start.rotation[b], action.turn[b], end.rotation[b])
+
+
+@njit
+def _carry_modes(structure, scheme, points, listed, start, free_modal, end, action):
+    """`follow`, of the modes."""
+    _push_modes(structure, points, listed, end.contact, action)
+    _pull_modes(structure, start, end, action)
+    for b in range(len(start.frames)):
+        for k in range(free_modal.shape[1]):
+            end.modal[b, COORDINATE, k] = scheme.shrink[b, k] * (
+                free_modal[b, k] + scheme.half * action.modal[b, k]
+            )
+
+
+@njit
+def _pull_modes(structure, start, end, action):
+    """Add what the links do on the modes: with the mean of the rotations at both ends of the step,
+    with which their work is exactly that of the forces along their ways.
+    """
+    if action.modal.shape[1] == 0:
+        return
+    for n in range(len(structure.links)):
+        for side in range(2):
+            b = structure.links[n].b if side else structure.links[n].a
+            if b == BASE:
+                continue
+            for a in range(3):
+                along = 0.0
+                for c in range(3):
+                    mean = (start.rotation[b, c, a] + end.rotation[b, c, a]) / 2
+                    along += mean * action.pulls[n, c]
+                if side:
+                    along = -along
+                for k in range(action.modal.shape[1]):
+                    action.modal[b, k] += along * structure.ends[n, side, a, k]
 
 
 @njit

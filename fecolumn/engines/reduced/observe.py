@@ -72,17 +72,19 @@ MARK = record(("body", "i8"), ("arm", "f8", 3))
 #: normal force [N], resultant of all forces on the slave [N] and centre of pressure [m], both in
 #: the table frame and 0 where nothing carries; of each mark its displacement [m]; of each link
 #: tension [N], elongation from its unstressed length and the part of it that has yielded [m],
-#: energy that it has taken [J], whether
-#: it is broken.
+#: energy that it has taken [J], whether it is broken; of each glued joint the largest tension and
+#: shear of its points [Pa], the share of its area that has failed and energy that it has taken [J].
 OF_BODY, OF_INTERFACE, OF_MARK = (
     (("displacement", 3), ("tilt", 1), ("rotation", 3)),
     (("tilt", 1), ("rise", 1), ("slide", 2), ("force", 1), ("resultant", 3), ("center", 3)),
     (("displacement", 3),),
 )
 OF_LINK = (("tension", 1), ("elongation", 1), ("yielded", 1), ("work", 1), ("broken", 1))
+OF_BOND = (("stress", 1), ("shear_stress", 1), ("failed", 1), ("work", 1))
 #: Numbers in a row of each of them
-PER_BODY, _N_INTERFACE, _N_MARK, _N_LINK = (
-    sum(count for _, count in columns) for columns in (OF_BODY, OF_INTERFACE, OF_MARK, OF_LINK)
+PER_BODY, _N_INTERFACE, _N_MARK, _N_LINK, _N_BOND = (
+    sum(count for _, count in columns)
+    for columns in (OF_BODY, OF_INTERFACE, OF_MARK, OF_LINK, OF_BOND)
 )
 _BODY_TILT, _TURN, _RISE, _SHIFT, _NORMAL, _RESULTANT, _CENTER = (
     column_index("tilt", OF_BODY),
@@ -101,7 +103,8 @@ class View(NamedTuple):
     many is lost, none for one alone; standing: (nb,) of `overturning.STANDING`, by which it is lost
     before, with the corners (k, 2) [m] of all. feet: (ni, 3) of the interfaces [m] and normals:
     (ni, 3) of them in the frames of their slaves, in the reference configuration; marks: (nm,) of
-    MARK, their shapes (nm, 3, m). links: how many. levels: (G,) heights of the grounds [m]. held:
+    MARK, their shapes (nm, 3, m). links: how many beside those of glued joints; bonds: areas (k,)
+    [m2] that glue holds in each of these. levels: (G,) heights of the grounds [m]. held:
     (nb,) as of `contact.bodies.BODY`.
     """
 
@@ -122,6 +125,7 @@ class View(NamedTuple):
     links: int = 0
     levels: np.ndarray = np.zeros(1)
     held: np.ndarray = np.zeros(0, np.int64)
+    bonds: np.ndarray = np.zeros(0)
 
     @property
     def width(self) -> int:
@@ -134,6 +138,7 @@ class View(NamedTuple):
             + _N_INTERFACE * len(self.feet)
             + _N_MARK * len(self.marks)
             + _N_LINK * self.links
+            + _N_BOND * len(self.bonds)
         )
 
 
@@ -234,7 +239,7 @@ def _observe_all(structure, points, poses, view, motion, row):
             place,
         )
         place += _N_MARK
-    for n in range(len(motion.ties)):
+    for n in range(view.links):
         tie = motion.ties[n]
         row[place], row[place + 1], row[place + 2] = (
             tie.force,
@@ -243,6 +248,13 @@ def _observe_all(structure, points, poses, view, motion, row):
         )
         row[place + 3], row[place + 4] = tie.work, tie.broken
         place += _N_LINK
+    for n in range(view.links, len(motion.ties), 3):
+        link, tie = structure.links[n], motion.ties[n]
+        own = row[place + _N_BOND * (link.bond - 1) : place + _N_BOND * link.bond]
+        shear = np.hypot(motion.ties[n + 1].force, motion.ties[n + 2].force)
+        own[0], own[1] = max(own[0], tie.force / link.area), max(own[1], shear / link.area)
+        own[2] += tie.broken * link.area / view.bonds[link.bond - 1]
+        own[3] += tie.work
 
 
 @njit

@@ -291,13 +291,5 @@ def proximal_step(structure, base, scheme, work, motion, fall, bent, still, spar
         structure, base, scheme, work, motion, fall, bent, still, spare.rims, spare, counts
     )
     if answer == OK:
-        spare.whole[0].static += end_links(
-            structure.links,
-            spare.grounds,
-            spare.frames,
-            spare.rotation,
-            motion.ties,
-            spare.ties,
-            scheme.dt,
-        )[0]
+        spare.whole[0].static += end_links(structure, motion, spare, scheme.dt)[0]
     return answer

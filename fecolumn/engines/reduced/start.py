@@ -8,19 +8,28 @@ import numpy as np
 
 from fecolumn.contact.points import may_touch
 from fecolumn.contact.problem import FAR_BASE, NO_ROOM, OK, near_points
-from fecolumn.contact.tolerances import FIRMER_TIMES, LINKS_FIRM, SLIDES_KEPT
+from fecolumn.contact.tolerances import (
+    FIRMER_TIMES,
+    LINKS_FIRM,
+    LINKS_PROGRESS,
+    SLIDES_KEPT,
+)
 from fecolumn.contact.work import move_anchors
 from fecolumn.engines.dynamics.gravity import (
     NoEquilibrium,
     iterate_to_rest,
     pseudo_inertia,
 )
-from fecolumn.engines.dynamics.links import end_links, fastest
+from fecolumn.engines.dynamics.links import end_links
+from fecolumn.engines.dynamics.links_of_model import fastest
 from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE
 from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.model import resting_scheme
 from fecolumn.foundation._compiled import interpreted
+
+# Times that the inertia of iterations is found anew from what modes give in one of that inertia
+_PASSES = 5
 
 
 def gravity_equilibrium(engine) -> motions.MotionState:
@@ -53,9 +62,11 @@ def gravity_equilibrium(engine) -> motions.MotionState:
     held = [
         (body["mass"], body["inertia"], center, np.eye(3)) for body, center in zip(bodies, centers)
     ]
-    firmness = max(
-        firmness, LINKS_FIRM * fastest(structure.links, structure.links["stiffness"], held)[0]
-    )
+    for _ in range(_PASSES if len(structure.links) else 0):
+        # modes give the less in an iteration the less firm it is
+        shrinks = list(firmness / (firmness + structure.squares))
+        found = fastest(structure, structure.links["stiffness"], held, shrinks)[0]
+        firmness = max(firmness, LINKS_FIRM * found)
     firmest = max(10.0**FIRMER_TIMES * firmness, 2 / engine.hht.dt**2)
     while True:
         try:
@@ -85,7 +96,7 @@ def _settled(engine, firmness: float) -> motions.MotionState:
     bodies, start, end = structure.bodies.body, engine.motion_at_rest(), engine.motion_at_rest()
     start.frames["center"] = centers
     start.contact["anchor"] = engine.places(centers, start.rotation)[:, :2]
-    start.ties["length"] = engine.link_lengths(centers, start.rotation)
+    start.ties["length"] = engine.link_lengths(start)
     resting = resting_scheme(structure, engine.points, firmness)
     # of the turns, which move the bodies by so much wherever they stand
     reach = max(np.ptp(centers[:, :2], axis=0).max(), np.abs(centers[:, 2]).max())
@@ -127,7 +138,8 @@ def _settled(engine, firmness: float) -> motions.MotionState:
         return moved
 
     try:
-        iterate_to_rest(proximal_step, 2 * np.abs(centers[:, 2]).max())
+        progress = LINKS_PROGRESS if len(structure.links) else None
+        iterate_to_rest(proximal_step, 2 * np.abs(centers[:, 2]).max(), progress)
     except NoEquilibrium as error:
         error.mover = mover
         raise
@@ -150,16 +162,9 @@ def unstrained(engine, motion) -> motions.MotionState:
         motion.contact["relative"][:, :2],
         may_touch(engine.points, engine.structure.interfaces, motion.contact["relative"]),
     )
-    motion.ties["length"] = engine.link_lengths(motion.frames["center"], motion.rotation)
-    motion.whole["static"] = interpreted(end_links)(
-        engine.structure.links,
-        motion.grounds,
-        motion.frames,
-        motion.rotation,
-        motion.ties.copy(),
-        motion.ties,
-        np.inf,
-    )[0]
+    motion.ties["length"] = engine.link_lengths(motion)
+    before = motion._replace(ties=motion.ties.copy())
+    motion.whole["static"] = interpreted(end_links)(engine.structure, before, motion, np.inf)[0]
     motion.ties["work"] = 0.0
     return motion
 

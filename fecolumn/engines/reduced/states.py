@@ -118,7 +118,7 @@ def state_of(engine) -> Snapshot:
         points["interface"].copy(),
         np.where(moving[:, None], points["below"], 0),
         np.where(moving[:, None], points["shares"], 0.0),
-        motion.ties["broken"].copy(),
+        motion.ties["broken"][: engine.view.links].copy(),
     )
     at_nodes = state.at_nodes(len(structure.bodies.pushes))
     for one, R, modal, squares in zip(body, rotation, state.modal, structure.squares):

@@ -13,7 +13,8 @@ from fecolumn.contact.overturning import Limits, cap_only_stance
 from fecolumn.contact.points import BASE, POINT
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.tolerances import FOUND_ROWS, RIGID_GIVE
-from fecolumn.engines.dynamics.links import links_of
+from fecolumn.engines.dynamics.bonds import areas_of, bonded
+from fecolumn.engines.dynamics.links_of_model import links_of
 from fecolumn.engines.reduced.found_of_model import found_interfaces, found_of, found_points
 from fecolumn.engines.reduced.model import Structure, modal_sum
 from fecolumn.engines.reduced.observe import MARK, View
@@ -40,12 +41,8 @@ def structure_of(
         a link is too stiff for the step; names it and the longest step.
     """
     parts, modes = model.parts, max(len(part.model.frequencies) for part in model.parts)
-    squares, damping, pushes, bodies = (
-        np.zeros((len(parts), modes)),
-        np.zeros((len(parts), modes)),
-        [],
-        [],
-    )
+    squares, damping, filters = np.zeros((3, len(parts), modes))
+    pushes, bodies = [], []
     for b, part in enumerate(parts):
         body, m = part.model, len(part.model.frequencies)
         squares[b, :m], ratio = (
@@ -67,6 +64,7 @@ def structure_of(
             one.body["gives"] = _least_give(body, hht.dt / parts_of_step, part.held)
         bodies.append(one)
         pushes.append(np.pad(own, ((0, 0), (0, 0), (0, modes - m))))
+        filters[b, :m] = 2 * shrink - shrink**2
     whole, first = joined(bodies), np.cumsum([0] + [len(part.model.arms) for part in parts])
     reach = np.concatenate(
         [
@@ -99,7 +97,7 @@ def structure_of(
         interfaces,
         joints.rim,
         joints.overlaps,
-        links_of(model, hht),
+        *links_of(model, hht, filters),
         np.array(gravity, float),
         found,
     )
@@ -178,7 +176,8 @@ def view_of(model, structure, weight: float, limits: Limits, cap: float = 0.0) -
         np.array(reference["turned"][:, SLAVE, 2]),
         marks,
         shapes,
-        len(structure.links),
+        len(model.links),
         np.array(model.levels, float),
         np.array([part.held for part in model.parts]),
+        np.array([areas_of(model, joint).sum() for joint in bonded(model)]),
     )

@@ -122,6 +122,7 @@ class _Reader:
         }
         for name, interface in self.case.joints.items():
             stated[f"joints.{name}.restitution"] = interface.restitution
+            stated[f"joints.{name}.tension_pa"] = interface.tension_pa
         for name, body in self.case.bodies.items():
             for key in ("foot_radius_m", "edge_radius_m", "turned_deg"):
                 stated[f"bodies.{name}.{key}"] = getattr(body, key, None)

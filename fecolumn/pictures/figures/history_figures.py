@@ -127,8 +127,8 @@ def has_figures(folder) -> bool:
 
 
 def history_figures(folder) -> list[Path]:
-    """Write u_top, path and energy of an analysis' folder, of a structure interfaces, storeys and
-    links besides, each as PNG and PDF; needs history.h5 and summary.json.
+    """Write u_top, path and energy of an analysis' folder, of a structure interfaces, storeys,
+    links and bonds besides, each as PNG and PDF; needs history.h5 and summary.json.
     """
     folder = Path(folder)
     history, ending = HistoryCurves.read(folder / "history.h5"), read_ending(folder)
@@ -140,7 +140,7 @@ def history_figures(folder) -> list[Path]:
     of_structure = tuple(
         name
         for name in _names(folder / "history.h5")
-        if name.startswith(("interface/", "storey/", "link/"))
+        if name.startswith(("interface/", "storey/", "link/", "bond/"))
     )
     return files + (
         structure_figures(read_history(folder / "history.h5", ("time", *of_structure)), folder)

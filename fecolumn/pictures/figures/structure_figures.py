@@ -1,5 +1,5 @@
 """Figures of a structure of many bodies: what its interfaces do over time, drifts and shears of its
-storeys, tension and elongation of its links.
+storeys, tension and elongation of its links, stress and failure of its glued joints.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ def structure_figures(
     columns: dict[str, np.ndarray], folder: Path, formats=("png", "pdf")
 ) -> list[Path]:
     """Write interfaces.png, more of them where there are more interfaces than go side by side,
-    storeys.png of a structure with storeys and likewise links.png of one with links; each as PDF,
-    too.
+    storeys.png of a structure with storeys and likewise links.png of one with links and bonds.png
+    of one with glued joints; each as PDF, too.
 
     Parameters
     ----------
@@ -47,6 +47,7 @@ def structure_figures(
     for stem, figure, names in (
         ("interfaces", interface_figure, interface_names(columns)),
         ("links", link_figure, link_names(columns)),
+        ("bonds", bond_figure, bond_names(columns)),
     ):
         for place, file in enumerate(_numbered(stem, len(names))):
             files += figure(
@@ -58,7 +59,7 @@ def structure_figures(
 
 
 def _numbered(stem: str, count: int) -> list[str]:
-    """Names of the files of so many interfaces or links."""
+    """Names of the files of so many interfaces, links or glued joints."""
     return [
         f"{stem}{f'_{number}' if number > 1 else ''}"
         for number in range(1, -(-count // _ABREAST) + 1)
@@ -69,10 +70,10 @@ def figure_names(columns) -> list[str]:
     """Names of the files of `structure_figures` without their suffix, from the names of a history's
     columns.
     """
-    links = _numbered("links", len(link_names(columns)))
     return (
         _numbered("interfaces", len(interface_names(columns)))
-        + links
+        + _numbered("links", len(link_names(columns)))
+        + _numbered("bonds", len(bond_names(columns)))
         + (["storeys"] if storey_names(columns) else [])
     )
 
@@ -95,6 +96,11 @@ def link_names(columns) -> list[str]:
     return list(
         dict.fromkeys(_copied(name.split("/")[1]) for name in columns if name.startswith("link/"))
     )
+
+
+def bond_names(columns) -> list[str]:
+    """Glued joints of which a history has columns, in their order."""
+    return list(dict.fromkeys(name.split("/")[1] for name in columns if name.startswith("bond/")))
 
 
 def _copied(name: str) -> str:
@@ -311,5 +317,37 @@ def link_figure(columns, path, links: list[str], formats=("png", "pdf")) -> list
             if len(copies) > 1:
                 legend_beside(loops)
         grid[-1, 0].set_xlabel("time [s]")
+        figure.align_ylabels(grid[:, 0])
+        return save(figure, path, formats)
+
+
+def bond_figure(columns, path, joints: list[str], formats=("png", "pdf")) -> list[Path]:
+    """Largest tension and shear of some glued joints over time, and below them the share of the
+    area that has failed, a column of two for each.
+
+    Parameters
+    ----------
+    path
+        file name without suffix.
+    """
+    time = columns["time"]
+    with styled():
+        figure = new_figure(PAGE_WIDTH_IN, 3.4)
+        grid = figure.subplots(2, len(joints), squeeze=False, sharex=True, height_ratios=[2, 1])
+        names = ("stress", "shear_stress")
+        lines = [columns[f"bond/{joint}/{name}"] for joint in joints for name in names]
+        lines, unit = _in_unit(lines, "Pa")
+        top = 1.06 * max(float(each.max()) for each in lines) or 1.0
+        for joint, place, stresses, failed in zip(joints, range(len(joints)), *grid):
+            own = lines[2 * place : 2 * place + 2]
+            _drawn(stresses, [time] * 2, own, ["tension", "shear"])
+            stresses.set(title=joint.partition(":")[0], ylim=(0, top))
+            failed.plot(time, 100 * columns[f"bond/{joint}/failed"], color=LINES[0][0])
+            failed.set(xlim=(time[0], time[-1]), ylim=(-4, 104), xlabel="time [s]")
+            for axes in (stresses, failed):
+                axes.tick_params(labelleft=place == 0)
+        grid[0, 0].set_ylabel(f"largest stress [{unit}]")
+        grid[1, 0].set_ylabel("failed [%]")
+        legend_beside(grid[0, -1])
         figure.align_ylabels(grid[:, 0])
         return save(figure, path, formats)

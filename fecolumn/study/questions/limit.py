@@ -10,12 +10,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from fecolumn.case.sections import MODEL_ENGINES
+from fecolumn.case.sections import GRAVITY, MODEL_ENGINES
 from fecolumn.engines.ending import lost
 from fecolumn.foundation.schema import InputError, meant
 
 _LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
 _ANGLES = {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180}
+_ACCELERATIONS = {"g": GRAVITY, "m/s2": 1.0, "cm/s2": 1e-2}
 _FORCES = {"N": 1.0, "kN": 1e3, "MN": 1e6}
 
 _EVENT = re.compile(r"([A-Za-z][A-Za-z_ ]*?)\s*(?:\[([^\]]+)\])?\s*>=?\s*(\S+)\s*(\S*)")
@@ -45,6 +46,7 @@ class PeakQuantity:
 QUANTITIES = {
     "top": PeakQuantity(_LENGTHS, "u_max_m", "", ""),
     "tilt": PeakQuantity(_ANGLES, "tilt_max_rad", "bodies", "tilt_max_rad"),
+    "acceleration": PeakQuantity(_ACCELERATIONS, "", "bodies", "acceleration_max_m_s2"),
     "slide": PeakQuantity(_LENGTHS, "", "interfaces", "slide_max_m"),
     "residual slide": PeakQuantity(_LENGTHS, "", "interfaces", "residual_slide_m"),
     "rise": PeakQuantity(_LENGTHS, "", "interfaces", "rise_max_m"),
@@ -64,7 +66,7 @@ _ENDINGS: dict[str, Callable[[dict[str, Any]], bool]] = {
 _KNOWN = (
     "overturn, slide off, lost (either), or one of "
     f"{', '.join(QUANTITIES)} with a value and its unit, such as top > 50 mm, tilt > 2 deg, "
-    "slide[foot] > 5 mm, tension[tendon] > 20 kN"
+    "slide[foot] > 5 mm, acceleration > 0.5 g, tension[tendon] > 20 kN"
 )
 
 
@@ -115,7 +117,7 @@ class LimitEvent:
             part[kind.entry]
             for name, part in parts.items()
             # summaries of earlier versions do not have every entry
-            if name.startswith(self.part or "") and kind.entry in part
+            if name.startswith(self.part or "") and part.get(kind.entry) is not None
         ]
         if not found:
             engine = summary.get("engine", "")
@@ -167,8 +169,7 @@ def read_event(text: str, command: str, engine: str | None = None) -> LimitEvent
         return LimitEvent(plain, plain)
     found = _EVENT.fullmatch(text.strip())
     name = " ".join((found[1] if found else plain).replace("_", " ").split())
-    if name == "acceleration" or name.endswith("acceleration"):
-        raise refuse(f"no summary holds accelerations; must be {_KNOWN}")
+    name = name.removeprefix("peak ")
     if found is None or name not in QUANTITIES:
         raise refuse(f"must be {_KNOWN}{meant(name, [*QUANTITIES, *_ENDINGS])}")
     kind, (_, part, value, unit) = QUANTITIES[name], found.groups()

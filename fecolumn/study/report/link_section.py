@@ -1,7 +1,8 @@
-"""Section: what the links of a structure reach."""
+"""Sections: what the links and the glued joints of a structure reach."""
 
 from __future__ import annotations
 
+from fecolumn.study.bond_peaks import BOND_COLUMNS, peaks_of_bonds
 from fecolumn.study.link_peaks import LINK_COLUMNS, peaks_of_links
 from fecolumn.study.report.distributions import axis_columns
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
@@ -54,6 +55,49 @@ def link_section(sweep: Sweep) -> PageSection | None:
                 "Peaks of each link over the motions: median, 84 % and largest; runs in which it "
                 "yielded (a friction damper: slipped) and broke; energy that it took, in the "
                 "median. Of a run that was lost those until it ended.",
+                folded=len(rows) > _FOLD,
+            ),
+        ],
+    )
+
+
+def bond_section(sweep: Sweep) -> PageSection | None:
+    """The section of glued joints; None where no structure has any."""
+    rows = [
+        (*(setting.values[axis] for axis in sweep.varied), *row)
+        for setting in sweep.done
+        for row in peaks_of_bonds(list(setting.runs.values()))
+    ]
+    if not rows:
+        return None
+    first = len(sweep.varied)
+    shown = (("tension [kPa]", 1e-3), ("shear [kPa]", 1e-3), ("failed share [%]", 1e2))
+    columns = (
+        *axis_columns(sweep.varied),
+        PageColumn("joint", "joint", text=True),
+        PageColumn("n", "n"),
+        PageColumn("began", "began to fail"),
+        PageColumn("failed", "failed"),
+        *(
+            PageColumn(" ".join(BOND_COLUMNS[place : place + 3]), words, _three(unit))
+            for place, (words, unit) in zip(range(4, len(BOND_COLUMNS), 3), shown)
+        ),
+        PageColumn("work_50_j", "taken [J]", number),
+    )
+    whole = sum(row[first + 3] for row in rows)
+    runs = sum(row[first + 1] for row in rows)
+    text = f"{whole or 'None'} of the {count(runs, 'glued joint')} of all runs failed altogether."
+    return PageSection(
+        "Glued joints",
+        [
+            Paragraph(text),
+            PageTable(
+                "bonds",
+                columns,
+                rows,
+                "Wax, putty or mortar over the motions: largest tension and shear of a point and "
+                "share of the area that failed, each as median, 84 % and largest; runs in which "
+                "it began to fail and failed altogether; energy that it took, in the median.",
                 folded=len(rows) > _FOLD,
             ),
         ],

@@ -33,7 +33,7 @@ from fecolumn.study.report.incremental import incremental
 from fecolumn.study.report.individual import individual
 from fecolumn.study.report.individual_claims import individual_claims
 from fecolumn.study.report.intensity import Intensities
-from fecolumn.study.report.link_section import link_section
+from fecolumn.study.report.link_section import bond_section, link_section
 from fecolumn.study.report.models import models
 from fecolumn.study.report.notation import axis_name, count, percent
 from fecolumn.study.report.pair import ComparedPair, read_pairs
@@ -113,6 +113,7 @@ def _sections(sweep: Sweep, gallery: Gallery) -> list[PageSection]:
         explorer(sweep, histories),
         individual(sweep, gallery),
         link_section(sweep),
+        bond_section(sweep),
         sensitivity_section(sweep, gallery),
         incremental(sweep, gallery, intensities),
         fragility(sweep, gallery, intensities),

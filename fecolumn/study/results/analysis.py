@@ -159,7 +159,8 @@ class AnalysisResult:
     @property
     def plot(self) -> AnalysisPlots:
         """Figures: `plot.top()`, `plot.path()`, `plot.energy()`, of a structure
-        `plot.interfaces()`, `plot.storeys()` and `plot.links()`.
+        `plot.interfaces()`, `plot.storeys()`, `plot.links()` and
+        `plot.bonds()`.
         """
         return AnalysisPlots(self.folder)
 
@@ -267,6 +268,15 @@ class AnalysisPlots:
 
         columns = AnalysisResult(self.folder).history
         return Picture(lambda path: link_figure(columns, path, list(names) or link_names(columns)))
+
+    def bonds(self, *names: str) -> Picture:
+        """Of a structure with glued joints: their stresses and how much of them has failed, of all
+        unless named.
+        """
+        from fecolumn.pictures.figures.structure_figures import bond_figure, bond_names
+
+        columns = AnalysisResult(self.folder).history
+        return Picture(lambda path: bond_figure(columns, path, list(names) or bond_names(columns)))
 
     def energy(self) -> Picture:
         """The energy ledger against time."""

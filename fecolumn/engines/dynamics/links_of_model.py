@@ -1,0 +1,180 @@
+"""The links of a structure as engines take them, and whether a step can follow them."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.optimize import bisect
+
+from fecolumn.contact.points import BASE
+from fecolumn.engines.dynamics.bonds import bond_links, bonded
+from fecolumn.engines.dynamics.links import LINK, Linked
+
+# Share of a change of the links' forces that the motion within a step may answer at once: beyond it
+# the step is too long for the links
+STIFFEST = 0.5
+
+
+def links_of(model, hht, filters=None) -> Linked:
+    """The links of a StructureModel, and after them those of its bonded joints.
+
+    filters: (nb, m) of the modes of each body that move; None where links are held by the rigid
+    motion.
+
+    Raises
+    ------
+    ValueError
+        links too stiff, or dashpots too strong, for the step; names the one with most of it and the
+        longest step.
+    """
+    own, bonds = _own_links(model), bond_links(model)
+    ends = [(link.shape_a, link.shape_b) for link in model.links] + list(bonds.shapes)
+    links = np.concatenate([own, bonds.links]).astype(LINK)
+    linked = Linked(links, _filtered(links, ends, filters))
+    _check_step(model, linked, hht)
+    return linked
+
+
+def _filtered(links, shapes, filters) -> np.ndarray:
+    """Shapes (nl, 2, 3, m) of the modes that move at the ends of links; `shapes` of each are those
+    of its two ends, (3, k) or None.
+    """
+    modes = 0 if filters is None else filters.shape[1]
+    found = np.zeros((len(links), 2, 3, modes))
+    for row, link, both in zip(found, links, shapes):
+        for side, (b, shape) in enumerate(zip((link["a"], link["b"]), both)):
+            if b != BASE and shape is not None and modes:
+                count = min(shape.shape[1], modes)
+                row[side, :, :count] = shape[:, :count] * filters[b, :count]
+    return found
+
+
+def _own_links(model) -> np.ndarray:
+    """Links (nl,) of LINK that the case names."""
+    links = np.zeros(len(model.links), LINK)
+    for row, link in zip(links, model.links):
+        sides = [
+            (model.parts[b] if b != BASE else None, np.asarray(arm, float))
+            for b, arm in ((link.a, link.arm_a), (link.b, link.arm_b))
+        ]
+        ends = [arm if part is None else part.center + part.rotation @ arm for part, arm in sides]
+        length = np.linalg.norm(ends[1] - ends[0])
+        held = link.slack + link.prestress / link.stiffness if link.prestress else 0.0
+        row["a"], row["b"], row["arm_a"], row["arm_b"] = link.a, link.b, link.arm_a, link.arm_b
+        row["length"], row["play"], row["stiffness"], row["damping"] = (
+            length - held,
+            link.slack,
+            link.stiffness,
+            link.damping,
+        )
+        row["pulls"], row["pushes"], row["yields"] = link.pulls, link.pushes, link.yield_n
+        row["hardens"] = link.stiffness * link.hardening / (1.0 - link.hardening)
+        row["bends"], row["power"], row["slow"] = link.bends, link.power, link.slow
+        row["ground"] = link.ground
+        row["breaks"] = link.breaking_n / link.stiffness if link.stiffness else np.inf
+    return links
+
+
+def _check_step(model, linked: Linked, hht) -> None:
+    """Refuse links that a step of `hht` cannot follow."""
+    links = linked.links
+    bodies = [
+        (part.model.mass, part.model.inertia, part.center, part.rotation) for part in model.parts
+    ]
+
+    steepest = _steepest(links)
+
+    def shrinks(dt):
+        share = (dt / hht.dt) ** 2 * hht.stiffness_factor / hht.mass_factor
+        return [1 / (1 + share * part.model.frequencies**2) for part in model.parts]
+
+    def answered(dt):
+        square, place = fastest(linked, links["stiffness"] + steepest / dt, bodies, shrinks(dt))
+        return square * dt**2 / 2, place
+
+    share, place = answered(hht.dt)
+    if share > STIFFEST:
+        longest = bisect(lambda dt: answered(dt)[0] - STIFFEST, 1e-9 * hht.dt, hht.dt, rtol=1e-3)
+        if bond := links["bond"][place]:
+            joint = bonded(model)[bond - 1]
+            raise ValueError(
+                f"joints.{joint.name.partition(':')[0]}: a layer of {joint.bond.stiffness:g} N/m3 "
+                f"under such light bodies needs steps of at most {longest:.2g} s, or a softer layer"
+            )
+        link = model.links[place]
+        much = " and ".join(
+            f"{value:g} {unit}"
+            for value, unit in (
+                (link.stiffness, "N/m"),
+                (link.damping, "N s/m" if link.power == 1 else "N at 1 m/s"),
+            )
+            if value
+        )
+        slower = ""
+        if link.damping and link.power < 1:
+            speed = link.slow * (share / STIFFEST) ** (1 / (1 - link.power))
+            slower = f", or linear_below_m_s of {speed:.2g} m/s or more"
+        raise ValueError(
+            f"links.{link.name}: {much} between such light bodies, with the links "
+            f"beside it, needs steps of at most {longest:.2g} s{slower}"
+        )
+
+
+def _steepest(links: np.ndarray) -> np.ndarray:
+    """Largest change (nl,) of the dashpots' forces per rate [N s/m], up to 1 m/s."""
+    power, slow = links["power"], links["slow"]
+    below = np.where(power < 1, slow, 1.0) ** (power - 1)
+    return links["damping"] * np.maximum(power, 1.0) * below
+
+
+def fastest(
+    linked, stiffness: np.ndarray, bodies: list[tuple], shrinks: list[np.ndarray] | None = None
+) -> tuple[float, int]:
+    """Square of the fastest frequency [1/s2] at which free bodies swing on their links, were these
+    as stiff as `stiffness` (nl,) [N/m]; place of the link that does most.
+
+    Parameters
+    ----------
+    linked
+        what has links and ends as Linked has.
+    bodies
+        mass [kg], inertia (3, 3) [kg m2], centre of mass (3,) [m] and rotation (3, 3) of each.
+    shrinks
+        of each body, how much less its modes (m,) move in a step than were they free; without
+        them bodies are rigid.
+    """
+    links, ends = linked.links, linked.ends
+    if not len(links):
+        return 0.0, 0
+    modes, rigid = ends.shape[3] if shrinks is not None else 0, 6 * len(bodies)
+    pulls, places = [], []
+    for place, (link, its) in enumerate(zip(links, stiffness)):
+        sides = [(int(link["a"]), link["arm_a"], 1.0), (int(link["b"]), link["arm_b"], -1.0)]
+        tips = [arm if b == BASE else bodies[b][2] + bodies[b][3] @ arm for b, arm, _ in sides]
+        length = np.linalg.norm(tips[1] - tips[0])
+        # one of no length may come to pull in any direction
+        for along in [(tips[1] - tips[0]) / length] if length else np.eye(3):
+            row = np.zeros(rigid + modes * len(bodies))
+            for side, (b, arm, sign) in enumerate(sides):
+                if b != BASE:
+                    mass, inertia, _, rotation = bodies[b]
+                    # in the body's frame, over the roots of mass and inertia
+                    local = rotation.T @ along
+                    row[6 * b : 6 * b + 3] += sign * local / np.sqrt(mass)
+                    row[6 * b + 3 : 6 * b + 6] += sign * np.linalg.solve(
+                        np.linalg.cholesky(inertia), np.cross(arm, local)
+                    )
+                    if modes:
+                        count = len(shrinks[b])
+                        at = rigid + modes * b
+                        moved = local @ ends[place, side, :, :count]
+                        row[at : at + count] += sign * moved * np.sqrt(shrinks[b])
+            pulls.append(np.sqrt(its) * row)
+            places.append(place)
+    rows = np.array(pulls)
+    if len(rows) <= rows.shape[1]:
+        squares, shapes = np.linalg.eigh(rows @ rows.T)
+        most = shapes[:, -1]
+    else:
+        squares, shapes = np.linalg.eigh(rows.T @ rows)
+        most = rows @ shapes[:, -1]
+    return float(squares[-1]), places[int(np.argmax(np.abs(most)))]

@@ -1,0 +1,98 @@
+"""Wax, putty and mortar in the joints of a structure."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from fecolumn.case.check_bond import cohesion_of, shear_stiffness_of
+from fecolumn.foundation.schema import InputError
+from fecolumn.structures.model import GROUND, Bond, Joint
+from fecolumn.structures.place import Standing, touching
+
+
+def with_bonds(
+    case, joints: list[Joint], standing: list[Standing], interfaces, file
+) -> list[Joint]:
+    """The joints, those that are glued with their Bond; interfaces: names of theirs.
+
+    Of a joint with two sides that one has it of whose face more lies on the other.
+
+    Raises
+    ------
+    InputError
+        nothing to glue: faces that do not touch, or a dome.
+    """
+    found = list(joints)
+    for name in dict.fromkeys(interfaces):
+        keys = case.joints[name]
+        if not keys.tension_pa:
+            continue
+        own = [k for k, other in enumerate(interfaces) if other == name]
+        closed = [k for k in own if not joints[k].gap]
+        if not closed:
+            told = "must be left out where the faces are apart at the start: they are not glued"
+            raise InputError(file, f"joints.{name}.tension_pa", keys.tension_pa, told)
+        for k in closed:
+            if joints[k].ball and joints[k].ball.is_dome:
+                told = (
+                    f'must be left out below the dome of "{standing[joints[k].slave].name}", which '
+                    "touches in a point"
+                )
+                raise InputError(file, f"joints.{name}.tension_pa", keys.tension_pa, told)
+        reverse = {joints[k].pair: k for k in closed if joints[k].pair >= 0}
+        for k in closed:
+            if joints[k].pair < 0:
+                best = max((k, reverse.get(k, k)), key=lambda one: _share(standing, joints[one]))
+                found[best] = _glued(joints[best], standing, keys)
+    return found
+
+
+def _share(standing, joint: Joint) -> float:
+    """Share of the area of a slave's face that lies on the master."""
+    areas = standing[joint.slave].model.surfaces[joint.slave_surface].areas
+    return areas[touching(standing, joint)].sum() / areas.sum()
+
+
+def _glued(joint: Joint, standing, keys) -> Joint:
+    bond = Bond(
+        touching(standing, joint),
+        keys.bond_stiffness_n_m3,
+        shear_stiffness_of(keys),
+        keys.tension_pa,
+        cohesion_of(keys),
+        keys.fracture_energy_j_m2,
+    )
+    return dataclasses.replace(joint, bond=bond)
+
+
+def pulls_of_bonds(standing, joint: Joint) -> list[tuple[np.ndarray, np.ndarray, float, float]]:
+    """Forces [N] that the points of a glued joint may have on the slave at most: place (3,) [m],
+    direction (3,), least and most of it.
+    """
+    slave, bond = standing[joint.slave], joint.bond
+    surface, found = slave.model.surfaces[joint.slave_surface], []
+    for row in bond.rows:
+        place = slave.center + slave.model.arms[surface.nodes[row]]
+        area, axes = surface.areas[row], surface.axes.T
+        found.append((place, axes[2], 0.0, bond.tension * area))
+        found += [(place, one, -bond.cohesion * area, bond.cohesion * area) for one in axes[:2]]
+    return found
+
+
+def check_starts(joints: list[Joint], standing: list[Standing], file) -> None:
+    """Refuse bodies that lean at the start though they are glued to what they stand on."""
+    for joint in joints:
+        places = {joint.slave, joint.master} - {GROUND} if joint.bond else ()
+        for place in places:
+            start = standing[place].start
+            if start is not None and start.tilt_rad:
+                raise InputError(
+                    file,
+                    f"initial.{standing[place].name}.tilt_rad",
+                    start.tilt_rad,
+                    f"must be 0 where joints.{joint.name.partition(':')[0]}.tension_pa glues it: "
+                    "what leans has broken loose; give it a velocity_m_s or spin_rad_s, or leave "
+                    "tension_pa out",
+                )
