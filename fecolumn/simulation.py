@@ -64,7 +64,7 @@ def run(
     if not isinstance(case, Case):
         raise TypeError(
             f"run takes a Case or the path of a case file, not {type(case).__name__}; "
-            "see fecolumn.read_case"
+            "fecolumn.case_from_tables makes a Case of tables of keys"
         )
     folder, file = Path(folder), file or "case"
     check(case, file)

@@ -17,10 +17,11 @@ from fecolumn.engines.rocking.model import ModelResponse
 from fecolumn.engines.rocking.plane import Plane, respond
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.foundation.schema import InputError, Section, parameter
+from fecolumn.foundation.section_class import section_class
 from fecolumn.motions.record import GroundMotion
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class BlockSection(Section):
     """Rectangular rigid block that rocks along x, about the edges of its foot; with depth_m along
     y, too, as if each did not know of the other.

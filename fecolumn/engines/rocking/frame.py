@@ -20,16 +20,17 @@ from fecolumn.engines.rocking.model import ModelResponse
 from fecolumn.engines.rocking.plane import Plane, respond
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.swing import GRAVITY
-from fecolumn.foundation.schema import Section, parameter
+from fecolumn.foundation.schema import Section, parameter, required
+from fecolumn.foundation.section_class import section_class
 from fecolumn.motions.record import GroundMotion
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class FrameSection(Section):
     """Equal rectangular columns that carry a beam and rock along x."""
 
-    column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
-    beam_mass_kg: float = parameter(doc="mass of the beam", unit="kg", low=0, high=1e9)
+    column_mass_kg: float = required(doc="mass of one column", unit="kg", above=0, high=1e9)
+    beam_mass_kg: float = required(doc="mass of the beam", unit="kg", low=0, high=1e9)
     columns: int = parameter(2, doc="number of columns", low=1, high=10_000)
     width_m: float | None = parameter(
         None,

@@ -15,18 +15,19 @@ from fecolumn.engines.rocking.block import outline
 from fecolumn.engines.rocking.model import ModelResponse
 from fecolumn.engines.rocking.podium_impact import CRV, LAWS, podium_restitution
 from fecolumn.engines.rocking.storeys import PROFILES, ElasticBuilding, storeys
-from fecolumn.foundation.schema import InputError, Section, parameter
+from fecolumn.foundation.schema import InputError, Section, parameter, required
+from fecolumn.foundation.section_class import section_class
 from fecolumn.motions.record import GroundMotion
 
 _SHARE = 30  # steps in the period of the highest mode
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class PodiumSection(Section):
     """Building of equal storeys on a beam on rocking rectangular columns, along x."""
 
-    column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
-    floor_mass_kg: float = parameter(doc="mass of each floor", unit="kg", above=0, high=1e9)
+    column_mass_kg: float = required(doc="mass of one column", unit="kg", above=0, high=1e9)
+    floor_mass_kg: float = required(doc="mass of each floor", unit="kg", above=0, high=1e9)
     columns: int = parameter(4, doc="number of columns", low=1, high=10_000)
     width_m: float | None = parameter(
         None,

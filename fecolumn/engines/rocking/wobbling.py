@@ -20,6 +20,7 @@ from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.model import ModelResponse
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import InputError, Section, parameter
+from fecolumn.foundation.section_class import section_class
 from fecolumn.motions.record import GroundMotion
 
 #: Tolerance of a step's error, relative to the state: free motion then keeps its energy to 1e-10 in
@@ -29,7 +30,7 @@ TOLERANCE = 1e-12
 _ROUND = 0.02
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class WobblingSection(Section):
     """Round rigid column that rolls on the rim of its foot."""
 

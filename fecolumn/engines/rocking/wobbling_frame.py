@@ -20,15 +20,16 @@ from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.wobbling import Wobbling, bore, cylinder_body, round_outline
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.foundation.schema import Section, parameter
+from fecolumn.foundation.schema import Section, parameter, required
+from fecolumn.foundation.section_class import section_class
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class WobblingFrameSection(Section):
     """Slab on equal round columns that roll on their rims."""
 
-    column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
-    slab_mass_kg: float = parameter(doc="mass of the slab", unit="kg", above=0, high=1e9)
+    column_mass_kg: float = required(doc="mass of one column", unit="kg", above=0, high=1e9)
+    slab_mass_kg: float = required(doc="mass of the slab", unit="kg", above=0, high=1e9)
     columns: int = parameter(4, doc="number of columns", low=1, high=10_000)
     outer_diameter_m: float | None = parameter(
         None,
