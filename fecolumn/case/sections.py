@@ -85,7 +85,7 @@ class Contact(Section):
     law: str = parameter(
         "augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty")
     )
-    between: tuple[str, ...] = parameter(
+    between: tuple[str, ...] | str = parameter(
         (),
         doc='bodies of which any may come to meet any other, or a ground, while they move; "all" '
         "of them; convex bodies alone. Others meet at their joints only",
@@ -129,7 +129,7 @@ class Contact(Section):
 class Integration(Section):
     """Engine and HHT-alpha time integration."""
 
-    dt_s: float = parameter(
+    dt_s: float | str = parameter(
         1e-3,
         doc="time step; auto: chosen by trials of the first impacts, with the reduced and the "
         "rigid engine",
