@@ -71,15 +71,18 @@ if TYPE_CHECKING:
     from fecolumn.motions.load import load_motion
     from fecolumn.simulation import AnalysisFailed, run
     from fecolumn.statistics.ecdf import ecdf
+    from fecolumn.study.questions.script import Answer, calibrate, design, risk, screen
     from fecolumn.study.results.analysis import AnalysisResult
     from fecolumn.study.results.load import load
     from fecolumn.study.results.script import run_study
     from fecolumn.study.results.study import StudyResult
+    from fecolumn.study.run import StudyError
 
 __version__ = "0.11.0"
 __all__ = [
     "AnalysisFailed",
     "AnalysisResult",
+    "Answer",
     "Arch",
     "Base",
     "Block",
@@ -114,10 +117,13 @@ __all__ = [
     "Spring",
     "Storeys",
     "Strut",
+    "StudyError",
     "StudyResult",
     "Tendon",
     "Tube",
+    "calibrate",
     "case_from_tables",
+    "design",
     "ecdf",
     "load",
     "load_case",
@@ -125,8 +131,10 @@ __all__ = [
     "motion_file",
     "read_case",
     "read_history",
+    "risk",
     "run",
     "run_study",
+    "screen",
     "specimen_mesh",
 ]
 
@@ -181,6 +189,12 @@ _HOMES = {
     "AnalysisResult": "study.results.analysis",
     "load": "study.results.load",
     "run_study": "study.results.script",
+    "design": "study.questions.script",
+    "risk": "study.questions.script",
+    "screen": "study.questions.script",
+    "calibrate": "study.questions.script",
+    "Answer": "study.questions.script",
+    "StudyError": "study.run",
     "StudyResult": "study.results.study",
 }
 

@@ -12,7 +12,6 @@ from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS, read_history
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.schema import InputError
-from fecolumn.study.results.frames import installed
 from fecolumn.study.results.picture import Picture
 
 # what a notebook shows of a summary: key, words, factor, unit
@@ -120,6 +119,11 @@ class AnalysisResult:
         """Whether the analysis has ended."""
         return bool(self.summary)
 
+    @functools.cached_property
+    def data(self):
+        """The history as an xarray.Dataset, as of `to_xarray`: `result.data["tilt"].plot()`."""
+        return self.to_xarray()
+
     def columns(self) -> dict[str, np.ndarray]:
         """One array (n,) a component, named with its unit: "time [s]", "u_top_x [m]", ..."""
         named = {}
@@ -131,14 +135,16 @@ class AnalysisResult:
 
     def to_pandas(self):
         """DataFrame of `columns`, time its index."""
-        frame = installed("pandas", "to_pandas").DataFrame(self.columns())
-        return frame.set_index("time [s]")
+        import pandas
+
+        return pandas.DataFrame(self.columns()).set_index("time [s]")
 
     def to_xarray(self):
         """Dataset with time as coordinate; unit and meaning are attributes, as xarray's plots show
         them.
         """
-        xarray = installed("xarray", "to_xarray")
+        import xarray
+
         arrays = {}
         for name, values in self.history.items():
             axes = (

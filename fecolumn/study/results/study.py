@@ -16,7 +16,6 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.ecdf import Ecdf, ecdf
 from fecolumn.study.plan import setting_of
 from fecolumn.study.results.analysis import AnalysisResult
-from fecolumn.study.results.frames import installed
 from fecolumn.study.results.picture import Picture
 from fecolumn.study.sample import same_value
 from fecolumn.study.store import DONE, read_study
@@ -126,6 +125,11 @@ class StudyResult:
         folders = (self.folder / "analyses" / row["id"] for row in self.chosen(choice))
         return [AnalysisResult(folder) for folder in folders if folder.is_dir()]
 
+    @property
+    def data(self):
+        """The analyses as a pandas.DataFrame, as of `to_pandas`: `study.data.groupby(...)`."""
+        return self.to_pandas()
+
     def columns(self) -> dict[str, list]:
         """One list an axis, then state, outcome and peak; the peak of what was lost is nan, its
         displacement is where the analysis stopped.
@@ -143,7 +147,8 @@ class StudyResult:
 
     def to_pandas(self):
         """DataFrame of `columns`, an analysis a row, its id the index."""
-        pandas = installed("pandas", "to_pandas")
+        import pandas
+
         return pandas.DataFrame(
             self.columns(), index=pandas.Index([row["id"] for row in self.rows], name="id")
         )
