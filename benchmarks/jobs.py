@@ -46,8 +46,8 @@ def main() -> int:
         lines, spent = 0, _spent_s()
         for language, text in _BLOCK.findall(section):
             lines += _do(language, text, folder)
-        rows.append((name, *BEFORE[name], str(lines), f"{(_spent_s() - spent) / 60:.1f}"))
-    print("\n| job | in 0.6.6 | minutes | lines of input | minutes of the processor |")
+        rows.append((name, *BEFORE[name], str(lines), _minutes(_spent_s() - spent)))
+    print("\n| job | in 0.6.6 | in 0.6.6 [min] | lines of input | now [min] |")
     print("|---|---|---|---|---|")
     for row in rows:
         print(f"| {' | '.join(row)} |")
@@ -67,6 +67,10 @@ def _do(language: str, text: str, folder: Path) -> int:
             subprocess.run(words, cwd=folder, check=True, stderr=subprocess.DEVNULL)
     code = [line for line in text.splitlines() if line.strip() and line.strip()[0] != "#"]
     return len(code) if language == "toml" or language == "python" and "pyvista" not in text else 0
+
+
+def _minutes(seconds: float) -> str:
+    return f"{seconds / 60:.1f}" if seconds >= 3 else "< 0.1"
 
 
 def _spent_s() -> float:

@@ -54,7 +54,8 @@ class Answer:
         png = self._repr_png_()
         image = f"data:image/png;base64,{base64.b64encode(png).decode()}" if png else ""
         picture = f'<img style="max-width:100%" src="{image}">' if image else ""
-        return f"<p>{html.escape(self.text)}</p>{self.table.to_html(index=False)}{picture}"
+        text = f'<pre style="white-space:pre-wrap">{html.escape(self.text)}</pre>'
+        return f"{text}{self.table.to_html(index=False)}{picture}"
 
 
 def design(
