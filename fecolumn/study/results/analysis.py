@@ -11,7 +11,7 @@ import numpy as np
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS, read_history
 from fecolumn.foundation.files import is_file
-from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.schema import InputError, meant
 from fecolumn.study.results.picture import Picture
 
 # what a notebook shows of a summary: key, words, factor, unit
@@ -255,9 +255,8 @@ class AnalysisPlots:
         from fecolumn.pictures.figures.structure_figures import interface_figure, interface_names
 
         columns = AnalysisResult(self.folder).history
-        return Picture(
-            lambda path: interface_figure(columns, path, list(names) or interface_names(columns))
-        )
+        chosen = _chosen(names, interface_names(columns), "joint")
+        return Picture(lambda path: interface_figure(columns, path, chosen))
 
     def storeys(self) -> Picture:
         """Of a structure with storeys: their drifts and shears."""
@@ -272,7 +271,8 @@ class AnalysisPlots:
         from fecolumn.pictures.figures.structure_figures import link_figure, link_names
 
         columns = AnalysisResult(self.folder).history
-        return Picture(lambda path: link_figure(columns, path, list(names) or link_names(columns)))
+        chosen = _chosen(names, link_names(columns), "link")
+        return Picture(lambda path: link_figure(columns, path, chosen))
 
     def energy(self) -> Picture:
         """The energy ledger against time."""
@@ -282,6 +282,22 @@ class AnalysisPlots:
         return Picture(
             lambda path: energy_figure(HistoryCurves.read(self.folder / "history.h5"), path)
         )
+
+
+def _chosen(names: tuple[str, ...], known: list[str], what: str) -> list[str]:
+    """The names that a figure is to show, all unless some are given.
+
+    Raises
+    ------
+    KeyError
+        none of this name, or none at all.
+    """
+    if not known:
+        raise KeyError(f"this analysis has no {what}")
+    for name in names:
+        if name not in known:
+            raise KeyError(f"no {what} {name!r}{meant(name, known)}; known: {', '.join(known)}")
+    return list(names) or known
 
 
 def _cell(value, factor, unit: str) -> str:

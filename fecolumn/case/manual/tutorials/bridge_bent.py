@@ -100,7 +100,7 @@ results["bars"]
 # The bars' loops: force over elongation, with the energy that each took.
 
 # %%
-results["bars"].plot.links("bar 1", "bar 2")
+results["bars"].plot.links("bar")
 
 # %% [markdown]
 # Both bents in one figure of one's own: histories are `xarray`, axes those of matplotlib.
