@@ -103,11 +103,13 @@ results["bars"]
 results["bars"].plot.links("bar")
 
 # %% [markdown]
-# Both bents in one figure of one's own: histories are `xarray`, axes those of matplotlib.
+# Both bents in one figure of one's own: histories are `xarray`, axes those of matplotlib. The bars
+# take energy, and the largest displacement hardly changes: this near-fault motion is one long push,
+# and along y the bent rocks as it did.
 
 # %%
 picture = results["bars"].plot.top()
 other = results["tendons"].data["u_top"]
 picture.axes[1].plot(other["time"], 1e3 * other.sel(axis="x"), "k:", label="$u_x$, no bars")
-picture.axes[1].legend(fontsize="small")
+picture.axes[1].legend(loc="upper left", bbox_to_anchor=(1.005, 1), fontsize="x-small")
 picture
