@@ -347,7 +347,8 @@ class Case:
             "output": self.output,
         } | ({"motion": self.motion} if self.motion else {})
         found = {key: table_of(one, defaults) for key, one in found.items()}
-        found["initial"] = {"tilt_rad": start.tilt_rad, "direction_deg": start.direction_deg}
+        tilt = {"tilt_rad": start.tilt_rad, "direction_deg": start.direction_deg}
+        found["initial"] = {key: value for key, value in tilt.items() if value or defaults}
         return found | ({"title": self.title} if self.title else {})
 
     def to_toml(self, full: bool = False, defaults: bool = False) -> str:

@@ -8,13 +8,15 @@ import argparse
 import contextlib
 import html
 import io
+import numbers
 import signal
 import threading
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from fecolumn.case.case import Case
+from fecolumn.foundation.schema import InputError
 from fecolumn.study.results.script import case_file
 from fecolumn.study.run import StudyError
 
@@ -96,8 +98,10 @@ def design(
     """
     from fecolumn.study.questions import design_command
 
-    key, low, high = vary
-    words = [case_file(case, folder), "--vary", key, f"{low:.17g}:{high:.17g}", "--limit", limit]
+    if not isinstance(vary, (tuple, list)) or len(vary) != 3:
+        told = 'must be key, low and high, such as ("bodies.cabinet.length_m", 0.3, 0.8)'
+        raise InputError("fecolumn design", "vary", vary, told)
+    words = [case_file(case, folder), "--vary", str(vary[0]), _range(vary[1:]), "--limit", limit]
     words += ["--motions", *_several(motions), "--steps", str(steps), "-j", str(jobs)]
     return _asked(design_command, words, folder, "design.csv", "design.png")
 
@@ -218,9 +222,27 @@ def calibrate(
     from fecolumn.study.questions import calibrate_command
 
     words = [case_file(case, folder), "--test", str(test)]
-    for key, (low, high) in (fit or {}).items():
-        words += ["--fit", key, f"{low:.17g}:{high:.17g}"]
+    for key, ends in (fit or {}).items():
+        words += ["--fit", key, _range(ends)]
     return _asked(calibrate_command, words, folder, "calibrate.csv", "calibrate.png")
+
+
+class _Words(argparse.ArgumentParser):
+    """Arguments of a command; what is wrong with them is an InputError."""
+
+    def error(self, message: str) -> NoReturn:
+        raise InputError(self.prog, "", None, message)
+
+
+def _range(ends: Any) -> str:
+    """LO:HI of the command line."""
+    if isinstance(ends, (tuple, list)) and len(ends) == 2:
+        return ":".join(repr(float(one)) if _is_number(one) else str(one) for one in ends)
+    return str(ends)
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, numbers.Real)
 
 
 def _several(texts: str | Sequence[str]) -> list[str]:
@@ -236,7 +258,7 @@ def _beside(folder: str | Path, ending: str) -> Path:
 
 def _asked(command: Any, words: list[str], folder: str | Path, table: str, figure: str) -> Answer:
     """Run a command with these words and read its answer."""
-    parser = argparse.ArgumentParser(prog="fecolumn")
+    parser = _Words(prog=f"fecolumn {command.__name__.rpartition('.')[2].removesuffix('_command')}")
     command.add_arguments(parser)
     arguments = parser.parse_args([*words, "-o", str(folder)])
     said = io.StringIO()
