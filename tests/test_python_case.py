@@ -216,3 +216,12 @@ def test_a_type_checker_knows_keys_and_types(tmp_path):
     lines = TYPED.splitlines()
     wrong = {number for number, line in enumerate(lines, 1) if line.endswith("# wrong")}
     assert told == wrong, done.stdout + done.stderr
+
+
+def test_the_file_of_a_rocking_model_states_what_was_stated(tmp_path):
+    tables = {"block": {"width_m": 0.3, "height_m": 1.0}, "integration": {"duration_s": 1.0}}
+    case = fecolumn.case_from_tables(tables)
+    (tmp_path / "block.toml").write_text(case.to_toml())
+    assert read_toml(tmp_path / "block.toml").keys() == {"block", "integration"}
+    assert read_case(tmp_path / "block.toml") == case
+    assert "block: Block" in repr(case)
