@@ -6,6 +6,7 @@ import os
 import sys
 import warnings
 from pathlib import Path
+from typing import Any
 
 from fecolumn.case.case import Case, check, check_duration, read_case
 from fecolumn.case.sections import MODEL_ENGINES
@@ -21,13 +22,13 @@ __all__ = ["AnalysisFailed", "read_folder_case", "run"]
 
 def run(
     case: Case | str | Path,
-    folder,
+    folder: str | Path,
     *,
     comm=None,
     file: str = "",
     quiet: bool = False,
     stop=lambda: False,
-) -> dict:
+) -> dict[str, Any]:
     """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
 
     Parameters

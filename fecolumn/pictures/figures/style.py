@@ -76,7 +76,7 @@ STYLE = {
 }
 
 
-def styled():
+def styled() -> contextlib.AbstractContextManager[None]:
     """Context in which figures are made and saved."""
     return matplotlib.rc_context(STYLE)
 

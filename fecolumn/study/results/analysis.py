@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import html
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +14,10 @@ from fecolumn.engines.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS, re
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.schema import InputError, meant
 from fecolumn.study.results.picture import Picture
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 # what a notebook shows of a summary: key, words, factor, unit
 _SHOWN = (
@@ -38,7 +43,7 @@ class AnalysisResult:
         Path.
     """
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | Path):
         self.folder = Path(folder)
 
     @functools.cached_property
@@ -120,7 +125,7 @@ class AnalysisResult:
         return bool(self.summary)
 
     @functools.cached_property
-    def data(self):
+    def data(self) -> xarray.Dataset:
         """The history as an xarray.Dataset, as of `to_xarray`: `result.data["tilt"].plot()`."""
         return self.to_xarray()
 
@@ -133,13 +138,13 @@ class AnalysisResult:
                 named[f"{name}{part} [{self.units[name]}]"] = column
         return named
 
-    def to_pandas(self):
+    def to_pandas(self) -> pandas.DataFrame:
         """DataFrame of `columns`, time its index."""
         import pandas
 
         return pandas.DataFrame(self.columns()).set_index("time [s]")
 
-    def to_xarray(self):
+    def to_xarray(self) -> xarray.Dataset:
         """Dataset with time as coordinate; unit and meaning are attributes, as xarray's plots show
         them.
         """

@@ -39,7 +39,7 @@ class Picture:
     @property
     def axes(self) -> list[Axes]:
         """Axes of its panels, those of matplotlib: titles, limits and lines may be changed."""
-        return self.figure.axes
+        return list(self.figure.axes)
 
     @property
     def png(self) -> bytes:

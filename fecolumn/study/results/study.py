@@ -8,6 +8,7 @@ import functools
 import html
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +20,9 @@ from fecolumn.study.results.analysis import AnalysisResult
 from fecolumn.study.results.picture import Picture
 from fecolumn.study.sample import same_value
 from fecolumn.study.store import DONE, read_study
+
+if TYPE_CHECKING:
+    import pandas
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +54,7 @@ class StudyResult:
         Path.
     """
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | Path):
         self.folder = Path(folder)
 
     @functools.cached_property
@@ -126,7 +130,7 @@ class StudyResult:
         return [AnalysisResult(folder) for folder in folders if folder.is_dir()]
 
     @property
-    def data(self):
+    def data(self) -> pandas.DataFrame:
         """The analyses as a pandas.DataFrame, as of `to_pandas`: `study.data.groupby(...)`."""
         return self.to_pandas()
 
@@ -145,7 +149,7 @@ class StudyResult:
         table["steps"] = [summary.get("steps", 0) for summary in summaries]
         return table
 
-    def to_pandas(self):
+    def to_pandas(self) -> pandas.DataFrame:
         """DataFrame of `columns`, an analysis a row, its id the index."""
         import pandas
 

@@ -95,7 +95,7 @@ study.plot.cdf()
 hazard = folder / "hazard.csv"
 hazard.write_text(
     "pga_g,annual_frequency\n0.02,0.08\n0.05,0.02\n0.1,0.006\n0.2,0.0014\n"
-    "0.4,0.00025\n0.8,3e-5\n1.6,2.5e-6\n"
+    "0.4,0.00025\n0.8,3e-5\n1.6,2.5e-6\n3.2,1.2e-7\n"
 )
 often = fecolumn.risk(folder / "strengths", folder / "risk", hazard=hazard)
 often
