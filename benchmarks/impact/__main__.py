@@ -41,7 +41,7 @@ def _series(kind: str, beside=BESIDE, steps=STEPS, share: float = 0.3, **setting
 SERIES = {
     "reduced": _series("reduced"),
     "rigid": _series("reduced", modes=0),
-    "full": _series("full", EVERY_OTHER, STEPS[:5]),
+    "full": _series("full", EVERY_OTHER, (1e-3, 2.5e-4, 1e-4, 1e-5)),
     "modes-300": _series("reduced", EVERY_OTHER, (1e-3, 1e-4, 1e-5), modes=300),
     **{
         f"share-{share:g}": _series("reduced", EVERY_OTHER, FEW_STEPS, share)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import inspect
 import textwrap
 import typing
 
@@ -31,8 +32,9 @@ def section_class(*, kw_only: bool = False) -> Callable[[type[_Made]], type[_Mad
     def made(plain: type[_Made]) -> type[_Made]:
         words = plain.__doc__
         cls = dataclasses.dataclass(frozen=True, slots=True, kw_only=kw_only, repr=False)(plain)
+        cls.__repr__ = Section.__repr__  # type: ignore[method-assign]
         cls.__init__ = _by_known_keys(cls.__init__, cls, kw_only)  # type: ignore[method-assign]
-        cls.__doc__ = words and f"{words.rstrip()}\n\n{_parameters(cls)}"
+        cls.__doc__ = words and f"{inspect.cleandoc(words)}\n\n{_parameters(cls)}"
         return cls
 
     return made
