@@ -3,6 +3,20 @@ statistics.
 
 Units are SI everywhere. z points up, gravity along -z; displacements are relative to the base. A
 gap is positive when open, a contact pressure positive in compression.
+
+A case is a file, `load_case(path)`, or is made of parts whose help tells every key:
+
+    import fecolumn
+
+    case = fecolumn.Case(
+        bodies={"drum": fecolumn.Cylinder(outer_diameter_m=0.5, height_m=1.6)},
+        joints={"foot": fecolumn.Joint(between=("drum", "ground"), friction_coefficient=0.6)},
+        motion=fecolumn.Motion("lick:1"),
+    )
+    fecolumn.run(case, "drum")
+    result = fecolumn.load("drum")
+
+`fecolumn help python` has the rest.
 """
 
 from __future__ import annotations
@@ -10,8 +24,46 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from fecolumn.case.bodies import (
+        Arch,
+        Block,
+        Cone,
+        Cylinder,
+        Ground,
+        Matrices,
+        MeshLimits,
+        Plate,
+        Prism,
+        Storeys,
+        Tube,
+    )
+    from fecolumn.case.bodies import Interface as Joint
+    from fecolumn.case.bodies import LinkKeys as Link
+    from fecolumn.case.bodies import Meshed as MeshBody
     from fecolumn.case.case import Case, case_from_tables, read_case
     from fecolumn.case.case import read_case as load_case
+    from fecolumn.case.link_kinds import (
+        Dashpot,
+        FrictionDamper,
+        GapStop,
+        Restrainer,
+        Spring,
+        Strut,
+        Tendon,
+    )
+    from fecolumn.case.sections import (
+        Cap,
+        Contact,
+        Flange,
+        Initial,
+        Integration,
+        Material,
+        Motion,
+        Output,
+        Overturn,
+    )
+    from fecolumn.case.short_form import Base, Column, ShortForm
+    from fecolumn.case.short_form import Mesh as MeshSizes
     from fecolumn.engines.dynamics.history import read_history
     from fecolumn.foundation.schema import InputError
     from fecolumn.mesh.specimen import specimen_mesh
@@ -19,19 +71,59 @@ if TYPE_CHECKING:
     from fecolumn.motions.load import load_motion
     from fecolumn.simulation import AnalysisFailed, run
     from fecolumn.statistics.ecdf import ecdf
+    from fecolumn.study.questions.script import Answer, calibrate, design, risk, screen
     from fecolumn.study.results.analysis import AnalysisResult
     from fecolumn.study.results.load import load
     from fecolumn.study.results.script import run_study
     from fecolumn.study.results.study import StudyResult
+    from fecolumn.study.run import StudyError
 
 __version__ = "0.11.0"
 __all__ = [
     "AnalysisFailed",
     "AnalysisResult",
+    "Answer",
+    "Arch",
+    "Base",
+    "Block",
+    "Cap",
     "Case",
+    "Column",
+    "Cone",
+    "Contact",
+    "Cylinder",
+    "Dashpot",
+    "Flange",
+    "FrictionDamper",
+    "GapStop",
+    "Ground",
+    "Initial",
     "InputError",
+    "Integration",
+    "Joint",
+    "Link",
+    "Material",
+    "Matrices",
+    "MeshBody",
+    "MeshLimits",
+    "MeshSizes",
+    "Motion",
+    "Output",
+    "Overturn",
+    "Plate",
+    "Prism",
+    "Restrainer",
+    "ShortForm",
+    "Spring",
+    "Storeys",
+    "Strut",
+    "StudyError",
     "StudyResult",
+    "Tendon",
+    "Tube",
+    "calibrate",
     "case_from_tables",
+    "design",
     "ecdf",
     "load",
     "load_case",
@@ -39,30 +131,71 @@ __all__ = [
     "motion_file",
     "read_case",
     "read_history",
+    "risk",
     "run",
     "run_study",
+    "screen",
     "specimen_mesh",
 ]
 
 # module of each name, and the name there where it is another; as imported above
 _HOMES = {
-    "Case": "case.case:Case",
-    "load_case": "case.case:read_case",
+    "Arch": "case.bodies",
+    "Block": "case.bodies",
+    "Cone": "case.bodies",
+    "Cylinder": "case.bodies",
+    "Ground": "case.bodies",
+    "Joint": "case.bodies:Interface",
+    "Link": "case.bodies:LinkKeys",
+    "Matrices": "case.bodies",
+    "MeshBody": "case.bodies:Meshed",
+    "MeshLimits": "case.bodies",
+    "Plate": "case.bodies",
+    "Prism": "case.bodies",
+    "Storeys": "case.bodies",
+    "Tube": "case.bodies",
+    "Case": "case.case",
     "case_from_tables": "case.case",
-    "InputError": "foundation.schema",
-    "run": "simulation",
-    "AnalysisFailed": "simulation",
-    "run_study": "study.results.script",
-    "load": "study.results.load",
-    "AnalysisResult": "study.results.analysis",
-    "StudyResult": "study.results.study",
-    "motion_file": "motions.array",
-    "specimen_mesh": "mesh.specimen",
-    "load_motion": "motions.load",
-    "ecdf": "statistics.ecdf",
-    # names of earlier versions
     "read_case": "case.case",
+    "load_case": "case.case:read_case",
+    "Dashpot": "case.link_kinds",
+    "FrictionDamper": "case.link_kinds",
+    "GapStop": "case.link_kinds",
+    "Restrainer": "case.link_kinds",
+    "Spring": "case.link_kinds",
+    "Strut": "case.link_kinds",
+    "Tendon": "case.link_kinds",
+    "Cap": "case.sections",
+    "Contact": "case.sections",
+    "Flange": "case.sections",
+    "Initial": "case.sections",
+    "Integration": "case.sections",
+    "Material": "case.sections",
+    "Motion": "case.sections",
+    "Output": "case.sections",
+    "Overturn": "case.sections",
+    "Base": "case.short_form",
+    "Column": "case.short_form",
+    "MeshSizes": "case.short_form:Mesh",
+    "ShortForm": "case.short_form",
     "read_history": "engines.dynamics.history",
+    "InputError": "foundation.schema",
+    "specimen_mesh": "mesh.specimen",
+    "motion_file": "motions.array",
+    "load_motion": "motions.load",
+    "AnalysisFailed": "simulation",
+    "run": "simulation",
+    "ecdf": "statistics.ecdf",
+    "AnalysisResult": "study.results.analysis",
+    "load": "study.results.load",
+    "run_study": "study.results.script",
+    "design": "study.questions.script",
+    "risk": "study.questions.script",
+    "screen": "study.questions.script",
+    "calibrate": "study.questions.script",
+    "Answer": "study.questions.script",
+    "StudyError": "study.run",
+    "StudyResult": "study.results.study",
 }
 
 

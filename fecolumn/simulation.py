@@ -6,6 +6,7 @@ import os
 import sys
 import warnings
 from pathlib import Path
+from typing import Any
 
 from fecolumn.case.case import Case, check, check_duration, read_case
 from fecolumn.case.sections import MODEL_ENGINES
@@ -21,14 +22,14 @@ __all__ = ["AnalysisFailed", "read_folder_case", "run"]
 
 def run(
     case: Case | str | Path,
-    folder,
+    folder: str | Path,
     *,
     comm=None,
     file: str = "",
     quiet: bool = False,
     profile: bool = False,
     stop=lambda: False,
-) -> dict:
+) -> dict[str, Any]:
     """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
 
     Parameters
@@ -68,7 +69,7 @@ def run(
     if not isinstance(case, Case):
         raise TypeError(
             f"run takes a Case or the path of a case file, not {type(case).__name__}; "
-            "see fecolumn.read_case"
+            "fecolumn.case_from_tables makes a Case of tables of keys"
         )
     folder, file = Path(folder), file or "case"
     check(case, file)

@@ -27,6 +27,8 @@ _DECIDE_NOTHING = {
     "foundation/paths.py",
     "foundation/progress.py",
     "foundation/schema.py",
+    "foundation/section_class.py",
+    "case/case_text.py",
     "foundation/sealed.py",
     "foundation/sources.py",
     "simulation.py",

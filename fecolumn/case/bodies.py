@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 from fecolumn.case.mesh_file_keys import cut_key, size_key, unit_key
 from fecolumn.case.sections import Cap, Flange, Motion
-from fecolumn.foundation.schema import Section, parameter
+from fecolumn.foundation.schema import Section, parameter, required
+from fecolumn.foundation.section_class import section_class
 from fecolumn.mesh.mesh_file import MeshFile
 
 #: Name of the ground of a case that states none: a rigid flat at z = 0.
@@ -17,7 +17,7 @@ PULLING = ("tendon", "spring", "restrainer", "friction")
 PUSHING = ("spring", "restrainer", "friction", "strut", "stop")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Placed(Section):
     """Every body: where it is at the start, upright, and its modes."""
 
@@ -61,7 +61,7 @@ class Placed(Section):
         return False
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Stuff(Placed):
     """Every body but one of matrices: what it is made of, and how stiff its faces are where it does
     not deform.
@@ -101,7 +101,7 @@ class Stuff(Placed):
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Solid(Stuff):
     """Every body but one of matrices or storeys: its finite elements."""
 
@@ -159,7 +159,7 @@ class Solid(Stuff):
         return not (self.rigid or self.fixed)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Footed(Solid):
     """Tubes, cylinders and blocks: a foot that is not flat, in the reduced and rigid engine."""
 
@@ -206,33 +206,33 @@ class Footed(Solid):
     cap: Cap | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Tube(Footed):
     """kind = "tube": a hollow cylinder, its axis along z."""
 
     kind: str = parameter("tube", doc="what the body is", choices=("tube",))
-    outer_diameter_m: float = parameter(doc="outer diameter", unit="m", above=0, high=100)
-    wall_m: float = parameter(doc="wall thickness", unit="m", above=0, high=50)
-    height_m: float = parameter(doc="height without flange and cap", unit="m", above=0, high=1000)
+    outer_diameter_m: float = required(doc="outer diameter", unit="m", above=0, high=100)
+    wall_m: float = required(doc="wall thickness", unit="m", above=0, high=50)
+    height_m: float = required(doc="height without flange and cap", unit="m", above=0, high=1000)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Cylinder(Footed):
     """kind = "cylinder": a solid cylinder, its axis along z: a column, a drum."""
 
     kind: str = parameter("cylinder", doc="what the body is", choices=("cylinder",))
-    outer_diameter_m: float = parameter(doc="diameter", unit="m", above=0, high=100)
-    height_m: float = parameter(doc="height without flange and cap", unit="m", above=0, high=1000)
+    outer_diameter_m: float = required(doc="diameter", unit="m", above=0, high=100)
+    height_m: float = required(doc="height without flange and cap", unit="m", above=0, high=1000)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Block(Footed):
     """kind = "block": a rectangular block."""
 
     kind: str = parameter("block", doc="what the body is", choices=("block",))
-    length_m: float = parameter(doc="length along x", unit="m", above=0, high=100)
-    width_m: float = parameter(doc="width along y", unit="m", above=0, high=100)
-    height_m: float = parameter(doc="height along z", unit="m", above=0, high=1000)
+    length_m: float = required(doc="length along x", unit="m", above=0, high=100)
+    width_m: float = required(doc="width along y", unit="m", above=0, high=100)
+    height_m: float = required(doc="height along z", unit="m", above=0, high=1000)
     turned_deg: float = parameter(
         0.0,
         doc="angle by which it is turned about the vertical through the middle of its "
@@ -244,26 +244,26 @@ class Block(Footed):
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Plate(Solid):
     """kind = "plate" or "slab": a flat rectangular body on or below others, meshed finely where
     they meet it.
     """
 
     kind: str = parameter("plate", doc="what the body is", choices=("plate", "slab"))
-    length_m: float = parameter(doc="length along x", unit="m", above=0, high=1000)
-    width_m: float = parameter(doc="width along y", unit="m", above=0, high=1000)
-    thickness_m: float = parameter(doc="thickness along z", unit="m", above=0, high=100)
+    length_m: float = required(doc="length along x", unit="m", above=0, high=1000)
+    width_m: float = required(doc="width along y", unit="m", above=0, high=1000)
+    thickness_m: float = required(doc="thickness along z", unit="m", above=0, high=100)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Cone(Solid):
     """kind = "cone": a solid frustum of a cone, its axis along z: a tapered drum."""
 
     kind: str = parameter("cone", doc="what the body is", choices=("cone",))
-    bottom_diameter_m: float = parameter(doc="diameter of its foot", unit="m", above=0, high=100)
-    top_diameter_m: float = parameter(doc="diameter of its head", unit="m", above=0, high=100)
-    height_m: float = parameter(doc="height", unit="m", above=0, high=1000)
+    bottom_diameter_m: float = required(doc="diameter of its foot", unit="m", above=0, high=100)
+    top_diameter_m: float = required(doc="diameter of its head", unit="m", above=0, high=100)
+    height_m: float = required(doc="height", unit="m", above=0, high=1000)
 
     @property
     def outer_diameter_m(self) -> float:
@@ -271,7 +271,7 @@ class Cone(Solid):
         return max(self.bottom_diameter_m, self.top_diameter_m)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Prism(Solid):
     """kind = "prism": an extruded polygon: a voussoir, a wedge, a tapered pier, a buttress; meshed
     in elements of element_size_m, which every corner of it is a node of.
@@ -286,14 +286,14 @@ class Prism(Solid):
         low=-1e4,
         high=1e4,
     )
-    outline_m: tuple[tuple[float, ...], ...] = parameter(
+    outline_m: tuple[tuple[float, ...], ...] = required(
         doc="corners of the polygon in their order, in either sense: [x, z] of each, with "
         'along = "z" [x, y]',
         unit="m",
         low=-1e4,
         high=1e4,
     )
-    width_m: float = parameter(
+    width_m: float = required(
         doc="length along y, half of it to each side of at_m; with "
         'along = "z" its height, from at_m upwards',
         unit="m",
@@ -310,7 +310,7 @@ class Prism(Solid):
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Arch(Solid):
     """kind = "arch": a ring sector in the plane of x and z of equal voussoirs, prisms "NAME 1",
     "NAME 2" ... from from_deg on; NAME stands for all of them, in a joint between NAME and NAME for
@@ -326,14 +326,14 @@ class Arch(Solid):
         low=-1e4,
         high=1e4,
     )
-    mean_radius_m: float = parameter(doc="radius of its middle line", unit="m", above=0, high=1000)
-    thickness_m: float = parameter(
+    mean_radius_m: float = required(doc="radius of its middle line", unit="m", above=0, high=1000)
+    thickness_m: float = required(
         doc="thickness along the radius; less than 2 mean_radius_m", unit="m", above=0, high=1000
     )
-    width_m: float = parameter(
+    width_m: float = required(
         doc="length along y, half of it to each side of at_m", unit="m", above=0, high=1000
     )
-    voussoirs: int = parameter(doc="number of voussoirs", low=2, high=500)
+    voussoirs: int = required(doc="number of voussoirs", low=2, high=500)
     from_deg: float = parameter(
         0.0, doc="angle of its first springing from the x axis", unit="deg", low=-360, high=360
     )
@@ -360,11 +360,21 @@ class Arch(Solid):
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Meshed(Solid):
     """kind = "mesh": a body of one's own mesh, where its file has it unless at_m or copies_m says
     otherwise; element_size_m is the length that penalty_factor refers to.
     """
+
+    @classmethod
+    def section_name(cls) -> str:
+        """Other than the table [mesh]."""
+        return "mesh body"
+
+    @classmethod
+    def public_name(cls) -> str:
+        """Of a script."""
+        return "MeshBody"
 
     kind: str = parameter("mesh", doc="what the body is", choices=("mesh",))
     at_m: tuple[float, ...] | None = parameter(
@@ -375,7 +385,7 @@ class Meshed(Solid):
         low=-1e4,
         high=1e4,
     )
-    mesh_file: str = parameter(
+    mesh_file: str = required(
         doc="shape of the body, z up: elements, 8-node bricks or tetrahedra, in any format meshio "
         "reads; a closed surface (.stl, .obj, .ply), a CAD body (.step, .iges) or a script of Gmsh "
         "(.geo), in which elements are made"
@@ -418,28 +428,28 @@ class Meshed(Solid):
         return self.at_m is None and not self.copies_m
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Storeys(Stuff):
     """kind = "storeys": a rigid slab with a building on it, whose floors move sideways on springs;
     each list has a number a floor, from below, or one for all.
     """
 
     kind: str = parameter("storeys", doc="what the body is", choices=("storeys",))
-    length_m: float = parameter(
+    length_m: float = required(
         doc="length of slab and floors along x", unit="m", above=0, high=1000
     )
-    width_m: float = parameter(doc="width of slab and floors along y", unit="m", above=0, high=1000)
-    thickness_m: float = parameter(
+    width_m: float = required(doc="width of slab and floors along y", unit="m", above=0, high=1000)
+    thickness_m: float = required(
         doc="thickness of the slab; its mass is mass_kg or by its density",
         unit="m",
         above=0,
         high=100,
     )
-    floors: int = parameter(doc="number of floors above the slab", low=1, high=100)
-    floor_masses_kg: tuple[float, ...] = parameter(
+    floors: int = required(doc="number of floors above the slab", low=1, high=100)
+    floor_masses_kg: tuple[float, ...] = required(
         doc="mass of each floor", unit="kg", above=0, high=1e12
     )
-    storey_heights_m: tuple[float, ...] = parameter(
+    storey_heights_m: tuple[float, ...] = required(
         doc="height of each storey, the first above the slab's top", unit="m", above=0, high=100
     )
     stiffness_x_n_m: tuple[float, ...] = parameter(
@@ -480,28 +490,28 @@ class Storeys(Stuff):
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Matrices(Placed):
     """kind = "matrices": mass and stiffness of an elastic body from another program; it is free,
     nothing holds it.
     """
 
     kind: str = parameter("matrices", doc="what the body is", choices=("matrices",))
-    mass_file: str = parameter(
+    mass_file: str = required(
         doc="mass matrix [kg]: MatrixMarket (.mtx), scipy.sparse.save_npz, or .npz with "
         "the array mass"
     )
-    stiffness_file: str = parameter(
+    stiffness_file: str = required(
         doc="stiffness matrix [N/m]: likewise, in .npz the array stiffness"
     )
-    nodes_file: str = parameter(
+    nodes_file: str = required(
         doc=".npz with the arrays dofs (n, 3), rows of the matrices for x, y, z of each "
         "contact node counted from 0, and coordinates (n, 3) [m], if wanted triangles "
         "(t, 3) of its faces; or text with these six numbers a line"
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class MeshLimits(Section):
     """How large the meshes of a structure may be; sizes of elements are those of its bodies."""
 
@@ -517,7 +527,7 @@ class MeshLimits(Section):
 
     @classmethod
     def section_name(cls) -> str:
-        """As in a case."""
+        """As its table."""
         return "mesh"
 
 
@@ -537,7 +547,7 @@ KINDS = {
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Ground(Section):
     """What bodies stand on, and what moves with the ground motion: a rigid flat, an elastic plate
     held at its bottom, the same layer without edges, or a pad of springs and dashpots, such as
@@ -631,11 +641,21 @@ class Ground(Section):
     motion: Motion | None = None
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class Interface(Section):
     """A joint: faces of two bodies, or of a body and a ground, that touch at the start, or look at
     one another across a gap; copies each with each. Which body comes first decides nothing.
     """
+
+    @classmethod
+    def section_name(cls) -> str:
+        """As of its table [joints.NAME]."""
+        return "joint"
+
+    @classmethod
+    def public_name(cls) -> str:
+        """Of a script."""
+        return "Joint"
 
     between: tuple[str, ...] = parameter(
         (),
@@ -767,19 +787,29 @@ class Interface(Section):
     )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class LinkKeys(Section):
     """A tendon, spring, strut, stop, damper or restrainer between two points; of a body with copies
     one at each. Its length is the points' distance.
     """
 
-    kind: str = parameter(
+    @classmethod
+    def section_name(cls) -> str:
+        """As of its table [links.NAME]."""
+        return "link"
+
+    @classmethod
+    def public_name(cls) -> str:
+        """Of a script."""
+        return "Link" if cls is LinkKeys else cls.__name__
+
+    kind: str = required(
         doc="tendon: only pulls; spring: pulls and pushes; restrainer: pulls and pushes beyond "
         "slack_m; strut: only pushes; stop: only pushes, beyond gap_m; dashpot: damps; friction: "
         "a friction damper, elastic until it slips at slip_n",
         choices=("tendon", "spring", "restrainer", "strut", "stop", "dashpot", "friction"),
     )
-    body: str = parameter(doc="body at one end")
+    body: str = required(doc="body at one end")
     point_m: tuple[float, ...] = parameter(
         (0.0, 0.0, 0.0),
         doc="point [x, y, z] of that body, from the middle of its foot; of a prism from its at_m, "
@@ -789,7 +819,7 @@ class LinkKeys(Section):
         high=1e4,
     )
     to: str = parameter(GROUND, doc="body at the other end, or a ground")
-    to_point_m: tuple[float, ...] = parameter(
+    to_point_m: tuple[float, ...] = required(
         doc="point [x, y, z] of the other end at the start, from the same place of "
         "`body` as point_m, so that it holds for each copy",
         unit="m",

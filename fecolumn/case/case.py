@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import dataclasses
 import hashlib
+import html
 import json
-import re
 import typing
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 
 from fecolumn.case.arch import own_keys, voussoirs, with_voussoirs, without_voussoirs
 from fecolumn.case.bodies import (
@@ -26,8 +26,10 @@ from fecolumn.case.bodies import (
     Placed,
     Storeys,
 )
+from fecolumn.case.case_text import case_text, toml_of
 from fecolumn.case.check_found import check_found
 from fecolumn.case.check_grounds import check_grounds
+from fecolumn.case.given import NUMBERED, as_of_file, by_two_bodies, check_name, with_files
 from fecolumn.case.sections import (
     DEFAULT,
     FULL_ORDER_KEYS,
@@ -45,17 +47,18 @@ from fecolumn.case.sections import (
 )
 from fecolumn.case.short_form import ALIKE, ShortForm, full_tables, in_short_form, short_form
 from fecolumn.foundation.content import content
-from fecolumn.foundation.files import is_file
 from fecolumn.foundation.paths import OF_BODIES as FILES
 from fecolumn.foundation.schema import (
     InputError,
     Section,
+    a_section,
     build,
     meant,
     merge,
     nested,
     read_toml,
     stated,
+    table_of,
 )
 
 #: Tables of tables by name, and the class of each.
@@ -78,57 +81,110 @@ COMMON = {
 }
 # of which no number depends
 _IDLE = ("output", "mesh")
-# Characters of a name that stand for something else in dotted keys, and in names of copies and
-# marks
-_TAKEN = set(".\"'[]/ ")
-# A name with a number, such as "arch 3": a body of several that its first word stands for
 # Displacement [m] that no body has overturned at: any moves by more
 _LEAST_WAY = 1e-6
-_NUMBERED = re.compile(r"(\S+) [1-9][0-9]*")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Case:
-    """One analysis.
+    """One analysis: what a TOML file of it says, by the names of its tables.
 
-    Tables of tables are dictionaries by the names that the user gave. own: the table of a rocking
-    model, such as podium, that says what is analysed instead of bodies. short: the form of a column
-    on its base in which the case was stated. arches: the arches whose voussoirs are among bodies.
+        fecolumn.Case(
+            bodies={"drum": fecolumn.Cylinder(outer_diameter_m=0.5, height_m=1.6)},
+            joints={"foot": fecolumn.Joint(between=("drum", "ground"))},
+            motion=fecolumn.Motion("lick:1"),
+        )
+
+    It is checked as a whole where it is made, as a file is. Relative paths are taken from the
+    current folder.
+
+    Parameters
+    ----------
+    bodies
+        what moves: Block, Cylinder, Tube, Cone, Plate, Prism, Arch, MeshBody, Storeys, Matrices, by
+        names of one's own. A table of keys, {"fixed": True}, says what differs of one voussoir
+        "NAME 3" of an Arch "NAME".
+    joints
+        Joint by name: what stands on what.
+    links
+        Tendon, Spring, Restrainer, Strut, Stop, Dashpot, FrictionDamper by name.
+    grounds
+        Ground by name; left out: "ground", a rigid flat at z = 0.
+    materials
+        Material by the name that bodies call it by; left out: steel.
+    initial
+        Initial by the name of a body that leans or moves at the start.
+    contact, integration, overturn, output, mesh
+        Contact, Integration, Overturn, Output, MeshLimits; left out: their defaults.
+    motion
+        Motion of the ground, or None for a ground at rest.
+    title, observed
+        title of figures; body whose top is the analysis' displacement.
+    own
+        table of a rocking model, such as podium, instead of bodies.
+    short
+        the form of a column on its base in which the case was stated, see ShortForm.
+    arches
+        the arches whose voussoirs are among bodies.
+
+    Raises
+    ------
+    InputError
+        names key, value and range, or the parts that do not fit.
     """
 
-    bodies: dict[str, Placed]
-    materials: dict[str, Material]
-    joints: dict[str, Interface]
-    links: dict[str, LinkKeys]
-    initial: dict[str, Initial]
-    contact: Contact
-    integration: Integration
-    overturn: Overturn
-    output: Output
+    bodies: Mapping[str, Placed] = field(default_factory=dict)
+    materials: Mapping[str, Material] = field(default_factory=dict)
+    joints: Mapping[str, Interface] = field(default_factory=dict)
+    links: Mapping[str, LinkKeys] = field(default_factory=dict)
+    initial: Mapping[str, Initial] = field(default_factory=dict)
+    contact: Contact = Contact()
+    integration: Integration = Integration()
+    overturn: Overturn = Overturn()
+    output: Output = Output()
     title: str = ""
     observed: str = ""
     motion: Motion | None = None
     mesh: MeshLimits = MeshLimits()
-    grounds: dict[str, Ground] = field(default_factory=lambda: {GROUND: Ground()})
-    own: dict[str, Section] = field(default_factory=dict)
-    short: ShortForm | None = field(default=None, compare=False, repr=False)
-    arches: dict[str, Arch] = field(default_factory=dict, compare=False, repr=False)
+    grounds: Mapping[str, Ground] = field(default_factory=lambda: {GROUND: Ground()})
+    own: Mapping[str, Section] = field(default_factory=dict)
+    short: ShortForm | None = field(default=None, compare=False)
+    arches: Mapping[str, Arch] = field(default_factory=dict, compare=False)
 
     def __post_init__(self):
-        """Refuse sections of another kind; a section that is not that of the short form makes a
-        case of the full one.
+        """Bring sections that a script gives into the form of those of a file, and check all.
 
-        Raises
-        ------
-        InputError
-            names the section.
+        A section that is not that of the short form makes a case of the full one.
         """
         for name, kind in COMMON.items():
             value = getattr(self, name)
             if not isinstance(value, kind) and not (name == "motion" and value is None):
-                raise InputError("case", name, value, f"must be a {kind.__name__}")
+                raise InputError("case", name, value, f"must be {a_section(kind)}")
+        for name in ("title", "observed"):
+            if not isinstance(getattr(self, name), str):
+                raise InputError("case", name, getattr(self, name), "must be text in quotes")
         if self.short and any(getattr(self, name) != getattr(self.short, name) for name in ALIKE):
             object.__setattr__(self, "short", None)
+        for name, sections in as_of_file(self, NAMED).items():
+            object.__setattr__(self, name, sections)
+        check(self, "case")
+
+    def __repr__(self) -> str:
+        return case_text(self)
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(case_text(self))}</pre>"
+
+    @staticmethod
+    def of_column(form: ShortForm) -> Case:
+        """The case of one column on its base, with the sizes that are left open.
+
+        Raises
+        ------
+        InputError
+            parts that do not fit.
+        """
+        return case_from_tables(form.tables())
 
     @property
     def id(self) -> str:
@@ -180,7 +236,7 @@ class Case:
 
     def _numbered(self, name: str) -> tuple[str, ...]:
         return tuple(
-            body for body in self.bodies if (own := _NUMBERED.fullmatch(body)) and own[1] == name
+            body for body in self.bodies if (own := NUMBERED.fullmatch(body)) and own[1] == name
         )
 
     def meant_by(self, name: str) -> tuple[str, tuple[int, ...]]:
@@ -253,11 +309,11 @@ class Case:
                 value = self._with_arches()
             if one.name in NAMED:
                 value = {
-                    key: section if isinstance(section, dict) else _stated(section, defaults)
+                    key: section if isinstance(section, dict) else table_of(section, defaults)
                     for key, section in value.items()
                 }
             elif dataclasses.is_dataclass(value):
-                value = _stated(value, defaults)
+                value = table_of(value, defaults)
             if one.name not in ("own", "short", "arches") and value not in (None, {}, ""):
                 found[one.name] = value
         return found
@@ -290,26 +346,26 @@ class Case:
             "overturn": self.overturn,
             "output": self.output,
         } | ({"motion": self.motion} if self.motion else {})
-        found = {key: _stated(one, defaults) for key, one in found.items()}
-        found["initial"] = {"tilt_rad": start.tilt_rad, "direction_deg": start.direction_deg}
+        found = {key: table_of(one, defaults) for key, one in found.items()}
+        tilt = {"tilt_rad": start.tilt_rad, "direction_deg": start.direction_deg}
+        found["initial"] = {key: value for key, value in tilt.items() if value or defaults}
         return found | ({"title": self.title} if self.title else {})
+
+    def to_toml(self, full: bool = False, defaults: bool = False) -> str:
+        """Text of a TOML file of this case, in the form that it was stated in.
+
+        Parameters
+        ----------
+        full
+            body by body, as of `fecolumn show`, where it was stated as a column on its base.
+        defaults
+            with keys at their defaults.
+        """
+        return toml_of(self, full, defaults)
 
     def as_stated(self) -> dict:
         """The case as the tables of its file, in the form that it was stated in."""
         return self.short.tables() if self.short else self.tables()
-
-
-def _stated(section, defaults: bool) -> dict:
-    """The table of a section: without keys that are left open, or that are not stated as they
-    stand at their defaults.
-    """
-    found = {}
-    for one in dataclasses.fields(section):
-        value = getattr(section, one.name)
-        if value is None or not defaults and one.name != "kind" and value == one.default:
-            continue
-        found[one.name] = _stated(value, defaults) if dataclasses.is_dataclass(value) else value
-    return found
 
 
 def _of_this_version(key: str) -> str:
@@ -330,13 +386,16 @@ def _is_full(key: str, value) -> bool:
     return first in NAMED or first == "observed"
 
 
-def case_from_tables(tables: dict, file) -> Case:
-    """Case from TOML tables; relative paths are taken from the folder of `file`.
+def case_from_tables(tables: dict, file="case") -> Case:
+    """Case from TOML tables; relative paths are taken from the folder of `file`, which messages
+    name, or from the current one.
 
     Tables with [column] are a short form, see `fecolumn.case.short_form`.
     """
     from fecolumn.case.model_names import TABLES, model_engine_of
 
+    if not isinstance(tables, dict):
+        raise InputError(file, "", None, f"must be tables of keys, not {type(tables).__name__}")
     if model_engine_of(tables, file):
         return case_of_table(tables, file)
     case = structure_from_tables(
@@ -454,23 +513,23 @@ def structure_from_tables(tables: dict, file) -> Case:
         errors.append(error)
     if errors:
         raise InputError.of_several(errors)
-    case = Case(**found)
-    check(case, file)
-    return case
+    return _told_of(file, lambda: Case(**found))
+
+
+def _told_of(file, made: Callable[[], Case], named: Callable[[str], str] = str) -> Case:
+    """What `made` returns; its errors are told of `file`, with keys and ranges as `named` says."""
+    try:
+        return made()
+    except InputError as error:
+        raise InputError.of_several(
+            [InputError(file, named(one.key), one.value, named(one.allowed)) for one in error.all]
+        ) from None
 
 
 def _of_short_form(tables: dict, file) -> Case:
     """Case of TOML tables with [column]; messages name the keys of the short form."""
     form = short_form(tables, file)
-    try:
-        case = structure_from_tables(full_tables(form), file)
-    except InputError as error:
-        raise InputError.of_several(
-            [
-                InputError(one.file, in_short_form(one.key), one.value, one.allowed)
-                for one in error.all
-            ]
-        ) from None
+    case = _told_of(file, lambda: structure_from_tables(full_tables(form), file), in_short_form)
     return dataclasses.replace(case, short=form)
 
 
@@ -491,15 +550,9 @@ def _of_interfaces(tables: dict, file) -> Case:
             text = text.replace(f"joints.{name}", f"interfaces.{name}")
         return text
 
-    try:
-        return structure_from_tables(others | {"joints": older | joints}, file)
-    except InputError as error:
-        raise InputError.of_several(
-            [
-                InputError(one.file, named(one.key), one.value, named(one.allowed))
-                for one in error.all
-            ]
-        ) from None
+    return _told_of(
+        file, lambda: structure_from_tables(others | {"joints": older | joints}, file), named
+    )
 
 
 def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
@@ -518,74 +571,15 @@ def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
                 raise InputError(
                     file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys"
                 )
-            word = key
-            if name == "bodies" and (own := _NUMBERED.fullmatch(key)):
-                word = own[1]
-                if word in tables:
-                    raise InputError(
-                        file,
-                        f"{name}.{key}",
-                        None,
-                        f"must be named by another word: {name}.{word} stands beside it, and "
-                        "NAME means all of NAME 1, NAME 2 ...",
-                    )
-            if name != "initial" and (
-                set(word) & _TAKEN or not word or name == "bodies" and word in grounds
-            ):
-                raise InputError(
-                    file,
-                    f"{name}.{key}",
-                    None,
-                    "must be named by another word: not that of a ground, without blanks, "
-                    "dots, slashes and quotes",
-                )
+            check_name(name, key, tables, grounds, file)
             found[key] = _built(
                 _kind_of(name, key, table, kind, file), table, file, f"{name}.{key}."
             )
             if name == "joints":
-                found[key] = _between(found[key], grounds, file, f"{name}.{key}.")
+                found[key] = by_two_bodies(found[key], grounds, file, f"{name}.{key}.")
         except InputError as error:
             errors.append(error)
     return found
-
-
-def _between(interface: Interface, grounds: set, file, prefix: str) -> Interface:
-    """The interface with its two bodies as slave and on."""
-    if interface.between:
-        if interface.slave or interface.on:
-            key = "slave" if interface.slave else "on"
-            raise InputError(
-                file,
-                prefix + key,
-                getattr(interface, key),
-                "must be left out beside between, which names both bodies",
-            )
-        if len(interface.between) != 2:
-            raise InputError(
-                file,
-                prefix + "between",
-                list(interface.between),
-                'must be two names, such as ["drum", "capital"]',
-            )
-        bodies = sorted(interface.between, key=lambda one: one in grounds)
-        if bodies[0] in grounds:
-            raise InputError(
-                file,
-                prefix + "between",
-                list(interface.between),
-                "must name a body: grounds do not touch one another",
-            )
-        return dataclasses.replace(interface, between=(), slave=bodies[0], on=bodies[1])
-    for key in ("slave", "on"):
-        if not getattr(interface, key):
-            raise InputError(
-                file,
-                prefix + key,
-                None,
-                f'missing; or give {prefix}between = ["one body", "other body"] instead '
-                "of slave and on",
-            )
-    return interface
 
 
 def _kind_of(name: str, key: str, table: dict, kind, file):
@@ -605,18 +599,10 @@ def _kind_of(name: str, key: str, table: dict, kind, file):
 
 def _built(kind, table, file, prefix):
     """A section with its relative paths taken from the folder of `file`."""
-    section, folder = build(kind, table, file, prefix), Path(file).resolve().parent
+    section = build(kind, table, file, prefix)
     if kind is Ground and section.motion:
         return dataclasses.replace(section, motion=located("motion", section.motion, file))
-    files = {key: getattr(section, key) for key in FILES.get(table.get("kind", ""), ())}
-    for key, path in files.items():
-        if not is_file(path if Path(path).is_absolute() else str(folder / path)):
-            raise InputError(file, prefix + key, path, "no such file")
-    return (
-        dataclasses.replace(section, **{key: str(folder / path) for key, path in files.items()})
-        if files
-        else section
-    )
+    return with_files(section, file, prefix)
 
 
 def check(case: Case, file) -> None:

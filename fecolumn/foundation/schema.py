@@ -153,9 +153,30 @@ def parameter(
     return dataclasses.field(default=default, metadata=metadata)
 
 
+def required(*, doc: str, unit: str = "-", **rules: typing.Unpack[Rules]) -> typing.Any:
+    """As `parameter`, of a key that has no default; by this name type checkers know it."""
+    return parameter(doc=doc, unit=unit, **rules)
+
+
 def allowed_range(metadata) -> str:
     """The allowed values of a parameter in words, with the unit."""
     return " or ".join([_number_range(metadata), *(f'"{word}"' for word in metadata["words"])])
+
+
+def wanted(kind, metadata) -> str:
+    """As `allowed_range`, of a key of this type: of text, switches and lists, too."""
+    kinds = [one for one in typing.get_args(kind) if one is not types.NoneType]
+    kind = kinds[0] if isinstance(kind, types.UnionType) else kind
+    if not any(metadata[rule] not in (None, ()) for rule in ("choices", "low", "above", "words")):
+        if kind not in (float, int):
+            return f"must be {_word(kind)}"
+    return allowed_range(metadata)
+
+
+def _word(kind) -> str:
+    return _WORDS.get(kind) or "a list of " + _ITEMS.get(
+        typing.get_args(kind)[0], "lists of numbers"
+    )
 
 
 def _number_range(metadata) -> str:
@@ -216,10 +237,7 @@ def _checked(kind, metadata, value, file, key):
         return value
     typed = _typed(kind, value)
     if typed is None:
-        word = _WORDS.get(kind) or "a list of " + _ITEMS.get(
-            typing.get_args(kind)[0], "lists of numbers"
-        )
-        word = " or ".join([word, *(f'"{text}"' for text in metadata["words"])])
+        word = " or ".join([_word(kind), *(f'"{text}"' for text in metadata["words"])])
         raise InputError(file, key, value, f"must be {word}; {metadata['doc']}")
     for item in _items(typed):
         bad = False
@@ -277,6 +295,20 @@ class Section:
         """Name of the section in messages, "" of a whole case."""
         return cls.__name__.lower()
 
+    @classmethod
+    def public_name(cls) -> str:
+        """Name by which a script makes one, fecolumn.NAME(...)."""
+        return cls.__name__
+
+    def __repr__(self) -> str:
+        """The keys that are not at their defaults, as they are given."""
+        given = (
+            f"{name}={value!r}"
+            for name, (field, *_) in _kinds(type(self)).items()  # type: ignore[arg-type]
+            if (value := getattr(self, name)) != field.default
+        )
+        return f"{self.public_name()}({', '.join(given)})"
+
     def __post_init__(self):
         """Check every key, and turn numbers into the key's own type.
 
@@ -299,12 +331,18 @@ class Section:
                         "case",
                         prefix + key,
                         value,
-                        f"must be a {inner.__name__}" + (" or None" if optional else ""),
+                        f"must be {a_section(inner)}" + (" or None" if optional else ""),
                     )
             except InputError as error:
                 errors.append(error)
         if errors:
             raise InputError.of_several(errors)
+
+
+def a_section(cls: type[Section]) -> str:
+    """What a script has to give: "a Joint(...)", "an Integration(...)"."""
+    name = cls.public_name()
+    return f"{'an' if name[0] in 'AEIO' else 'a'} {name}(...)"
 
 
 def build(section, table, file, prefix: str = ""):
@@ -344,7 +382,7 @@ def build(section, table, file, prefix: str = ""):
                     file,
                     prefix + name,
                     None,
-                    f"missing; {field.metadata['doc']}, {allowed_range(field.metadata)}",
+                    f"missing; {field.metadata['doc']}, {wanted(kind, field.metadata)}",
                 )
         except InputError as error:
             errors.append(error)
@@ -456,6 +494,19 @@ def stated(tables: dict) -> dict:
         for key, value in tables.items()
         if value is not None
     }
+
+
+def table_of(section, defaults: bool) -> dict:
+    """The table of a section: without keys that are left open, or that are not stated as they
+    stand at their `defaults`.
+    """
+    found = {}
+    for one in dataclasses.fields(section):
+        value = getattr(section, one.name)
+        if value is None or not defaults and one.name != "kind" and value == one.default:
+            continue
+        found[one.name] = table_of(value, defaults) if dataclasses.is_dataclass(value) else value
+    return found
 
 
 def meant(name: str, known, prefix: str = "") -> str:

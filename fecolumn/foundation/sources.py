@@ -26,6 +26,7 @@ DECIDING = (
     "case/check_grounds.py",
     "case/check_link.py",
     "case/check_step.py",
+    "case/given.py",
     "case/mesh_file_keys.py",
     "case/model_keys.py",
     "case/model_names.py",

@@ -175,7 +175,11 @@ def refuse_too_large(case, file, spots=None) -> None:
     coarse, high = getattr(body, "coarse_size_m", None), _largest(body)
     # of two that do as well the first is named
     sizes = ({f"{key}.coarse_size_m": (coarse, high)} if coarse else {}) | {
-        f"{key}.element_size_m": (element_size(body), high)
+        # as `check_bodies` has it of blocks and plates
+        f"{key}.element_size_m": (
+            element_size(body),
+            min(body.length_m, body.width_m) if isinstance(body, Plate) else high,
+        )
     }
 
     def dofs_with(changed: str, value: float) -> int:

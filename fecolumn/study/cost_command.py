@@ -122,7 +122,7 @@ def _duration(case: Case, file: str) -> float:
     check_duration(case, file)
     if case.integration.duration_s or case.motion is None:
         return case.integration.duration_s
-    ground = load_motion(case.motion, case.integration.dt_s, file)
+    ground = load_motion(case.motion, float(case.integration.dt_s), file)
     return ground.duration + case.motion.longest_free_vibration_s
 
 
@@ -159,4 +159,4 @@ def first_steps(case: Case, file: str, seconds: float) -> FirstSteps:
         lambda folder: started_analysis(plain, folder, MPI.COMM_WORLD, file, quiet=True), enough
     )
     top = np.hypot(*made.history.arrays()["u_top"][:, :2].T)
-    return FirstSteps(made.step, case.integration.dt_s, made.stepping_s, float(top.max()))
+    return FirstSteps(made.step, float(case.integration.dt_s), made.stepping_s, float(top.max()))

@@ -161,7 +161,9 @@ def check_motions(plan: Plan) -> None:
     for analysis in plan.analyses:
         if motion := analysis.case.motion:
             key = dataclasses.replace(motion, scale=float(motion.scale != 0), rotation_deg=0.0)
-            longest_step[key] = max(longest_step.get(key, 0.0), analysis.case.integration.dt_s)
+            longest_step[key] = max(
+                longest_step.get(key, 0.0), float(analysis.case.integration.dt_s)
+            )
             users.setdefault(key, []).append(analysis)
     cut = []
     for motion, dt_s in longest_step.items():

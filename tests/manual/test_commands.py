@@ -31,6 +31,8 @@ RUNNING = [
 ]
 # What stands for a number in a job array
 VARIABLES = {"$SLURM_ARRAY_TASK_ID": "7"}
+# Pages of a minute and more, at small size
+LONG = ("examples", "jobs", "quick-start")
 # Programs outside of this package whose commands are read by the shell alone
 FOREIGN = ("alias", "dask", "docker", "apptainer", "pytest")
 
@@ -78,12 +80,14 @@ def test_every_fenced_block_has_a_language_that_is_tested():
         assert not any(fences[1::2]), page
 
 
-# the examples are seven analyses and two studies, a minute and a half; the first steps are a
-# minute, and most of them are the README's, too
+# the examples are seven analyses and two studies, a minute and a half; the jobs are a minute; the
+# first steps are a minute, and most of them are the README's, too
 @pytest.mark.parametrize(
     "page",
     [
-        pytest.param(page, marks=pytest.mark.slow) if page in ("examples", "quick-start") else page
+        pytest.param(page, marks=pytest.mark.slow)
+        if page in ("examples", "jobs", "quick-start")
+        else page
         for page in RUNNING
     ],
 )
@@ -107,6 +111,7 @@ def walk(page, folder, monkeypatch, small):
             if small and any(f"{part}/{file.name}" in command for command in asked):
                 shrink(folder / part / file.name)
     monkeypatch.chdir(folder)
+    names = {"__name__": "__main__"}
     for block in blocks(page):
         if block.mark:
             continue
@@ -116,7 +121,7 @@ def walk(page, folder, monkeypatch, small):
             if small and block.language == "toml":
                 shrink(folder / block.name)
         elif block.language == "python":
-            exec(compile(block.text, page, "exec"), {"__name__": "__main__"})  # noqa: S102  a page of this repository
+            exec(compile(block.text, page, "exec"), names)  # noqa: S102  a page of this repository
         elif block.language == "sh":
             for command in block.commands:
                 run(command, small)

@@ -135,19 +135,22 @@ def test_figures_are_pictures_that_can_be_saved(analysis, name, tmp_path):
     assert (tmp_path / "figures" / "drum.png").read_bytes() == picture.png
 
 
-@pytest.mark.parametrize("name, method", [("pandas", "to_pandas"), ("xarray", "to_xarray")])
-def test_library_that_is_not_installed_is_named(analysis, name, method, monkeypatch):
-    monkeypatch.setitem(sys.modules, name, None)
-    with pytest.raises(ImportError, match=f"pip install {name}"):
-        getattr(analysis, method)()
-
-
 def test_frames_hold_the_history(analysis):
-    pytest.importorskip("pandas")
     frame = analysis.to_pandas()
     np.testing.assert_array_equal(frame["tilt [rad]"], analysis["tilt"])
-    pytest.importorskip("xarray")
-    assert analysis.to_xarray()["u_top"].attrs["units"] == "m"
+    data = analysis.data
+    assert data["u_top"].attrs["units"] == "m" and data["tilt"].dims == ("time",)
+    np.testing.assert_array_equal(data["u_top"].sel(axis="x"), analysis["u_top"][:, 0])
+    assert data.attrs["case_id"] == analysis.case.id
+
+
+def test_axes_of_a_figure_may_be_changed_before_it_is_saved(analysis, tmp_path):
+    picture = analysis.plot.energy()
+    before = picture.png
+    picture.axes[0].set_title("first test")
+    assert picture.png != before
+    picture.save(tmp_path / "energy")
+    assert (tmp_path / "energy.png").read_bytes() == picture.png
 
 
 def test_analysis_can_be_rendered(analysis):

@@ -7,7 +7,7 @@ import pytest
 from small_structures import STONE, structure
 
 from fecolumn.case.case import case_from_tables
-from fecolumn.case.show import full_form
+from fecolumn.case.case_text import full_form
 from fecolumn.fem.modes import elastic_modes
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bending import rectangle_bending_frequency

@@ -17,6 +17,7 @@ TOPICS = (
     "outputs",
     "pictures",
     "examples",
+    "jobs",
     "python",
     "clusters",
     "structures",

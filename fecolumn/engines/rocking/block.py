@@ -17,9 +17,10 @@ from fecolumn.engines.rocking.outline_keys import RockingKeys
 from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.foundation.schema import InputError, parameter
+from fecolumn.foundation.section_class import section_class
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class BlockSection(RockingKeys):
     """Rectangular rigid block that rocks along x, about the edges of its foot; with depth_m along
     y, too, as if each did not know of the other.

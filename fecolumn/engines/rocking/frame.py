@@ -21,9 +21,10 @@ from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.swing import GRAVITY
 from fecolumn.foundation.schema import parameter
+from fecolumn.foundation.section_class import section_class
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class FrameSection(RockingKeys):
     """Equal rectangular columns that carry a beam and rock along x."""
 

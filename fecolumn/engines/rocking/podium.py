@@ -16,12 +16,13 @@ from fecolumn.engines.rocking.outline_keys import RectangleKeys
 from fecolumn.engines.rocking.podium_impact import CRV, LAWS, podium_restitution
 from fecolumn.engines.rocking.storeys import PROFILES, ElasticBuilding, storeys
 from fecolumn.foundation.schema import InputError, parameter
+from fecolumn.foundation.section_class import section_class
 from fecolumn.motions.record import GroundMotion
 
 _SHARE = 30  # steps in the period of the highest mode
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class PodiumSection(RectangleKeys):
     """Building of equal storeys on a beam on rocking rectangular columns, along x."""
 

@@ -21,6 +21,7 @@ from fecolumn.engines.rocking.model import ModelResponse, balanced, check_fricti
 from fecolumn.engines.rocking.outline_keys import RollingKeys
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import InputError, parameter
+from fecolumn.foundation.section_class import section_class
 from fecolumn.motions.record import GroundMotion
 
 #: Tolerance of a step's error, relative to the state: free motion then keeps its energy to 1e-10 in
@@ -30,7 +31,7 @@ TOLERANCE = 1e-12
 _ROUND = 0.02
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class WobblingSection(RollingKeys):
     """Round rigid column that rolls on the rim of its foot."""
 

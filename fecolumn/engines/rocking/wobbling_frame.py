@@ -18,9 +18,10 @@ from fecolumn.engines.rocking.outline_keys import RollingKeys
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
 from fecolumn.foundation.schema import parameter
+from fecolumn.foundation.section_class import section_class
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@section_class(kw_only=True)
 class WobblingFrameSection(RollingKeys):
     """Slab on equal round columns that roll on their rims; a tendon is anchored in its column and
     the slab.

@@ -4,8 +4,12 @@ no global state.
 
 from __future__ import annotations
 
+import contextlib
 import warnings
+from collections.abc import Iterator
+from contextvars import ContextVar
 from pathlib import Path
+from typing import NamedTuple
 
 import matplotlib
 
@@ -70,7 +74,7 @@ STYLE = {
 }
 
 
-def styled():
+def styled() -> contextlib.AbstractContextManager[None]:
     """Context in which figures are made and saved."""
     return matplotlib.rc_context(STYLE)
 
@@ -82,10 +86,34 @@ def new_figure(width_in: float, height_in: float) -> Figure:
     return Figure(figsize=(width_in, height_in))
 
 
+class SavedFigure(NamedTuple):
+    """A figure that was saved, and whether its axes were fitted into it."""
+
+    figure: Figure
+    fitted: bool
+
+
+# Figures that are saved while a script asks for them
+_SAVED: ContextVar[list[SavedFigure] | None] = ContextVar("saved", default=None)
+
+
+@contextlib.contextmanager
+def figures_saved() -> Iterator[list[SavedFigure]]:
+    """The figures that are saved inside, in their order."""
+    figures: list[SavedFigure] = []
+    token = _SAVED.set(figures)
+    try:
+        yield figures
+    finally:
+        _SAVED.reset(token)
+
+
 def save(figure: Figure, path, formats=("png", "pdf")) -> list[Path]:
     """Write PNG (200 dpi) and PDF, or what `formats` says, beside each other; the same data gives
     the same bytes.
     """
+    if (saved := _SAVED.get()) is not None:
+        saved.append(SavedFigure(figure, figure.get_layout_engine() is not None))
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     files = [path.with_name(f"{path.name}.{suffix}") for suffix in formats]

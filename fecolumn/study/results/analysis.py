@@ -5,15 +5,19 @@ from __future__ import annotations
 import functools
 import html
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS, read_history
 from fecolumn.foundation.files import is_file
-from fecolumn.foundation.schema import InputError
-from fecolumn.study.results.frames import installed
+from fecolumn.foundation.schema import InputError, meant
 from fecolumn.study.results.picture import Picture
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
 
 # what a notebook shows of a summary: key, words, factor, unit
 _SHOWN = (
@@ -39,7 +43,7 @@ class AnalysisResult:
         Path.
     """
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | Path):
         self.folder = Path(folder)
 
     @functools.cached_property
@@ -120,6 +124,11 @@ class AnalysisResult:
         """Whether the analysis has ended."""
         return bool(self.summary)
 
+    @functools.cached_property
+    def data(self) -> xarray.Dataset:
+        """The history as an xarray.Dataset, as of `to_xarray`: `result.data["tilt"].plot()`."""
+        return self.to_xarray()
+
     def columns(self) -> dict[str, np.ndarray]:
         """One array (n,) a component, named with its unit: "time [s]", "u_top_x [m]", ..."""
         named = {}
@@ -129,16 +138,18 @@ class AnalysisResult:
                 named[f"{name}{part} [{self.units[name]}]"] = column
         return named
 
-    def to_pandas(self):
+    def to_pandas(self) -> pandas.DataFrame:
         """DataFrame of `columns`, time its index."""
-        frame = installed("pandas", "to_pandas").DataFrame(self.columns())
-        return frame.set_index("time [s]")
+        import pandas
 
-    def to_xarray(self):
+        return pandas.DataFrame(self.columns()).set_index("time [s]")
+
+    def to_xarray(self) -> xarray.Dataset:
         """Dataset with time as coordinate; unit and meaning are attributes, as xarray's plots show
         them.
         """
-        xarray = installed("xarray", "to_xarray")
+        import xarray
+
         arrays = {}
         for name, values in self.history.items():
             axes = (
@@ -250,9 +261,8 @@ class AnalysisPlots:
         from fecolumn.pictures.figures.structure_figures import interface_figure, interface_names
 
         columns = AnalysisResult(self.folder).history
-        return Picture(
-            lambda path: interface_figure(columns, path, list(names) or interface_names(columns))
-        )
+        chosen = _chosen(names, interface_names(columns), "joint")
+        return Picture(lambda path: interface_figure(columns, path, chosen))
 
     def storeys(self) -> Picture:
         """Of a structure with storeys: their drifts and shears."""
@@ -267,7 +277,8 @@ class AnalysisPlots:
         from fecolumn.pictures.figures.structure_figures import link_figure, link_names
 
         columns = AnalysisResult(self.folder).history
-        return Picture(lambda path: link_figure(columns, path, list(names) or link_names(columns)))
+        chosen = _chosen(names, link_names(columns), "link")
+        return Picture(lambda path: link_figure(columns, path, chosen))
 
     def bonds(self, *names: str) -> Picture:
         """Of a structure with glued joints: their stresses and how much of them has failed, of all
@@ -286,6 +297,22 @@ class AnalysisPlots:
         return Picture(
             lambda path: energy_figure(HistoryCurves.read(self.folder / "history.h5"), path)
         )
+
+
+def _chosen(names: tuple[str, ...], known: list[str], what: str) -> list[str]:
+    """The names that a figure is to show, all unless some are given.
+
+    Raises
+    ------
+    KeyError
+        none of this name, or none at all.
+    """
+    if not known:
+        raise KeyError(f"this analysis has no {what}")
+    for name in names:
+        if name not in known:
+            raise KeyError(f"no {what} {name!r}{meant(name, known)}; known: {', '.join(known)}")
+    return list(names) or known
 
 
 def _cell(value, factor, unit: str) -> str:

@@ -9,7 +9,7 @@ from fecolumn.study.results.analysis import AnalysisResult
 from fecolumn.study.results.study import StudyResult
 
 
-def load(folder) -> AnalysisResult | StudyResult:
+def load(folder: str | Path) -> AnalysisResult | StudyResult:
     """The analysis or the study in a result folder, finished or not.
 
     Raises

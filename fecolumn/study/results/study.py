@@ -8,6 +8,7 @@ import functools
 import html
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,10 +17,12 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.ecdf import Ecdf, ecdf
 from fecolumn.study.plan import setting_of
 from fecolumn.study.results.analysis import AnalysisResult
-from fecolumn.study.results.frames import installed
 from fecolumn.study.results.picture import Picture
 from fecolumn.study.sample import same_value
 from fecolumn.study.store import DONE, read_study
+
+if TYPE_CHECKING:
+    import pandas
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +54,7 @@ class StudyResult:
         Path.
     """
 
-    def __init__(self, folder):
+    def __init__(self, folder: str | Path):
         self.folder = Path(folder)
 
     @functools.cached_property
@@ -126,6 +129,11 @@ class StudyResult:
         folders = (self.folder / "analyses" / row["id"] for row in self.chosen(choice))
         return [AnalysisResult(folder) for folder in folders if folder.is_dir()]
 
+    @property
+    def data(self) -> pandas.DataFrame:
+        """The analyses as a pandas.DataFrame, as of `to_pandas`: `study.data.groupby(...)`."""
+        return self.to_pandas()
+
     def columns(self) -> dict[str, list]:
         """One list an axis, then state, outcome and peak; the peak of what was lost is nan, its
         displacement is where the analysis stopped.
@@ -141,9 +149,10 @@ class StudyResult:
         table["steps"] = [summary.get("steps", 0) for summary in summaries]
         return table
 
-    def to_pandas(self):
+    def to_pandas(self) -> pandas.DataFrame:
         """DataFrame of `columns`, an analysis a row, its id the index."""
-        pandas = installed("pandas", "to_pandas")
+        import pandas
+
         return pandas.DataFrame(
             self.columns(), index=pandas.Index([row["id"] for row in self.rows], name="id")
         )

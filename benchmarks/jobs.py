@@ -1,0 +1,83 @@
+"""The jobs of the manual at full size: what each takes to type, and to run.
+
+    ./containers/run python -m benchmarks.jobs [DIR]
+
+Runs the blocks of `fecolumn/case/manual/jobs.md` in their order in DIR (default: a new folder) and
+prints the answers, then a table. Lines of input are those of TOML files and Python that hold a key
+or a statement; scans, records and measured tests are data. Minutes are of the processor, of all
+processes together; kernels are compiled beforehand, and reduced models that the machine has of
+earlier runs are taken again.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import resource
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+PAGE = Path(__file__).parents[1] / "fecolumn" / "case" / "manual" / "jobs.md"
+_BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+#: What came of each job with version 0.6.6, tried by its README and manual alone
+BEFORE = {
+    "statue": ("half: no surfaces, millimetres not known", "-"),
+    "records": ("half: no decimal commas, no K-NET, drift not told", "-"),
+    "exhibit": ("half: wires without their forces, pads 20 ms a step", "-"),
+    "bridge bent": ("half: no soil, tendons not drawn", "-"),
+    "cabinet": ("half: 132 runs by hand, no inverse question", "40 with finite elements"),
+    "calibrate": ("no", "-"),
+    "cost": ("not told before the run", "4.4"),
+    "Python": ("mostly: tables of keys, no types", "-"),
+}
+
+
+def main() -> int:
+    """Run all jobs and print the table."""
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else tempfile.mkdtemp()).resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    os.environ["PYTHONPATH"] = str(PAGE.parents[3])
+    sections = PAGE.read_text(encoding="utf-8").split("\n## ")[1:]
+    rows = []
+    for name, section in zip(BEFORE, sections):
+        lines, spent = 0, _spent_s()
+        for language, text in _BLOCK.findall(section):
+            lines += _do(language, text, folder)
+        rows.append((name, *BEFORE[name], str(lines), _minutes(_spent_s() - spent)))
+    print("\n| job | in 0.6.6 | in 0.6.6 [min] | lines of input | now [min] |")
+    print("|---|---|---|---|---|")
+    for row in rows:
+        print(f"| {' | '.join(row)} |")
+    return 0
+
+
+def _do(language: str, text: str, folder: Path) -> int:
+    """Write a file or run what a block says; lines of input in it."""
+    if language in ("toml", "csv"):
+        (folder / text.partition("\n")[0].strip("# ").partition(":")[0]).write_text(text)
+    elif language == "python":
+        subprocess.run([sys.executable, "-c", text], cwd=folder, check=True)
+    else:
+        for command in text.splitlines():
+            print(f"$ {command}", flush=True)
+            words = [sys.executable, "-m", "fecolumn.cli", *shlex.split(command)[1:]]
+            subprocess.run(words, cwd=folder, check=True, stderr=subprocess.DEVNULL)
+    code = [line for line in text.splitlines() if line.strip() and line.strip()[0] != "#"]
+    return len(code) if language == "toml" or language == "python" and "pyvista" not in text else 0
+
+
+def _minutes(seconds: float) -> str:
+    return f"{seconds / 60:.1f}" if seconds >= 3 else "< 0.1"
+
+
+def _spent_s() -> float:
+    """Time of the processor in processes that have ended [s]."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+if __name__ == "__main__":
+    sys.exit(main())

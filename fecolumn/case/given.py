@@ -1,0 +1,192 @@
+"""Sections that a script gives, brought into the form of those of a file: names, joints, arches."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from dataclasses import fields
+from pathlib import Path
+
+from fecolumn.case.arch import with_voussoirs
+from fecolumn.case.bodies import Arch, Interface, LinkKeys
+from fecolumn.case.sections import located
+from fecolumn.foundation.files import is_file
+from fecolumn.foundation.paths import OF_BODIES
+from fecolumn.foundation.schema import InputError, a_section
+
+# Characters of a name that stand for something else in dotted keys, and in names of copies and
+# marks
+_TAKEN = set(".\"'[]/ ")
+#: A name with a number, such as "arch 3": a body of several that its first word stands for
+NUMBERED = re.compile(r"(\S+) [1-9][0-9]*")
+_HERE = "case"
+
+
+def as_of_file(case, named: dict[str, type]) -> dict[str, dict]:
+    """The tables of tables of a case as those of a file: joints by slave and on, arches by their
+    voussoirs, files by their absolute paths.
+
+    Parameters
+    ----------
+    case
+        as its maker gave it.
+    named
+        class of the sections of each table of tables.
+
+    Raises
+    ------
+    InputError
+        what is no section of the table, is named by a word that cannot be, or has no file.
+    """
+    errors: list[InputError] = []
+    found = {name: _sections(case, name, kind, errors) for name, kind in named.items()}
+    if errors:
+        raise InputError.of_several(errors)
+    if case.own:
+        return found | {"grounds": {}}
+    grounds = set(found["grounds"])
+    for name, given in found.items():
+        for key, section in given.items():
+            try:
+                check_name(name, key, given, grounds, _HERE)
+                given[key] = _as_of_file(name, key, section, grounds)
+            except InputError as error:
+                errors.append(error)
+    if errors:
+        raise InputError.of_several(errors)
+    own = {key: one for key, one in found["bodies"].items() if isinstance(one, dict)}
+    bodies = {key: one for key, one in found["bodies"].items() if key not in own}
+    if own or any(isinstance(body, Arch) for body in bodies.values()):
+        found["bodies"], found["arches"] = with_voussoirs(bodies, own, _HERE)
+    if case.motion:
+        found["motion"] = located("motion", case.motion, _HERE)
+    return found
+
+
+def _sections(case, name: str, kind: type, errors: list) -> dict:
+    """Sections by name, each of its class."""
+    given = getattr(case, name)
+    if not hasattr(given, "items"):
+        one = "Block" if name == "bodies" else kind.public_name()
+        told = f'must hold sections by name, such as {{"NAME": {one}(...)}}'
+        errors.append(InputError(_HERE, name, given, told))
+        return {}
+    for key, section in given.items():
+        if isinstance(section, kind) or name == "bodies" and _is_of_arch(key, section, given):
+            continue
+        what = "a body, such as Block(...)" if name == "bodies" else a_section(kind)
+        errors.append(InputError(_HERE, f"{name}.{key}", section, f"must be {what}"))
+    return dict(given)
+
+
+def _is_of_arch(key, section, bodies) -> bool:
+    """Whether it is a table of keys of a voussoir "NAME 3" beside an arch "NAME"."""
+    return isinstance(section, dict) and isinstance(bodies.get(str(key).rpartition(" ")[0]), Arch)
+
+
+def _as_of_file(name: str, key: str, section, grounds: set):
+    if name == "joints":
+        return by_two_bodies(section, grounds, _HERE, f"joints.{key}.")
+    if name == "grounds" and section.motion:
+        return dataclasses.replace(section, motion=located("motion", section.motion, _HERE))
+    if name == "links" and type(section) is not LinkKeys:  # a Tendon, say
+        return LinkKeys(**{one.name: getattr(section, one.name) for one in fields(LinkKeys)})
+    if name != "bodies" or isinstance(section, dict):
+        return section
+    return with_files(section, _HERE, f"bodies.{key}.")
+
+
+def with_files(body, file, prefix: str):
+    """A body with its relative paths taken from the folder of `file`.
+
+    Raises
+    ------
+    InputError
+        one of its files is not there.
+    """
+    folder = Path(file).resolve().parent
+    found = {}
+    for key in OF_BODIES.get(getattr(body, "kind", ""), ()):
+        path = getattr(body, key)
+        found[key] = path if Path(path).is_absolute() else str(folder / path)
+        if not is_file(found[key]):
+            raise InputError(file, prefix + key, path, "no such file")
+    same = all(getattr(body, key) == path for key, path in found.items())
+    return body if same else dataclasses.replace(body, **found)
+
+
+def check_name(name: str, key: str, tables, grounds: set, file) -> None:
+    """Refuse a name that stands for something else.
+
+    Parameters
+    ----------
+    name, key
+        table of tables, and the name in it.
+    tables
+        all of that table by their names.
+    grounds
+        names that no body can have.
+    """
+    word = key
+    if not isinstance(key, str):
+        raise InputError(file, name, key, "names must be text in quotes")
+    beside = tables.get(key.rpartition(" ")[0])
+    if name == "bodies" and (own := NUMBERED.fullmatch(key)):
+        word = own[1]
+        if word in tables and not isinstance(beside, Arch):
+            raise InputError(
+                file,
+                f"{name}.{key}",
+                None,
+                f"must be named by another word: {name}.{word} stands beside it, and "
+                "NAME means all of NAME 1, NAME 2 ...",
+            )
+    if name != "initial" and (
+        set(word) & _TAKEN or not word or name == "bodies" and word in grounds
+    ):
+        raise InputError(
+            file,
+            f"{name}.{key}",
+            None,
+            "must be named by another word: not that of a ground, without blanks, "
+            "dots, slashes and quotes",
+        )
+
+
+def by_two_bodies(interface: Interface, grounds: set, file, prefix: str) -> Interface:
+    """The interface with its two bodies as slave and on."""
+    if interface.between:
+        if interface.slave or interface.on:
+            key = "slave" if interface.slave else "on"
+            raise InputError(
+                file,
+                prefix + key,
+                getattr(interface, key),
+                "must be left out beside between, which names both bodies",
+            )
+        if len(interface.between) != 2:
+            raise InputError(
+                file,
+                prefix + "between",
+                list(interface.between),
+                'must be two names, such as ["drum", "capital"]',
+            )
+        bodies = sorted(interface.between, key=lambda one: one in grounds)
+        if bodies[0] in grounds:
+            raise InputError(
+                file,
+                prefix + "between",
+                list(interface.between),
+                "must name a body: grounds do not touch one another",
+            )
+        return dataclasses.replace(interface, between=(), slave=bodies[0], on=bodies[1])
+    for key in ("slave", "on"):
+        if not getattr(interface, key):
+            raise InputError(
+                file,
+                prefix + key,
+                None,
+                f'missing; or give {prefix}between = ["one body", "other body"] instead '
+                "of slave and on",
+            )
+    return interface
