@@ -86,7 +86,7 @@ def kinds_of(rows: np.ndarray) -> list[tuple[str, np.ndarray]]:
     return found
 
 
-def table_of(rows: np.ndarray) -> str:
+def step_table(rows: np.ndarray) -> str:
     """Markdown table of the kinds of steps: how many, their share of the time, how long they take
     and how many iterations they need.
     """
