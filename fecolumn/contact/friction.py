@@ -145,29 +145,30 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
                 iterations += made
                 if residual < least:
                     best, least = forces, residual
-    if least > tolerance and len(coupling.whole) == 0:
-        # cheap by levers: many small steps, each held by a compliance against change
-        forces, residual, made = newton_steps(
-            coupling,
-            q,
-            friction,
-            best,
-            tolerance,
-            rho,
-            rho,
-            tolerances.HELD_GIVE / rho.min(),
-            tolerances.HELD_STEPS,
-            tolerances.HELD_STALLED,
-        )
+    many = n > tolerances.MANY_POINTS and len(coupling.whole) == 0
+    for way in range(2 if len(coupling.whole) == 0 else 0):
+        if least <= tolerance:
+            break
+        if many == (way == 0):
+            forces, residual, made = by_frozen_slips(coupling, q, friction, best, tolerance, rho)
+        else:
+            # cheap by levers: many small steps, each held by a compliance against change
+            forces, residual, made = newton_steps(
+                coupling,
+                q,
+                friction,
+                best,
+                tolerance,
+                rho,
+                rho,
+                tolerances.HELD_GIVE / rho.min(),
+                tolerances.HELD_STEPS,
+                tolerances.HELD_STALLED,
+            )
         iterations += made
         if residual < least:
             best, least = forces, residual
-        if least > tolerance:
-            forces, residual, made = _by_frozen_slips(coupling, q, friction, best, tolerance, rho)
-            iterations += made
-            if residual < least:
-                best, least = forces, residual
-    if least <= tolerance:
+    if least <= tolerance or many:
         return best, least, iterations, others
     # few of many points carry: those that do without friction, and those that sink where these do
     forces, taken, grown, pressed = (
@@ -224,7 +225,7 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
 
 
 @njit
-def _by_frozen_slips(coupling, q, friction, start, tolerance, rho):
+def by_frozen_slips(coupling, q, friction, start, tolerance, rho):
     """As `_with_frozen_slips`, by levers, where each convex problem costs what the points are: many
     blocks of a wall that is shaken, whose head joints touch and hardly carry. Best forces,
     residual, steps of Newton.

@@ -64,6 +64,10 @@ HELD_GIVE, HELD_STEPS, HELD_STALLED = 1e-4, 200, 60
 #: costs less; solutions, of which one on 18 points needed 70; and iterations of the interior point
 #: for each, some 25 but where rounding rules.
 FROZEN_POINTS, FROZEN_TURNS, FROZEN_INSIDE = 40, 200, 60
+#: Points of rigid bodies above which frozen slips are tried first, by levers, and the whole matrix
+#: is never made: a solution by it takes seconds of a wall of thirty stones, a shorter step
+#: hundredths.
+MANY_POINTS = 150
 #: Points taken in one by one at most, and times that each is let go again: problems of the soak
 #: which no other way had solved needed 7 to 46.
 ONE_BY_ONE, LET_GO = 60, 2

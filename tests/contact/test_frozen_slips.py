@@ -8,7 +8,17 @@ import numpy as np
 import pytest
 
 from fecolumn.contact import frozen_slips
-from fecolumn.contact.coupling import coupling_by_levers, moved_by, softened, stiffnesses, times
+from fecolumn.contact.coulomb import violation
+from fecolumn.contact.coupling import (
+    Coupling,
+    coupling_by_levers,
+    moved_by,
+    slips_under,
+    softened,
+    stiffnesses,
+    times,
+)
+from fecolumn.contact.friction import by_frozen_slips
 from fecolumn.contact.frozen_slips import find_impulses
 from fecolumn.foundation._compiled import interpreted
 
@@ -94,3 +104,17 @@ def test_the_slope_of_the_nearest_impulse_of_the_cone_is_that_of_differences(mu)
         np.testing.assert_allclose(slope, differences, atol=1e-8)
         kinds.add((impulse[2] > 0, bool(np.hypot(*impulse[:2]) < mu * impulse[2] * 0.999)))
     assert len(kinds) >= 2
+
+
+@pytest.mark.parametrize("along", [0.3, 1.0, 3.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_forces_of_a_step_are_found_where_newton_alone_may_find_none(seed, along):
+    """Points that give otherwise along their faces than across them, as joints with a law do."""
+    coupling, slips, friction, start = impact(6, seed)
+    own = coupling.own * [along, along, 1.0]
+    coupling = Coupling(coupling.whole, own, coupling.levers, coupling.bodies, coupling.blocks)
+    rho = stiffnesses(coupling, False)
+    forces, residual, _ = by_frozen_slips(coupling, slips, friction, start, 1e-11, rho)
+    after = slips_under(coupling, slips, forces)
+    assert violation(after, forces, friction, rho) == residual <= 1e-11
+    assert (forces[:, 2] > 0).sum() >= 2
