@@ -19,7 +19,7 @@ from fecolumn.contact.coupling import (
     stiffnesses,
     whole_of,
 )
-from fecolumn.contact.frozen_slips import solve_frozen
+from fecolumn.contact.frozen_slips import halve_way, solve_frozen
 from fecolumn.contact.interior_point import approach, in_cones
 from fecolumn.contact.newton import newton_steps, solve_in_place
 from fecolumn.foundation._compiled import compiled, njit
@@ -238,7 +238,8 @@ def by_frozen_slips(coupling, q, friction, start, tolerance, rho):
         give = max(give, tolerances.GIVE / rho[i])
         if not coupling.own[i].min() > 0.0:
             return best, least, 0
-    for _ in range(tolerances.FROZEN_ROUNDS):
+    for turn in range(tolerances.FROZEN_ROUNDS + tolerances.FROZEN_MORE):
+        before = slips.copy()
         made, missed = solve_frozen(
             coupling,
             q,
@@ -249,6 +250,8 @@ def by_frozen_slips(coupling, q, friction, start, tolerance, rho):
             slopes,
             max(tolerance, tolerances.FROZEN_SHARE * missed) if missed < np.inf else tolerance,
         )
+        if turn >= tolerances.FROZEN_HALVED:
+            halve_way(before, slips)
         iterations += made
         found, residual, made = newton_steps(
             coupling,

@@ -21,17 +21,19 @@ from fecolumn.contact.arrays import largest
 from fecolumn.contact.blocks import eliminate
 from fecolumn.contact.coupling import motion_by, moved_by, slips_under
 from fecolumn.contact.tolerances import (
+    FROZEN_MORE,
     FROZEN_ROUNDS,
     FROZEN_SEARCHES,
     FROZEN_SHARE,
     FROZEN_SLOPE,
     FROZEN_STEPS,
+    MANY_POINTS,
 )
 from fecolumn.foundation._compiled import njit
 
 
 @njit
-def find_impulses(coupling, q, friction, start, near, exact, allowed):
+def find_impulses(coupling, q, friction, start, near, exact, allowed, usable):
     """Impulses (n, 3) [N s] of points, how far they miss Coulomb's law [m/s], Newton steps made.
 
     Parameters
@@ -44,9 +46,9 @@ def find_impulses(coupling, q, friction, start, near, exact, allowed):
         (n, 3) first guess.
     near
         whether it is a good one, from whose slips to begin; else from none.
-    exact, allowed
-        velocities [m/s] to which a convex problem is solved at most, and by which the law may be
-        missed.
+    exact, allowed, usable
+        velocities [m/s] to which a convex problem is solved at most, by which the law may be
+        missed, and by which after FROZEN_ROUNDS.
     """
     n, made, missed = len(q), 0, np.inf
     slips, impulses, slopes = np.zeros(n), np.empty((n, 3)), np.empty((n, 3, 3))
@@ -55,14 +57,16 @@ def find_impulses(coupling, q, friction, start, near, exact, allowed):
         relative = slips_under(coupling, q, start)
         for i in range(n):
             slips[i] = friction[i] * np.hypot(relative[i, 0], relative[i, 1])
-    for _ in range(FROZEN_ROUNDS):
-        tolerance = max(exact, FROZEN_SHARE * min(missed, allowed))
+    for turn in range(FROZEN_ROUNDS + (FROZEN_MORE if n > MANY_POINTS else 0)):
+        before, tolerance = slips.copy(), max(exact, FROZEN_SHARE * min(missed, allowed))
         more, missed = solve_frozen(
             coupling, q, friction, slips, motion, impulses, slopes, tolerance
         )
         made += more
-        if missed <= allowed:
+        if missed <= (allowed if turn + 1 < FROZEN_ROUNDS else usable):
             break
+        if turn >= FROZEN_ROUNDS:
+            halve_way(before, slips)
     return impulses, missed, made
 
 
@@ -83,6 +87,15 @@ def solve_frozen(coupling, q, friction, slips, motion, impulses, slopes, toleran
         wrong = abs(slip - slips[i]) if impulses[i, 2] > 0 else -relative[i, 2]
         missed, slips[i] = max(missed, wrong), slip
     return made, missed
+
+
+@njit
+def halve_way(before, slips):
+    """Let slips (n,) go half the way only from those before: where many stones hand on what they
+    slip, they else go to and fro.
+    """
+    for i in range(len(slips)):
+        slips[i] = (before[i] + slips[i]) / 2
 
 
 @njit

@@ -145,6 +145,11 @@ IMPACT_MISSED, FROZEN_ENDS = 1e-3, 1e-2
 #: steps. Share of what is still missed to which a round is solved; slope along a step, over that
 #: at its start, at which a search ends.
 FROZEN_ROUNDS, FROZEN_STEPS, FROZEN_SEARCHES = 12, 60, 30
+#: Rounds more where slips go to and fro, in which they go half the way: 300 points of a wall of
+#: thirty stones come to a thousandth in a dozen of them, and to a hundredth without. Of the forces
+#: of a step they go half the way from the second number of rounds on. What the laws of an impact of
+#: more than MANY_POINTS may be missed by, over what they else are, where all rounds are spent.
+FROZEN_MORE, FROZEN_HALVED, MANY_MISSED = 24, 4, 10.0
 FROZEN_SHARE, FROZEN_SLOPE = 0.1, 0.2
 #: Points, over the ways in which a body moves, rigid motion and modes, from which an impact of
 #: elastic bodies is solved by levers and not by the whole matrix: both cost the same there.

@@ -23,6 +23,8 @@ from fecolumn.contact.frozen_slips import find_impulses
 from fecolumn.foundation._compiled import interpreted
 
 FRICTION = 0.5
+# Velocities [m/s] to which impulses are found: exact, allowed, usable
+TO = (1e-12, 1e-4, 1e-4)
 
 
 def impact(blocks, seed):
@@ -55,7 +57,7 @@ def impact(blocks, seed):
 @pytest.mark.parametrize("seed", range(4))
 def test_coulombs_law_is_missed_by_no_more_than_is_said(blocks, seed):
     coupling, velocity, friction, start = impact(blocks, seed)
-    impulses, missed, _ = find_impulses(coupling, velocity, friction, start, False, 1e-12, 1e-4)
+    impulses, missed, _ = find_impulses(coupling, velocity, friction, start, False, *TO)
     after, presses = times(coupling, impulses) + velocity, impulses[:, 2] > 0
     assert missed < 2e-3 and presses.sum() >= 2
     assert (np.abs(after[presses, 2]) <= 1.2 * missed + 1e-10).all()
@@ -70,7 +72,7 @@ def test_an_impact_that_stops_too_early_takes_energy_too(monkeypatch):
     coupling, velocity, friction, start = impact(3, 1)
     monkeypatch.setattr(frozen_slips, "FROZEN_ROUNDS", 2)
     impulses, missed, _ = interpreted(find_impulses)(
-        coupling, velocity, friction, start, False, 1e-12, 1e-9
+        coupling, velocity, friction, start, False, 1e-12, 1e-9, 1e-9
     )
     assert missed > 1e-3
     assert (np.hypot(*impulses.T[:2]) <= FRICTION * impulses[:, 2] * (1 + 1e-12)).all()
@@ -81,8 +83,8 @@ def test_an_impact_that_stops_too_early_takes_energy_too(monkeypatch):
 
 def test_a_good_guess_needs_fewer_steps():
     coupling, velocity, friction, start = impact(3, 2)
-    impulses, missed, made = find_impulses(coupling, velocity, friction, start, False, 1e-12, 1e-4)
-    again, left, fewer = find_impulses(coupling, velocity, friction, impulses, True, 1e-12, 1e-4)
+    impulses, missed, made = find_impulses(coupling, velocity, friction, start, False, *TO)
+    again, left, fewer = find_impulses(coupling, velocity, friction, impulses, True, *TO)
     assert left <= max(missed, 1e-4) and missed < 2e-3 and fewer < made
     np.testing.assert_allclose(times(coupling, again), times(coupling, impulses), atol=1e-2)
 
