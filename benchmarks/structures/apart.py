@@ -13,7 +13,7 @@ from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
-from fecolumn.verification.any_joint_walls import shaking, wall
+from fecolumn.verification.any_joint_walls import wall, wall_shaking
 
 #: Length, width and height of a block and the gap to the next one [m]; steps of a run and runs
 BLOCK, GAP = (0.4, 0.3, 0.8), 0.02
@@ -88,7 +88,7 @@ def wall_costs(courses: int, stones: int, gap: float, engine: str) -> dict[str, 
     made = wall(courses, stones, engine, gap)
     start = time.process_time() - began
     spent = []
-    for ground in (np.zeros((100, 3)), shaking(made, 1.5)):
+    for ground in (np.zeros((100, 3)), wall_shaking(made, 1.5)):
         began = time.process_time()
         rows, _ = made.advance(ground)
         spent.append(1e3 * (time.process_time() - began) / len(rows))

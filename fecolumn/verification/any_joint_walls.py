@@ -71,14 +71,14 @@ def wall(courses: int, stones: int, engine: str, gap: float = 0.0):
         return engines(wall_tables(courses, stones, engine, gap))()
 
 
-def shaking(made, factor: float, lasts: float = _LASTS) -> np.ndarray:
+def wall_shaking(made, factor: float, lasts: float = _LASTS) -> np.ndarray:
     """Accelerations [m/s2] of a sine along the wall, of `factor` times what lifts a half stone."""
     lifts = STONE[0] / 2 / STONE[2]
     dt = made.hht.dt
     return sine_pulse(factor * lifts * GRAVITY, _PERIOD, round(lasts / dt), dt)
 
 
-def deepest(made) -> float:
+def sunk_depth(made) -> float:
     """Depth [m] of the contact point that is farthest below the surface it is over, now."""
     contact = made.motion.contact
     over = contact["located"] & ~made.work.points["idle"]
@@ -107,12 +107,12 @@ def wall_rows(engine: str):
             _AT_REST,
         )
         closures, moved, depth = 0.0, 0.0, 0.0
-        for part in np.array_split(shaking(made, _SHAKEN), 20):
+        for part in np.array_split(wall_shaking(made, _SHAKEN), 20):
             rows, _ = made.advance(part)
             columns = columns_of(rows, made.model)
             closures = max(closures, np.abs(columns["energy/closure"]).max())
             moved = max(moved, columns["energy/kinetic"].max())
-            depth = max(depth, deepest(made))
+            depth = max(depth, sunk_depth(made))
         told += f", a sine of {_SHAKEN:g} times what lifts its half stones"
         yield Row(
             f"{told}: error of the energy balance over the energy that moved",

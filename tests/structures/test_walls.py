@@ -8,7 +8,7 @@ import pytest
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import BASE
 from fecolumn.engines.structure_analysis import columns_of
-from fecolumn.verification.any_joint_walls import deepest, shaking, wall
+from fecolumn.verification.any_joint_walls import sunk_depth, wall, wall_shaking
 
 
 @pytest.mark.parametrize("engine", ["rigid", "reduced"])
@@ -28,8 +28,8 @@ def test_wall_with_closed_head_joints_stands_and_carries_its_weight(engine):
 
 def test_shaken_wall_with_closed_head_joints_keeps_its_energy_and_sinks_nowhere():
     made, closure, moved, depth = wall(3, 3, "rigid"), 0.0, 0.0, 0.0
-    for part in np.array_split(shaking(made, 1.5, 0.2), 10):
+    for part in np.array_split(wall_shaking(made, 1.5, 0.2), 10):
         columns = columns_of(made.advance(part)[0], made.model)
         closure = max(closure, np.abs(columns["energy/closure"]).max())
-        moved, depth = max(moved, columns["energy/kinetic"].max()), max(depth, deepest(made))
+        moved, depth = max(moved, columns["energy/kinetic"].max()), max(depth, sunk_depth(made))
     assert moved > 1.0 and closure <= 1e-12 * moved and depth <= 1e-8
