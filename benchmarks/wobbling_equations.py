@@ -1,9 +1,11 @@
-"""Equations of motion of the wobbling column and frame, derived with sympy and written as compiled
-Python.
+"""Equations of motion of the wobbling column and frame, derived with sympy, beside the functions
+that are compiled.
 
     ./containers/run python -m benchmarks.wobbling_equations
 
-Writes fecolumn/engines/rocking/wobbling_equations.py. A rigid column of round foot rolls on its
+Prints the largest difference of each function of fecolumn/engines/rocking/wobbling_equations.py.
+
+A rigid column of round foot rolls on its
 rim, which does not slip, and does not turn about its axis: turned by the tilt theta about the
 tangent at the rim's point phi, which stays where it stood. So the path of contact on the ground is
 the circle that the foot stood on, as long as the rim rolled. The derivation asks of positions and
@@ -18,43 +20,22 @@ rotations alone:
 
 from __future__ import annotations
 
-from pathlib import Path
-
+import numpy as np
 import sympy as sp
-from sympy.printing.pycode import pycode
 
-TARGET = Path(__file__).parents[1] / "fecolumn" / "engines" / "rocking" / "wobbling_equations.py"
+from fecolumn.engines.rocking import wobbling_equations as compiled
+from fecolumn.foundation._compiled import interpreted
 
 tilt, azimuth, tilt_rate, azimuth_rate, spin = sp.symbols(
     "tilt azimuth tilt_rate azimuth_rate spin"
 )
 ground_x, ground_y, ground_z = sp.symbols("ground_x ground_y ground_z")
+push, across_push = sp.symbols("push across_push")
 #: Parameters of the compiled functions, in this order.
 BODY = sp.symbols(
     "radius centre height mass slab across along stiffness pull gravity", positive=True
 )
 radius, centre, height, mass, slab, across, along, stiffness, pull, gravity = BODY
-
-_HEAD = '''"""Equations of motion of the wobbling column and frame.
-
-Written by benchmarks.wobbling_equations with sympy {version}: do not edit.
-
-Of one column with its share of the slab; arguments, in SI units:
-    body: (10,) radius of rim, height of the centre of mass, height of column [m]; mass, share of
-        the slab [kg]; inertia about the centre of mass across and along the axis [kg m2]; tendon's
-        stiffness [N/m] and pull while the column stands [N]; gravity [m/s2].
-    tilt, azimuth [rad]: of the axis; the foot's rim touches at the azimuth, to which the column
-        leans.
-    tilt_rate [rad/s]; spin [kg m2/s]: momentum of the azimuth, inertia[1] times its rate.
-    ground_x, ground_y, ground_z: acceleration of the ground [m/s2].
-"""
-
-import math
-
-from fecolumn.foundation._compiled import njit
-
-
-'''
 
 
 def turned(angle, axis: str):
@@ -143,10 +124,7 @@ def derive() -> dict[str, sp.Expr]:
     inertia = sp.hessian(sp.expand(kinetic), rates)
     inertia = inertia.applyfunc(reduced)
     assert inertia[0, 1] == 0 and not inertia[0, 0].has(tilt), "tilt and azimuth do not part"
-    shift, top, slab_top = (
-        here(one)
-        for one in (mass * place(centre * up) + slab * slab_shift, place(height * up), slab_shift)
-    )
+    shift = here(mass * place(centre * up) + slab * slab_shift)
     assert shift[1] == 0, "the centre of mass leaves the plane of its tilt"
     stretch = 2 * radius * sp.sin(tilt / 2)
     return {
@@ -155,8 +133,6 @@ def derive() -> dict[str, sp.Expr]:
         "lever": shift[0],
         "rise": shift[2] - mass * centre,
         "tendon": pull * stretch + stiffness * stretch**2 / 2,
-        "top": top[0],
-        "slab_shift": slab_top[0],
     }
 
 
@@ -164,26 +140,25 @@ def rates_of(found) -> list[sp.Expr]:
     """Rates of tilt, azimuth, tilt_rate, spin and of the work of the base [W], by Lagrange's
     equations.
     """
-    push = ground_x * sp.cos(azimuth) + ground_y * sp.sin(azimuth)
-    across_push = ground_y * sp.cos(azimuth) - ground_x * sp.sin(azimuth)
+    along = ground_x * sp.cos(azimuth) + ground_y * sp.sin(azimuth)
+    beside = ground_y * sp.cos(azimuth) - ground_x * sp.sin(azimuth)
     kinetic = found["tilt_inertia"] * tilt_rate**2 / 2 + spin**2 / (2 * found["azimuth_inertia"])
     # work of the ground's motion in the table frame: forces -m a on all masses
     potential = gravity * found["rise"] + found["tendon"]
-    loaded = potential + ground_z * found["rise"] + push * found["lever"]
+    loaded = potential + ground_z * found["rise"] + along * found["lever"]
     turn = spin / found["azimuth_inertia"]
     fall = -(sp.diff(kinetic, tilt) + sp.diff(loaded, tilt)) / found["tilt_inertia"]
     work = (
-        -(push * found["lever"].diff(tilt) + ground_z * found["rise"].diff(tilt)) * tilt_rate
-        - across_push * found["lever"] * turn
+        -(along * found["lever"].diff(tilt) + ground_z * found["rise"].diff(tilt)) * tilt_rate
+        - beside * found["lever"] * turn
     )
-    return [tilt_rate, turn, fall, -across_push * found["lever"], work]
+    return [tilt_rate, turn, fall, -beside * found["lever"], work]
 
 
 def base_force(found) -> list[sp.Expr]:
     """Force of the ground on the column's foot [N] towards the azimuth, across it and up: the rate
     of the momentum of all masses.
     """
-    push, across_push = sp.symbols("push across_push")
     lever, rise, turn = found["lever"], found["rise"], spin / found["azimuth_inertia"]
     fall = rates_of(found)[2].subs(ground_x * sp.cos(azimuth) + ground_y * sp.sin(azimuth), push)
     spun = (-across_push * lever - found["azimuth_inertia"].diff(tilt) * tilt_rate * turn) / found[
@@ -200,69 +175,42 @@ def base_force(found) -> list[sp.Expr]:
     ]
 
 
-def source() -> str:
-    """The module's text."""
+def functions() -> dict[str, tuple[tuple, list[sp.Expr]]]:
+    """Arguments beside the body, and what is returned, of each compiled function by name."""
     found = derive()
-    functions = [
-        (
-            "rates",
-            "tilt, azimuth, tilt_rate, spin, ground_x, ground_y, ground_z",
+    return {
+        "rates": (
+            (tilt, azimuth, tilt_rate, spin, ground_x, ground_y, ground_z),
             rates_of(found),
-            "Rates of tilt, azimuth, tilt_rate, spin, and of the work that the base does [W].",
         ),
-        (
-            "force",
-            "tilt, tilt_rate, spin, push, across_push, ground_z",
-            base_force(found),
-            "Force of the ground on the foot [N]: towards the azimuth, across it, up.\n\n"
-            "    push, across_push: ground's acceleration [m/s2] to the azimuth and across it.\n"
-            "    ",
-        ),
-        (
-            "inertia",
-            "tilt",
-            [found["tilt_inertia"], found["azimuth_inertia"]],
-            "Of tilt and of azimuth [kg m2].",
-        ),
-        (
-            "potential",
-            "tilt",
-            [gravity * found["rise"], found["tendon"]],
-            "Of gravity, 0 upright, and of the tendon [J].",
-        ),
-        (
-            "moments",
-            "tilt",
-            [found["rise"].diff(tilt), found["lever"].diff(tilt), found["tendon"].diff(tilt)],
-            "Derivatives by the tilt of mass times height and times lever of the weight [kg m],\n"
-            "    and of the tendon's energy [N m].\n"
-            "    ",
-        ),
-        (
-            "shifts",
-            "tilt",
-            [found["top"], found["slab_shift"]],
-            "Displacement of the top's centre and of the slab towards the azimuth [m].",
-        ),
-    ]
-    return _HEAD.format(version=sp.__version__) + "\n\n".join(_function(*one) for one in functions)
+        "force": ((tilt, tilt_rate, spin, push, across_push, ground_z), base_force(found)),
+        "inertia": ((tilt,), [found["tilt_inertia"], found["azimuth_inertia"]]),
+        "potential": ((tilt,), [gravity * found["rise"], found["tendon"]]),
+        "moments": ((tilt,), [found[name].diff(tilt) for name in ("rise", "lever", "tendon")]),
+    }
 
 
-def _function(name, arguments, expressions, doc) -> str:
-    steps, results = sp.cse(expressions, symbols=sp.numbered_symbols("x"), optimizations="basic")
-    used = set().union(*(one.free_symbols for one in [*results, *(right for _, right in steps)]))
-    lines = ["@njit(alone=True)", f"def {name}(body, {arguments}):", f'    """{doc}"""']
-    lines += [
-        f"    {symbol.name} = body[{place}]" for place, symbol in enumerate(BODY) if symbol in used
-    ]
-    lines += [f"    {symbol.name} = {pycode(right)}" for symbol, right in steps]
-    lines += [f"    return {', '.join(pycode(result) for result in results)}", ""]
-    return "\n".join(lines)
+def differences(samples: int = 200) -> dict[str, float]:
+    """Largest difference of each compiled function from what is derived, at random arguments of
+    the size of 1, over the largest of what it returns.
+    """
+    rng, largest = np.random.default_rng(0), {}
+    for name, (arguments, expressions) in functions().items():
+        derived = sp.lambdify((*BODY, *arguments), expressions, "math", cse=True)
+        own = interpreted(getattr(compiled, name))
+        errors = []
+        for body, state in zip(
+            rng.uniform(0.1, 5, (samples, 10)), rng.uniform(0.05, 1, (samples, len(arguments)))
+        ):
+            exact, kept = np.array(derived(*body, *state)), np.array(own(body, *state))
+            errors.append(np.abs(kept - exact).max() / np.abs(exact).max())
+        largest[name] = float(max(errors))
+    return largest
 
 
 def main() -> None:
-    TARGET.write_text(source(), encoding="utf-8")
-    print(f"wrote {TARGET}")
+    for name, error in differences().items():
+        print(f"{name:<10} {error:.1e}")
 
 
 if __name__ == "__main__":

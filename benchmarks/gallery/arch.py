@@ -14,7 +14,7 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.foundation.schema import read_toml
 from fecolumn.pictures.render.draw import render
-from fecolumn.pictures.render.wish import Wish
+from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.simulation import run
 
 # Acceleration [g] at which the arch of meshes/arch.toml becomes a mechanism, by limit analysis; the
@@ -52,8 +52,8 @@ def arch(folder: Path, file: Path, target: Path) -> str:
         axis=0,
     )
     times = [0.0, *(float(history["time"][int(np.argmax(largest > turn))]) for turn in _DRAWN)]
-    wish = Wish(only="pictures", instants=tuple(times), view="front", forces=True)
-    files = render(done, wish, quiet=True)
+    options = RenderOptions(only="pictures", instants=tuple(times), view="front", forces=True)
+    files = render(done, options, quiet=True)
     shutil.copy(next(path for path in files if path.name == "sequence.png"), target)
     return (
         f"meshes/{file.name} under {_MORE:g} times the push that makes it a mechanism, at "

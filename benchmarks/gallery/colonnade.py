@@ -8,7 +8,7 @@ from pathlib import Path
 from fecolumn.case.case import case_from_tables
 from fecolumn.foundation.schema import read_toml
 from fecolumn.pictures.render.draw import render
-from fecolumn.pictures.render.wish import Wish
+from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.simulation import run
 
 # End of the film [s], pictures a second, its size in pixels
@@ -20,8 +20,8 @@ def colonnade(folder: Path, file: Path, target: Path) -> str:
     tables = read_toml(file)
     tables["motion"]["free_vibration_s"] = _LAST
     run(case_from_tables(tables, file), folder)
-    wish = Wish(
+    options = RenderOptions(
         only="movie", gif=True, view="front", color="none", end=_LAST, fps=_RATE, size=_SIZE
     )
-    shutil.copy(render(folder, wish, quiet=True)[0], target)
+    shutil.copy(render(folder, options, quiet=True)[0], target)
     return f"meshes/{file.name}, its first {_LAST:g} s"

@@ -41,7 +41,7 @@ def rocking(work: Work, target: Path) -> str:
     from fecolumn.case.case import case_from_tables
     from fecolumn.engines.dynamics.history import read_history
     from fecolumn.pictures.render.draw import render
-    from fecolumn.pictures.render.wish import Wish
+    from fecolumn.pictures.render.render_options import RenderOptions
     from fecolumn.simulation import run
 
     file, folder = ROOT / "meshes" / "stout.toml", work.folder / "rocking"
@@ -53,7 +53,7 @@ def rocking(work: Work, target: Path) -> str:
     time = float(history["time"][history["tilt"].argmax()])
     still = next(
         path
-        for path in render(folder, Wish(only="pictures", instants=(time,)))
+        for path in render(folder, RenderOptions(only="pictures", instants=(time,)))
         if path.name.startswith("still_")
     )
     shutil.copy(still, target)

@@ -41,17 +41,18 @@ def _series(kind: str, beside=BESIDE, steps=STEPS, share: float = 0.3, **setting
 SERIES = {
     "reduced": _series("reduced"),
     "rigid": _series("reduced", modes=0),
-    "full": _series("full", EVERY_OTHER, STEPS[:5]),
+    "full": _series("full", EVERY_OTHER, (1e-3, 2.5e-4, 1e-4, 1e-5)),
+    "modes-300": _series("reduced", EVERY_OTHER, (1e-3, 1e-4, 1e-5), modes=300),
     **{
-        f"share-{share:g}": _series("reduced", BESIDE, FEW_STEPS, share)
+        f"share-{share:g}": _series("reduced", EVERY_OTHER, FEW_STEPS, share)
         for share in (0.05, 0.1, 0.6)
     },
-    "modes-30": _series("reduced", BESIDE, FEW_STEPS, modes=30),
-    "alpha-0.2": _series("reduced", BESIDE, FEW_STEPS, alpha=-0.2),
-    "damping-0.02": _series("reduced", BESIDE, FEW_STEPS, damping=0.02),
-    "height-0.5": _series("reduced", BESIDE, FEW_STEPS, height=0.5),
+    "modes-30": _series("reduced", EVERY_OTHER, FEW_STEPS, modes=30),
+    "alpha-0.2": _series("reduced", EVERY_OTHER, FEW_STEPS, alpha=-0.2),
+    "damping-0.02": _series("reduced", EVERY_OTHER, FEW_STEPS, damping=0.02),
+    "height-0.5": _series("reduced", EVERY_OTHER, FEW_STEPS, height=0.5),
     # whose loss falls for longer
-    "height-3": _series("reduced", BESIDE, (*FEW_STEPS, 2e-6, 1e-6), height=3.0),
+    "height-3": _series("reduced", EVERY_OTHER, (*FEW_STEPS, 2e-6, 1e-6), height=3.0),
     "bricks-2.5": _series("full", (1.0,), STEPS[:4], size=0.0025),
 }
 #: Names of the series for a reader; 0.3 of the critical tilt and 100 modes where nothing is said
@@ -61,6 +62,7 @@ LABELS = {
     "full": "full order",
     **{f"share-{share:g}": f"reduced, from {share:g}" for share in (0.05, 0.1, 0.6)},
     "modes-30": "reduced, 30 modes",
+    "modes-300": "reduced, 300 modes",
     "alpha-0.2": "reduced, alpha -0.2",
     "damping-0.02": "reduced, modal damping 2 %",
     "height-0.5": "reduced, column of 0.5 m",

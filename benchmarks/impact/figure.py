@@ -11,6 +11,7 @@ from fecolumn.pictures.figures.style import (
     GREY,
     ORANGE,
     PAGE_WIDTH_IN,
+    SKY,
     VERMILION,
     new_figure,
     save,
@@ -21,6 +22,7 @@ ENGINES = {
     "full": ("full order, bricks of 5 mm", BLACK, "s"),
     "bricks-2.5": ("full order, 2.5 mm", ORANGE, "D"),
     "reduced": ("reduced, 100 modes", BLUE, "o"),
+    "modes-300": ("reduced, 300 modes", SKY, "d"),
     "modes-30": ("reduced, 30 modes", GREEN, "v"),
     "rigid": ("rigid body, elastic foot", VERMILION, "^"),
 }

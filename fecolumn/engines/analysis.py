@@ -348,6 +348,26 @@ class Analysis:
 
     def finish(self, ending: Ending, dofs: int, record, factorizations: int) -> dict:
         """Write the last history and the summary, which is returned; the checkpoint goes."""
+        plan = self.case.integration
+        of_steps = dict(
+            kinematics=plan.kinematics,
+            dt_chosen=self.dt_chosen,
+            alpha_hht=plan.alpha_hht,
+            iterations=record.iterations,
+            contact_iterations=record.contact_iterations,
+            impact_iterations=record.impact_iterations,
+            impacts=record.impacts,
+            rigid_loss_share=self.rigid_loss_share(),
+            cuts=record.cuts,
+            parts=record.parts,
+            factorizations=factorizations,
+        )
+        return self.write_results(ending, dofs, of_steps | self.results(ending))
+
+    def write_results(self, ending: Ending, dofs: int, more: dict) -> dict:
+        """Write the last history and the summary of any engine, with `more` entries of this one;
+        the summary is returned.
+        """
         from fecolumn.engines.dynamics.energy import TERMS
 
         rows, plan, overturned = (
@@ -359,17 +379,15 @@ class Analysis:
         top = np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1])
         fall, end = rows["u_top"][-1], float(rows["time"][-1])
         lost_at = end if ending.lost_at_s is None else ending.lost_at_s
+        deep = rows.get("penetration")  # a rigid model has none
         summary = dict(
             case_id=self.case.id,
             title=self.case.title,
             **self.code,
             engine=plan.engine,
-            kinematics=plan.kinematics,
             dofs=dofs,
             steps=self.step,
             dt=plan.dt_s,
-            dt_chosen=self.dt_chosen,
-            alpha_hht=plan.alpha_hht,
             motion=self.motion.name if self.motion else "",
             duration_s=end,
             motion_cut_at_s=self.cut_at_s,
@@ -394,22 +412,15 @@ class Analysis:
             energy_to_overturn_j=self.barrier_j,
             tilt_max_rad=float(rows["tilt"].max()),
             residual_slide_m=float(np.hypot(*rows["slide"][-1])),
-            penetration_max_m=float(rows["penetration"].max()),
+            **({"penetration_max_m": float(deep.max())} if deep is not None else {}),
             ranks=self.comm.size,
             wall_s=self.earlier_s + time.perf_counter() - self.began,
             cpu_s=self.cpu_s,
             s_per_step=self.stepping_s / max(self.step, 1),
-            iterations=record.iterations,
-            contact_iterations=record.contact_iterations,
-            impact_iterations=record.impact_iterations,
-            impacts=record.impacts,
-            rigid_loss_share=self.rigid_loss_share(),
-            cuts=record.cuts,
-            parts=record.parts,
-            factorizations=factorizations,
             energy_closure_rel=energy_closure(rows),
             energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS},
-        ) | self.results(ending)
+            **more,
+        )
         self.write_history()
         if self.comm.rank == 0:
             summary = write_sealed(self.folder, summary)

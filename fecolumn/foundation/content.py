@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import functools
-import hashlib
 from pathlib import Path
 
+from fecolumn.foundation.digests import digest_of_file
 from fecolumn.foundation.files import is_file
 
 
@@ -14,13 +13,4 @@ def content(source: str) -> str:
     motion in an ensemble.
     """
     file, mark, number = (source, "", "") if is_file(source) else source.rpartition("#")
-    if not is_file(file):
-        return source
-    status = Path(file).stat()
-    return _digest(file, status.st_size, status.st_mtime_ns) + mark + number
-
-
-@functools.lru_cache(maxsize=4096)
-def _digest(path: str, size: int, changed: int) -> str:
-    """sha256 of a file; size and time of change tell whether it is still the one read before."""
-    return hashlib.sha256(Path(path).read_bytes()).hexdigest()
+    return digest_of_file(Path(file)) + mark + number if is_file(file) else source

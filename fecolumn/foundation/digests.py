@@ -21,7 +21,7 @@ DIGESTS = "digests.json"
 
 def note(folder: Path, *names: str) -> None:
     """Write down the digests of files of a folder, beside those that it has."""
-    known = _noted(folder) | {name: _digest(*_version(folder / name)) for name in names}
+    known = _noted(folder) | {name: digest_of_file(folder / name) for name in names}
     write_json(folder / DIGESTS, known)
 
 
@@ -33,7 +33,7 @@ def intact(folder: Path, *names: str) -> bool:
     noted = _noted(folder)
     try:
         return bool(noted) and all(
-            noted.get(name) == _digest(*_version(folder / name)) for name in names or noted
+            noted.get(name) == digest_of_file(folder / name) for name in names or noted
         )
     except (OSError, ValueError):
         return False
@@ -64,10 +64,16 @@ def _noted(folder: Path) -> dict[str, str]:
     return found if isinstance(found, dict) else {}
 
 
-def _version(path: Path) -> tuple[str, int, int, int]:
-    """What tells whether a file is still the one that was read before."""
+def digest_of_file(path: Path) -> str:
+    """SHA-256 of a file, which is read again where its size, its time or its inode is another.
+
+    Raises
+    ------
+    OSError
+        no such file, or one that cannot be read.
+    """
     status = path.stat()
-    return str(path), status.st_size, status.st_mtime_ns, status.st_ino
+    return _digest(str(path), status.st_size, status.st_mtime_ns, status.st_ino)
 
 
 @functools.lru_cache(maxsize=4096)

@@ -44,10 +44,10 @@ class InputError(ValueError):
             value,
             _in_text(allowed),
         )
-        told = f" = {shown(value)}" if value is not None else ""
+        equals = f" = {shown(value)}" if value is not None else ""
         self.all: tuple[InputError, ...] = (self,)
         super().__init__(
-            f"{self.file}: {_in_text(key)}{told}: {self.allowed}"
+            f"{self.file}: {_in_text(key)}{equals}: {self.allowed}"
             if key
             else f"{self.file}: {self.allowed}"
         )
@@ -233,8 +233,8 @@ def _checked(kind, metadata, value, file, key):
         if metadata["choices"] and item not in metadata["choices"]:
             bad = True
         if isinstance(item, float) and 0 < abs(item) < _LEAST:
-            told = f"{allowed_range(metadata)}, and {_LEAST:g} in magnitude unless it is 0"
-            raise InputError(file, key, value, f"{told}; {metadata['doc']}")
+            allowed = f"{allowed_range(metadata)}, and {_LEAST:g} in magnitude unless it is 0"
+            raise InputError(file, key, value, f"{allowed}; {metadata['doc']}")
         if bad:
             raise InputError(file, key, value, f"{allowed_range(metadata)}; {metadata['doc']}")
         if isinstance(item, str) and (

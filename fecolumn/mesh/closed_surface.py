@@ -294,8 +294,8 @@ def _outwards(surface):
     # VTK may have put them into another order
     _, same = cKDTree(before.mean(axis=1)).query(after.mean(axis=1))
     inverted = int((np.einsum("ni,ni->n", way[same], other) < 0).sum())
-    told = f"{inverted} of {len(after)} triangles looked inwards, and were turned"
-    return turned, [told] if inverted else []
+    note = f"{inverted} of {len(after)} triangles looked inwards, and were turned"
+    return turned, [note] if inverted else []
 
 
 def flat_foot(points: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, list[str]]:

@@ -62,11 +62,6 @@ class Estimate:
     engine: str
 
     @property
-    def elements(self) -> dict:
-        """Number of elements by body, or by part of a column."""
-        return self.bricks
-
-    @property
     def all_bricks(self) -> int:
         """Elements of all parts."""
         return sum(self.bricks.values())

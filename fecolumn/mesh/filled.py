@@ -162,8 +162,8 @@ def _run(file: MeshFile, way, surface: Path, result: Path) -> dict:
         raise UnusableShape(None, f"Gmsh has not ended after {_PATIENCE} s") from None
     if done.returncode:
         last = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
-        told = last[0] if done.returncode > 0 and last else f"signal {-done.returncode}"
-        raise UnusableShape(None, f"cannot be read: the reader ended by itself ({told})")
+        reason = last[0] if done.returncode > 0 and last else f"signal {-done.returncode}"
+        raise UnusableShape(None, f"cannot be read: the reader ended by itself ({reason})")
     if result.read_bytes()[:2] != b"PK":
         raise UnusableShape(*json.loads(result.read_text()))
     with np.load(result) as found:

@@ -18,7 +18,6 @@ _OPTIONS = {
     "Mesh.SubdivisionAlgorithm": 0,
     "Mesh.SaveAll": 0,
 }
-_HEXAHEDRON = 5  # Gmsh's element type of the 8-node brick, whose node order is VTK's
 
 
 @contextlib.contextmanager
@@ -109,7 +108,7 @@ def extruded(
         geo = gmsh.model.geo
         surfaces = [(2, tag) for tag in section.draw(geo)]
         geo.extrude(surfaces, 0, 0, height, numElements=[n_layers], recombine=True)
-        points, cells = _generated(gmsh)
+        points, cells = generated(gmsh)
     points[:, :2] = section.evened(points[:, :2])
     return brick_mesh(points, cells, part).shifted(bottom)
 
@@ -144,7 +143,7 @@ def swept_grid(x, y, z, part: int) -> BrickMesh:
                 heights=list((line[1:] - line[0]) / length),
                 recombine=True,
             )[1]
-        points, cells = _generated(gmsh)
+        points, cells = generated(gmsh)
     places = [_nearest(line, points[:, axis]) for axis, line in enumerate(lines)]
     number = places[0] + len(lines[0]) * (places[1] + len(lines[1]) * places[2])
     if len(np.unique(number)) != len(number) or len(number) != np.prod(
@@ -161,17 +160,23 @@ def _nearest(line, values):
     return np.searchsorted((line[1:] + line[:-1]) / 2, values)
 
 
-def _generated(gmsh) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 3) [m] and bricks (m, 8) of the current model."""
+def generated(gmsh, dimension: int = 3) -> tuple[np.ndarray, np.ndarray]:
+    """Points (n, 3) [m] and bricks (m, 8), their nodes in VTK's order, of the current model; or
+    quadrilaterals (m, 4) of a plane one, which has two dimensions.
+
+    Raises
+    ------
+    RuntimeError
+        Gmsh has made other elements.
+    """
     gmsh.model.geo.synchronize()
-    gmsh.model.mesh.generate(3)
-    kinds, _, nodes = gmsh.model.mesh.getElements(3)
-    if list(kinds) != [_HEXAHEDRON]:
-        raise RuntimeError(
-            f"Gmsh returned the element types {list(kinds)}, not 8-node bricks alone"
-        )
+    gmsh.model.mesh.generate(dimension)
+    kinds, _, nodes = gmsh.model.mesh.getElements(dimension)
+    corners = 2**dimension
+    if [gmsh.model.mesh.getElementProperties(kind)[3] for kind in kinds] != [corners]:
+        raise RuntimeError(f"Gmsh returned the element types {list(kinds)}, not {corners} corners")
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     used, cells = np.unique(nodes[0], return_inverse=True)
     order = np.argsort(tags)
     points = np.asarray(coordinates).reshape(-1, 3)[order[np.searchsorted(tags[order], used)]]
-    return points, cells.reshape(-1, 8)
+    return points, cells.reshape(-1, corners)

@@ -186,37 +186,47 @@ def rendered(
     depth
         what is nearer or farther than the focus by this share of it is cut away.
     """
-    # VTK asks for an X server first and complains where there is none.
+    plotter = off_screen_plotter([max(2, side) for side in pixels])
+    import pyvista
+
+    try:
+        fill(plotter, pyvista)
+        light_and_look(plotter, focus, view, half_height, reach, depth)
+        return plotter.screenshot(None, return_img=True)
+    finally:
+        plotter.close()
+
+
+def off_screen_plotter(pixels):
+    """A pyvista.Plotter of so many pixels (width, height), white and dark, without a screen."""
+    # VTK asks for an X server first and complains where there is none
     if not os.environ.get("DISPLAY"):
         os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
     import pyvista
 
+    plotter = pyvista.Plotter(off_screen=True, window_size=list(pixels), lighting="none")
+    plotter.set_background("white")
+    return plotter
+
+
+def light_and_look(plotter, focus, view, half_height: float, reach: float, depth: float) -> None:
+    """Two lights, and a camera in parallel projection; arguments as of `rendered`."""
+    import pyvista
+
     right, up, toward = view
-    plotter = pyvista.Plotter(
-        off_screen=True, window_size=[max(2, side) for side in pixels], lighting="none"
-    )
-    try:
-        plotter.set_background("white")
-        fill(plotter, pyvista)
-        for direction, strength in (
-            (toward + 0.8 * up - 0.5 * right, 0.95),
-            (toward + right, 0.25),
-        ):
-            plotter.add_light(
-                pyvista.Light(
-                    position=tuple(focus + reach * direction),
-                    focal_point=tuple(focus),
-                    intensity=strength,
-                    light_type="scene light",
-                )
+    for direction, strength in ((toward + 0.8 * up - 0.5 * right, 0.95), (toward + right, 0.25)):
+        plotter.add_light(
+            pyvista.Light(
+                position=tuple(focus + reach * direction),
+                focal_point=tuple(focus),
+                intensity=strength,
+                light_type="scene light",
             )
-        plotter.enable_parallel_projection()
-        plotter.camera_position = [tuple(focus + reach * toward), tuple(focus), tuple(up)]
-        plotter.camera.parallel_scale = half_height
-        plotter.camera.clipping_range = ((1 - depth) * reach, (1 + depth) * reach)
-        return plotter.screenshot(None, return_img=True)
-    finally:
-        plotter.close()
+        )
+    plotter.enable_parallel_projection()
+    plotter.camera_position = [tuple(focus + reach * toward), tuple(focus), tuple(up)]
+    plotter.camera.parallel_scale = half_height
+    plotter.camera.clipping_range = ((1 - depth) * reach, (1 + depth) * reach)
 
 
 def _legend(figure, meshes: tuple[BrickMesh, ...], left_mm, size_mm) -> None:

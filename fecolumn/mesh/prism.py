@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 from fecolumn.mesh.bricks import BrickMesh, brick_mesh
 from fecolumn.mesh.column import divisions
-from fecolumn.mesh.gmsh_section import gmsh_model
+from fecolumn.mesh.gmsh_section import generated, gmsh_model
 
 # Least sine of the angles of the quadrilaterals of a row
 _BLUNT = 0.15
@@ -144,16 +144,8 @@ def _free(corners: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray]:
             geo.mesh.setTransfiniteCurve(line, half + 1)
         surface = geo.addPlaneSurface([geo.addCurveLoop(lines)])
         geo.mesh.setRecombine(2, surface)
-        geo.synchronize()
-        gmsh.model.mesh.generate(2)
-        kinds, _, nodes = gmsh.model.mesh.getElements(2)
-        if [gmsh.model.mesh.getElementProperties(kind)[3] for kind in kinds] != [4]:
-            raise RuntimeError(f"Gmsh returned the element types {list(kinds)}, not quadrilaterals")
-        tags, coordinates, _ = gmsh.model.mesh.getNodes()
-    used, quads = np.unique(nodes[0], return_inverse=True)
-    order = np.argsort(tags)
-    points = np.asarray(coordinates).reshape(-1, 3)[order[np.searchsorted(tags[order], used)], :2]
-    return _evened(points, corners, halves), quads.reshape(-1, 4)
+        points, quads = generated(gmsh, 2)
+    return _evened(points[:, :2], corners, halves), quads
 
 
 def _evened(points: np.ndarray, corners: np.ndarray, halves: list[int]) -> np.ndarray:

@@ -297,10 +297,10 @@ def _elements(gmsh) -> tuple[np.ndarray, np.ndarray]:
     kinds, _, nodes = gmsh.model.mesh.getElements(3)
     found = {int(kind): one for kind, one in zip(kinds, nodes)}
     if set(found) not in ({_TETRAHEDRON}, {_HEXAHEDRON}):
-        told = ", ".join(
+        names = ", ".join(
             _NAMES.get(kind, "tetrahedron" if kind == 4 else "brick") for kind in found
         )
-        raise UnusableShape(told or "no elements", "must be tetrahedra or 8-node bricks alone")
+        raise UnusableShape(names or "no elements", "must be tetrahedra or 8-node bricks alone")
     ((kind, one),) = found.items()
     tags, places, _ = gmsh.model.mesh.getNodes()
     order = np.zeros(int(tags.max()) + 1, np.int64)

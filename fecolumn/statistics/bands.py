@@ -71,23 +71,6 @@ def wilson(k: ArrayLike, n: int, confidence: float = 0.95) -> tuple[NDArray[Any]
     return np.where(k == 0, 0.0, lower), np.where(k == n, 1.0, upper)
 
 
-def clopper_pearson(
-    k: ArrayLike, n: int, confidence: float = 0.95
-) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Exact interval of a probability after k of n runs, never below its level, wider than
-    Wilson's.
-
-    Quantiles of beta distributions (Clopper & Pearson 1934, Biometrika 26). Arguments and result as
-    of `wilson`.
-    """
-    from scipy.stats import beta
-
-    k, tail = _counts(k, n), (1 - confidence) / 2
-    lower = np.where(k == 0, 0.0, beta.ppf(tail, np.maximum(k, 1), n - k + 1))
-    upper = np.where(k == n, 1.0, beta.ppf(1 - tail, k + 1, np.maximum(n - k, 1)))
-    return lower, upper
-
-
 def dkw(ecdf: Ecdf, confidence: float = 0.95) -> tuple[NDArray[Any], NDArray[Any]]:
     """Simultaneous band F +- `dkw_distance`, clipped to [0, 1].
 

@@ -25,22 +25,14 @@ class CdfConvergence:
 
     Attributes
     ----------
-    sizes
-        (m,) n.
     median, upper_95
         (m,) 50 % and 95 % quantile of the distance.
-    expected_median, expected_95
-        (m,) the same of a sample of n from a continuous distribution (Kolmogorov), times the
-        finite-population factor; ties, as overturned runs are, make the distance smaller.
     dkw_95
         (m,) bound of the distance of F_n from the true F at 95 % (Massart 1990).
     """
 
-    sizes: NDArray[Any]
     median: NDArray[Any]
     upper_95: NDArray[Any]
-    expected_median: NDArray[Any]
-    expected_95: NDArray[Any]
     dkw_95: NDArray[Any]
 
 
@@ -67,8 +59,6 @@ def cdf_convergence(
     ValueError
         a size outside [1, N]; as of `ecdf`.
     """
-    from scipy.stats import kstwo
-
     u, sizes = np.sort(censored(u_max, overturned)), np.asarray(sizes, int)
     total = u.size
     if sizes.ndim != 1 or not sizes.size or sizes.min() < 1 or sizes.max() > total:
@@ -86,12 +76,4 @@ def cdf_convergence(
             part[:] = np.abs(np.cumsum(drawn, axis=1)[:, end - 1] / n - end / total).max(axis=1)
         quantiles.append(np.quantile(distances, (0.5, 0.95)))
     median, upper = np.transpose(quantiles)
-    factor = np.sqrt((total - sizes) / max(total - 1, 1))
-    return CdfConvergence(
-        sizes,
-        median,
-        upper,
-        factor * kstwo.ppf(0.5, sizes),
-        factor * kstwo.ppf(0.95, sizes),
-        dkw_distance(sizes),
-    )
+    return CdfConvergence(median, upper, dkw_distance(sizes))

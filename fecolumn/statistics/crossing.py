@@ -55,12 +55,6 @@ class GradedValues:
         """Whether the limit is kept at large values rather than at small ones."""
         return self.grades[self.count - 1] >= self.grades[0]
 
-    @property
-    def crosses(self) -> bool:
-        """Whether the limit is broken at one end and kept at the other."""
-        ends = self.grades[0], self.grades[self.count - 1]
-        return min(ends) <= BROKEN and max(ends) >= KEPT
-
     def wanted(self) -> list[int]:
         """Places to look at next; none where all is known."""
         ends = [place for place in (0, self.count - 1) if place not in self.grades]

@@ -124,12 +124,12 @@ def difference_shortfall(n: int, distance: float, comparisons: int = 1) -> str:
     comparisons
         pairs of settings that answer one question.
     """
-    told = detectable_distance(n, _LEVEL / comparisons)
-    if distance >= told:
+    detectable = detectable_distance(n, _LEVEL / comparisons)
+    if distance >= detectable:
         return ""
     among = f" among {comparisons} comparisons" if comparisons > 1 else ""
     return (
-        f"With {n} motions a KS distance below {told:.2f} cannot be told from 0{among} "
+        f"With {n} motions a KS distance below {detectable:.2f} cannot be told from 0{among} "
         "but by the pairing of motions: the claim of a difference of "
         f"{distance:.2f} needs about N = {motions_needed(distance, _LEVEL / comparisons)}."
     )

@@ -67,11 +67,10 @@ def _spectrum(args, folder) -> None:
 
     case = read_model_case("housner", args.case)
     plane = case.model.planes[0]
-    rocker = plane.rocker
     if (
-        rocker.row[FASTEST] ** 2 > rocker.p2[0] * (1 + 1e-12)
-        or rocker.only
-        or rocker.alpha[0] != rocker.alpha[1]
+        plane.row[FASTEST] ** 2 > plane.p2[0] * (1 + 1e-12)
+        or plane.only
+        or plane.alpha[0] != plane.alpha[1]
     ):
         raise InputError(
             args.case,
@@ -86,8 +85,8 @@ def _spectrum(args, folder) -> None:
         flush=True,
     )
     rows = spectra_table(
-        rocker.alpha[0],
-        rocker.restitution[0],
+        plane.alpha[0],
+        plane.restitution[0],
         show=lambda text: print(text, file=sys.stderr, flush=True),
     )
     write_csv(
@@ -106,12 +105,12 @@ def _spectrum(args, folder) -> None:
             ),
         ],
     )
-    overturning_figure(rows, rocker.alpha[0], folder / "overturning")
+    overturning_figure(rows, plane.alpha[0], folder / "overturning")
     slenderness_figure(folder / "slenderness")
     lowest: dict = {}
     for shape, frequency, band in rows:
         lowest.setdefault((shape, frequency), band)
-    p = rocker.p2[0] ** 0.5
+    p = plane.p2[0] ** 0.5
     print(
         f"{'pulse':<22}{'w_p/p':>7}{'T_p [s]':>9}{'a_p/(g tan alpha)':>19}{'a_p [g]':>9} "
         " impacts before overturning"
@@ -120,7 +119,7 @@ def _spectrum(args, folder) -> None:
         if frequency in (1.0, 2.0, 4.0, 6.0, 8.0):
             print(
                 f"{shape:<22}{frequency:>7g}{2 * math.pi / (frequency * p):>9.3g}"
-                f"{band.low:>19.4f}{band.low * math.tan(rocker.alpha[0]):>9.3g}  {band.impacts}"
+                f"{band.low:>19.4f}{band.low * math.tan(plane.alpha[0]):>9.3g}  {band.impacts}"
             )
 
 

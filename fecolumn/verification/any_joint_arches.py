@@ -264,28 +264,29 @@ def _thickness_rows(engine: str, long: bool):
             if share == 0.995:
                 edges += hinges(statics_of(made.model), turns).keys() != thrust_at_edges(voussoirs)
         limits.append(_least_thickness(voussoirs) / least - 1)
-    told = f"arches of {', '.join(map(str, LEAST))} voussoirs"
+    label = f"arches of {', '.join(map(str, LEAST))} voussoirs"
     yield Row(
-        f"{told}: least thickness by an own linear programme over that of the table, largest error",
+        f"{label}: least thickness by an own linear programme over that of the table, largest "
+        "error",
         0.0,
         np.abs(limits).max(),
         1e-5,
     )
     yield Row(
-        f"{told} that are taken with 0.995 of the least thickness, or find no rest with 1.005",
+        f"{label} that are taken with 0.995 of the least thickness, or find no rest with 1.005",
         0,
         wrong,
         0.5,
     )
     yield Row(
-        f"{told} begun as drawn: that stand with 0.995 of it, or{' from rest' * elastic} fall with "
-        "1.005",
+        f"{label} begun as drawn: that stand with 0.995 of it, or{' from rest' * elastic} fall "
+        "with 1.005",
         0,
         falls,
         0.5,
     )
     yield Row(
-        f"{told}, collapsing with 0.995 of it: that turn at other joints than those at whose "
+        f"{label}, collapsing with 0.995 of it: that turn at other joints than those at whose "
         "edges the thrust line of limit analysis is",
         0,
         edges,
@@ -326,7 +327,7 @@ def _pushed_rows(engine: str):
         model = structure_model(case)
         blocks = statics_of(model)
         limit, turning = limit_analysis(sectors(thickness, 11, pier))[0], limit_analysis(blocks)[2]
-        told = f"arch, t/R {thickness:g}" + (
+        label = f"arch, t/R {thickness:g}" + (
             f", on piers of {pier[0]:g} x {pier[1]:g} R in {pier[2]} blocks" if pier else ""
         )
         differ = 0
@@ -335,19 +336,19 @@ def _pushed_rows(engine: str):
             fell, turns = _collapses(made, push(share * exact))
             differ += fell != (share > 1)
         yield Row(
-            f"{told}: horizontal acceleration [g] of a mechanism by an own linear programme",
+            f"{label}: horizontal acceleration [g] of a mechanism by an own linear programme",
             exact,
             limit,
             2e-5,
         )
         yield Row(
-            f"{told}: stands at 0.99 of it and falls at 1.01; outcomes that differ", 0, differ, 0.5
+            f"{label}: stands at 0.99 of it and falls at 1.01; outcomes that differ", 0, differ, 0.5
         )
         exact_hinges, found = hinges(blocks, turning), hinges(blocks, turns)
         sign = 1 if sum(one == found.get(k) for k, one in exact_hinges.items()) else -1
         yield Row(
-            f"{told}, collapsing at 1.01 of it: hinges other than the {len(exact_hinges)} of limit "
-            "analysis",
+            f"{label}, collapsing at 1.01 of it: hinges other than the {len(exact_hinges)} of "
+            "limit analysis",
             0,
             len({(k, sign * one) for k, one in exact_hinges.items()} ^ set(found.items())),
             0.5,

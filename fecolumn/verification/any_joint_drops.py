@@ -26,9 +26,9 @@ def drop_rows(engine: str):
     the energy is known.
     """
     for plate in (False, True):
-        told = f"block that falls 0.1 m onto {'a plate' if plate else 'the ground'}"
+        label = f"block that falls 0.1 m onto {'a plate' if plate else 'the ground'}"
         if engine == "rigid":
-            yield from _landing_rows(told, plate)
+            yield from _landing_rows(label, plate)
         energies = []
         for lean, direction in _ON.values():
             for restitution in (0.0, 0.5):
@@ -37,7 +37,7 @@ def drop_rows(engine: str):
                 moved = np.ptp(columns["energy/gravity"])
                 energies.append(np.abs(columns["energy/closure"]).max() / moved)
         yield Row(
-            f"{told} on {', '.join(_ON)}: error of the energy balance over the energy that moved",
+            f"{label} on {', '.join(_ON)}: error of the energy balance over the energy that moved",
             0.0,
             max(energies),
             1e-12,
@@ -46,13 +46,13 @@ def drop_rows(engine: str):
         yield from _caught_rows()
 
 
-def _landing_rows(told: str, plate: bool):
+def _landing_rows(label: str, plate: bool):
     """How high a rigid block rises from a face, and its velocities after each kind of landing."""
     for restitution, allowed in ((0.0, 1e-6), (0.5, 1e-3), (0.8, 1e-3)):
         made = _falls("rigid", restitution, *_ON["a face"], plate)
         columns = columns_of(made.advance(np.zeros((450, 3)))[0], made.model)
         yield Row(
-            f"{told}, restitution {restitution:g}: height to which it rises [m], e^2 h",
+            f"{label}, restitution {restitution:g}: height to which it rises [m], e^2 h",
             restitution**2 * _GAP,
             _rise(columns["body/block/displacement"][:, 2]),
             allowed,
@@ -60,7 +60,7 @@ def _landing_rows(told: str, plate: bool):
     for name, on in _ON.items():
         off = [_impact_error(*on, plate, restitution) for restitution in (0.0, 0.5)]
         yield Row(
-            f"{told} on {name}, restitution 0 and 0.5: velocities after the impact, angular "
+            f"{label} on {name}, restitution 0 and 0.5: velocities after the impact, angular "
             "momentum about what lands kept, over that of landing, largest error",
             0.0,
             max(off),
@@ -175,16 +175,16 @@ def _caught_rows():
     )
     rows, ended = made.advance(np.zeros((5000, 3)))
     columns = columns_of(rows, made.model)
-    told = "column that leans by 0.17 rad, caught by a fixed beam 0.45 m away"
+    label = "column that leans by 0.17 rad, caught by a fixed beam 0.45 m away"
     yield Row(
-        f"{told}: tilt [rad] at which it rests, asin(0.45 / 2)",
+        f"{label}: tilt [rad] at which it rests, asin(0.45 / 2)",
         float(np.arcsin(_STOP / height)),
         np.nan if ended else columns["body/column/tilt"][-1],
         1e-4,
     )
-    yield Row(f"{told}: kinetic energy at 5 s [J]", 0.0, columns["energy/kinetic"][-1], 1e-9)
+    yield Row(f"{label}: kinetic energy at 5 s [J]", 0.0, columns["energy/kinetic"][-1], 1e-9)
     yield Row(
-        f"{told}: error of the energy balance over the energy that moved",
+        f"{label}: error of the energy balance over the energy that moved",
         0.0,
         np.abs(columns["energy/closure"]).max() / np.ptp(columns["energy/gravity"]),
         1e-12,

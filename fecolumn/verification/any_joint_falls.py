@@ -63,17 +63,17 @@ def _lying_rows(engine: str):
     start = dict(block=dict(spin_rad_s=[0.0, _SPIN, 0.0]))
     made = _made(engine, dict(block=_block()), "all", joints=foot, initial=start)
     columns = columns_of(made.advance(np.zeros((3000, 3)))[0], made.model)
-    told = "block that overturns and falls on its side, contact found"
+    label = "block that overturns and falls on its side, contact found"
     if engine == "rigid":
         yield Row(
-            f"{told}: height of its middle [m] after 3 s",
+            f"{label}: height of its middle [m] after 3 s",
             _SIDES[0] / 2,
             float(made.motion.frames["center"][0, 2]),
             1e-7,
         )
         speed = np.linalg.norm(made.motion.frames["velocity"][0])
-        yield Row(f"{told}: velocity then [m/s]", 0.0, float(speed), 1e-7)
-    yield Row(f"{told}: error of the energy balance", 0.0, _balance(columns), 1e-12)
+        yield Row(f"{label}: velocity then [m/s]", 0.0, float(speed), 1e-7)
+    yield Row(f"{label}: error of the energy balance", 0.0, _balance(columns), 1e-12)
 
 
 def _same_as_at_a_joint():
@@ -89,15 +89,17 @@ def _same_as_at_a_joint():
     joint = each[1]
     turns = [columns["body/upper/rotation"] for columns in each]
     hits = int(np.argmax(joint["energy/impact"] < -1.0)) - 1
-    told = "block let go from 0.15 rad on a block, contact found and at their joint"
+    label = "block let go from 0.15 rad on a block, contact found and at their joint"
     yield Row(
-        f"{told}: largest difference of the rotation until the first impact, over its peak",
+        f"{label}: largest difference of the rotation until the first impact, over its peak",
         0.0,
         float(np.abs(turns[0][:hits] - turns[1][:hits]).max() / np.abs(turns[1]).max()),
         1e-6,
     )
     loss = [float(columns["energy/impact"][-1]) for columns in each]
-    yield Row(f"{told}: what the impact takes over that at the joint", 1.0, loss[0] / loss[1], 1e-2)
+    yield Row(
+        f"{label}: what the impact takes over that at the joint", 1.0, loss[0] / loss[1], 1e-2
+    )
 
 
 def _collision_rows():
@@ -158,10 +160,10 @@ def _colonnade_rows():
     rows, _ = made.advance(ground)
     columns_made = columns_of(rows, made.model)
     parts, centers = made.model.parts, made.motion.frames["center"]
-    told = f"colonnade of {len(parts)} stones that collapses"
+    label = f"colonnade of {len(parts)} stones that collapses"
     low = [1.01 * half for half in [diameter / 2] * columns * drums + [0.7 / 2] * (columns - 1)]
     yield Row(
-        f"{told}: stones whose middles are within a stone of the ground after {_LATER:g} s",
+        f"{label}: stones whose middles are within a stone of the ground after {_LATER:g} s",
         float(len(parts)),
         float((centers[:, 2] < np.array(low) + diameter).sum()),
         0.0,
@@ -173,14 +175,14 @@ def _colonnade_rows():
         np.ascontiguousarray(centers), np.ascontiguousarray(made.motion.rotation)
     )
     depth = max((one[2] for one in deepest), default=0.0)
-    yield Row(f"{told}: depth of any stone in another [m]", 0.0, max(depth, 0.0), 1e-5)
+    yield Row(f"{label}: depth of any stone in another [m]", 0.0, max(depth, 0.0), 1e-5)
     fastest = float(np.linalg.norm(made.motion.frames["velocity"], axis=1).max())
     # a drum that is slower rocks in its place, for it climbs over no corner of its outline
     climbs = np.sqrt(GRAVITY * diameter * (1 - np.cos(np.pi / _CORNERS)) / 1.5)
     yield Row(
-        f"{told}: fastest stone then [m/s], none rolls on",
+        f"{label}: fastest stone then [m/s], none rolls on",
         0.0,
         fastest,
         float(climbs),
     )
-    yield Row(f"{told}: error of the energy balance", 0.0, _balance(columns_made), 1e-12)
+    yield Row(f"{label}: error of the energy balance", 0.0, _balance(columns_made), 1e-12)

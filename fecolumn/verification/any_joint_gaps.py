@@ -196,26 +196,26 @@ def _wall_rows(engine: str):
     """
     dt = _STEPS[engine]
     for friction in (0.0, 0.7):
-        told = f"block at a wall, gap 0, side friction {friction:g}"
+        label = f"block at a wall, gap 0, side friction {friction:g}"
         made = _beside(engine, 0.0, friction, True, dt, dict(tilt_rad=0.05, direction_deg=180.0))
         columns = _shaken(made, np.zeros((round(0.4 / dt), 3)))
         fell = columns["energy/kinetic"].max()
         yield Row(
-            f"{told}, let go at 0.05 rad: kinetic energy after its return over that before, by the "
-            "plane problem",
+            f"{label}, let go at 0.05 rad: kinetic energy after its return over that before, by "
+            "the plane problem",
             0.0,
             columns["energy/kinetic"][-round(0.2 / dt) :].max() / fell,
             1e-3,
         )
         columns = _shaken(_beside(engine, 0.0, friction, True, dt), _cycle(dt, *_CYCLE, 3.0))
         yield Row(
-            f"{told}, one sine 0.4 g, 0.6 s: largest tilt towards the wall over that from it",
+            f"{label}, one sine 0.4 g, 0.6 s: largest tilt towards the wall over that from it",
             0.0,
             max(columns["left"].max(), 0.0) / -columns["left"].min(),
             1e-3,
         )
         yield Row(
-            f"{told}, the same motion: peak tilt from the wall [rad], by Housner's block that "
+            f"{label}, the same motion: peak tilt from the wall [rad], by Housner's block that "
             "stops at its return",
             _housner_peak(*_CYCLE, one_side=True),
             -columns["left"].min(),

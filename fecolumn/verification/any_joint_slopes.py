@@ -42,26 +42,26 @@ def slope_rows(engine: str):
                 far.append(
                     np.linalg.norm(acceleration_of(made, "block", 0.02)) / GRAVITY - exact / GRAVITY
                 )
-    told = "block on slopes of 10, 25, 40 deg, falling along x, y and askew"
+    label = "block on slopes of 10, 25, 40 deg, falling along x, y and askew"
     yield Row(
-        f"{told}, mu = tan(angle) (1 - 1e-6): acceleration over g (sin - mu cos), largest error",
+        f"{label}, mu = tan(angle) (1 - 1e-6): acceleration over g (sin - mu cos), largest error",
         0.0,
         np.abs(slides).max(),
         1e-2,
     )
-    yield Row(f"{told}, the same: starts at rest that are found", 0, stood, 0.5)
+    yield Row(f"{label}, the same: starts at rest that are found", 0, stood, 0.5)
     yield Row(
-        f"{told}, mu = tan(angle) (1 + 1e-6), from rest: velocity in the first second over that of "
-        "the first row after one",
+        f"{label}, mu = tan(angle) (1 + 1e-6), from rest: velocity in the first second over that "
+        "of the first row after one",
         0.0,
         np.abs(stays).max(),
         1e-3,
     )
     yield Row(
-        f"{told}, the same begun as drawn: velocity in the eleventh second", 0.0, max(stops), 1e-3
+        f"{label}, the same begun as drawn: velocity in the eleventh second", 0.0, max(stops), 1e-3
     )
     yield Row(
-        f"{told}, mu 0, 0.5, 0.9 of tan(angle): acceleration [g], largest error",
+        f"{label}, mu 0, 0.5, 0.9 of tan(angle): acceleration [g], largest error",
         0.0,
         np.abs(far).max(),
         1e-6,

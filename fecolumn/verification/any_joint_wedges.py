@@ -65,12 +65,12 @@ def _by_friction(off: float) -> Iterator[Trial]:
 
 
 def _thrust_rows(engine: str):
-    told = (
+    label = (
         "wedge between abutments, its faces 20, 10, -20, -10 deg from the vertical (narrowing "
         "downwards > 0), mu 0.5, 0.7: about the thrusts below which it sinks; 35, 50 deg, mu 0.3, "
         "0.5: above which it is squeezed up"
     )
-    yield from _limit_rows(engine, _by_thrust, told, "thrust")
+    yield from _limit_rows(engine, _by_thrust, label, "thrust")
     errors = []
     for trial in _by_thrust(FAR):
         made = wedge(engine, *trial[:3])
@@ -101,12 +101,12 @@ def _jam_rows(engine: str):
     about the strain. So theirs is beside that of stiff ones; how fast they go is told of rigid
     ones alone.
     """
-    told = (
+    label = (
         "wedge with mu = tan(theta), theta 10, 20 deg, thrust 1000 W: about the friction below "
         "which it falls or is squeezed up"
     )
     if engine == "rigid":
-        yield from _limit_rows(engine, _by_friction, told, "friction")
+        yield from _limit_rows(engine, _by_friction, label, "friction")
         errors = []
         for trial in _by_friction(FAR):
             # at up to 600 m/s2, which lifts the abutment, and soon turns the tendon
@@ -122,7 +122,7 @@ def _jam_rows(engine: str):
         strain = _JAMMED * _WEDGE * GRAVITY / (_STONE * _FACE)
         off = [_limit(engine, two, 0.01, _STONE) for two in _two(_by_friction, 1e-3, 2e-3)]
         yield Row(
-            f"{told}: friction of the limit off that of statics, over the strain by the thrust",
+            f"{label}: friction of the limit off that of statics, over the strain by the thrust",
             0.0,
             float(np.abs(off).max()) / strain,
             2.0,
@@ -163,7 +163,7 @@ def _limit(engine: str, two: tuple[Trial, Trial], each: float, modulus: float) -
     return 1e-3 - one * 1e-3 / (other - one)
 
 
-def _limit_rows(engine: str, kinds: Callable, told: str, what: str):
+def _limit_rows(engine: str, kinds: Callable, label: str, what: str):
     """Where accelerations OFF and FARTHER within the limit, on a line, say that the limit is, and
     the first beside the closed form.
     """
@@ -173,7 +173,7 @@ def _limit_rows(engine: str, kinds: Callable, told: str, what: str):
         limits.append(OFF - one * (FARTHER - OFF) / (other - one))
         errors.append(one / wedge_acceleration(*near) - 1)
     yield Row(
-        f"{told}: {what} of the limit over that of statics, largest error",
+        f"{label}: {what} of the limit over that of statics, largest error",
         0.0,
         np.abs(limits).max(),
         1e-6,

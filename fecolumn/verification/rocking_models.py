@@ -39,13 +39,13 @@ from fecolumn.engines.rocking.impact import (
     rectangular_restitution,
 )
 from fecolumn.engines.rocking.overturning import (
+    critical_tilt_rate,
     half_sine_overturning,
     half_sine_phase,
     linear_overturning,
     outcomes,
     overturning_bands,
     slenderness_factor,
-    verge_velocity,
 )
 from fecolumn.engines.rocking.swing import GRAVITY, PEAK, rock_one, row_of_block
 from fecolumn.motions.record import GroundMotion
@@ -150,7 +150,7 @@ def _impacts():
     yield Row(
         "p of a box, sqrt(3 g/(4 R)) [rad/s] (R, Eq. 2)",
         math.sqrt(3 * GRAVITY / (4 * math.hypot(0.2, 0.6))),
-        math.sqrt(block.rocker.p2[0]),
+        math.sqrt(block.p2[0]),
         1e-12,
     )
     plastic = math.degrees(math.asin(math.sqrt(2 / 3)))
@@ -197,7 +197,7 @@ def _frames():
     column = RockingFrame.of_section(
         FrameSection(width_m=1.6, height_m=9.6, column_mass_kg=1e5, beam_mass_kg=0.0), "column"
     )
-    p, p_hat = (math.sqrt(one.plane.rocker.p2[0]) for one in (column, bent))
+    p, p_hat = (math.sqrt(one.plane.p2[0]) for one in (column, bent))
     yield Row("bent 2h 9.6 m, 2b 1.6 m: p of the column [rad/s] (M, 9)", 1.23, p, 0.005, scale=1.0)
     derived = math.sqrt(9.81 / GRAVITY)  # derived with g = 9.81 m/s2
     yield Row("the same, box formula, g 9.81 [rad/s] (D)", 1.2296, derived * p, 5e-5, scale=1.0)
@@ -226,7 +226,7 @@ def _frames():
     yield Row(
         "p_hat^2/p^2 under a heavy beam [-] (M, Eq. 45)",
         2 / 3,
-        RockingFrame.of(2, 0.1, 1.0, 1.0, 1e9).plane.rocker.p2[0] / (3 * GRAVITY / 4),
+        RockingFrame.of(2, 0.1, 1.0, 1.0, 1e9).plane.p2[0] / (3 * GRAVITY / 4),
         1e-6,
     )
     block = 4.0 / (1 + 2 * 4.0)
@@ -249,10 +249,10 @@ def _frames():
     for words, printed, found, digits in (
         ("alpha [deg]", 15.38, math.degrees(trilith.slenderness), 5e-3),
         ("R [m]", 0.415, trilith.half_diagonal, 5e-4),
-        ("p [rad/s]", 4.21, math.sqrt(alone.plane.rocker.p2[0]), 5e-3),
+        ("p [rad/s]", 4.21, math.sqrt(alone.plane.p2[0]), 5e-3),
         ("gamma [-]", 0.434, trilith.mass_ratio, 5e-4),
         # 0.9 x 4.21, the paper's own rounding; exactly 3.79
-        ("p_hat [rad/s]", 3.79, math.sqrt(trilith.plane.rocker.p2[0]), 1.5e-2),
+        ("p_hat [rad/s]", 3.79, math.sqrt(trilith.plane.p2[0]), 1.5e-2),
         ("uplift [g]", 0.275, trilith.plane.uplift(), 5e-4),
     ):
         yield Row(f"trilith of Pena et al.: {words} (M, 9)", printed, found, digits, scale=1.0)
@@ -307,7 +307,7 @@ def _restrained_frame():
         ("gamma [-]", 19.33, frame.mass_ratio, 5e-3),
         ("k_crit [N/m]", 3.593e6, frame.critical_tendon_stiffness, 5e2),
         ("k/k_crit [-]", 0.479, 1.72e6 / frame.critical_tendon_stiffness, 5e-4),
-        ("p_hat [rad/s]", 2.600, math.sqrt(frame.plane.rocker.p2[0]), 1.5e-3),
+        ("p_hat [rad/s]", 2.600, math.sqrt(frame.plane.p2[0]), 1.5e-3),
         ("uplift [g]", 0.1367, frame.plane.uplift(), 5e-5),
         ("force at uplift, slender [N]", 13.15e3, float(frame.linear_pushover(0.0)), 5.0),
         ("slope after uplift [N/m]", -34.8e3, slope, 5e1),
@@ -366,7 +366,7 @@ def _closed_forms():
     yield Row(
         "velocity that reaches the verge over p alpha, alpha 0.01 [-] (M, Eq. 39)",
         1.0,
-        verge_velocity(0.01) / 0.01,
+        critical_tilt_rate(0.01) / 0.01,
         1e-5,
     )
     for ratio, low, below in ((1.0, 1.167, -6), (2.0, 1.333, -9), (3.0, 1.5, -8)):
@@ -513,7 +513,7 @@ def _worst_impulses():
     yield Row(
         "least impulse of all: tilt velocity after many over that which reaches the verge [-] (D)",
         1.0,
-        float(speeds[-1]) / (p * verge_velocity(TEN)),
+        float(speeds[-1]) / (p * critical_tilt_rate(TEN)),
         1e-12,
     )
 

@@ -129,10 +129,10 @@ def verdict(findings) -> str:
     names = [
         f"{finding.case}, {finding.engine}: {what}" for finding in wrong for what in _wrong(finding)
     ]
-    told = ["does not hold:", *(f"  {name}" for name in names)] if wrong else []
+    heading = ["does not hold:", *(f"  {name}" for name in names)] if wrong else []
     return "\n".join(
         [
-            *told,
+            *heading,
             f"{sum(row.ok for row in rows)} of {len(rows)} rows hold, {len(wrong)} of "
             f"{len(findings)} cases do not",
         ]

@@ -88,7 +88,7 @@ def free(frame: WobblingFrame, tilt: float, turn: float, seconds: float = 40.0):
 
 
 def _statics(frame):
-    told, radius = frame.describe(), frame.body[0]
+    values, radius = frame.describe(), frame.body[0]
     loose = WobblingFrame.of_section(
         WobblingFrameSection(**SPECIMEN | {"tendon_n_m": 0.0}), "specimen"
     ).describe()
@@ -97,20 +97,25 @@ def _statics(frame):
         ("h [m]", 0.7248, frame.body[1], 5e-5),
         ("gamma [-]", 19.33, frame.mass_ratio, 5e-3),
         ("p_hat (Eq. 6) [rad/s]", 2.600, frame.frequency, 5e-4),
-        ("uplift [g]", 0.1367, told["uplift at"][0], 5e-5),
-        ("k_crit (Eq. 1) [kN/m]", 3593.0, told["critical stiffness of a tendon"][0] / 1e3, 0.5),
-        ("k/k_crit [-]", 0.479, frame.body[7] / told["critical stiffness of a tendon"][0], 5e-4),
-        ("force at uplift [kN]", 13.15, told["horizontal force at uplift, slender"][0] / 1e3, 5e-3),
+        ("uplift [g]", 0.1367, values["uplift at"][0], 5e-5),
+        ("k_crit (Eq. 1) [kN/m]", 3593.0, values["critical stiffness of a tendon"][0] / 1e3, 0.5),
+        ("k/k_crit [-]", 0.479, frame.body[7] / values["critical stiffness of a tendon"][0], 5e-4),
+        (
+            "force at uplift [kN]",
+            13.15,
+            values["horizontal force at uplift, slender"][0] / 1e3,
+            5e-3,
+        ),
         (
             "slope after uplift [kN/m]",
             -34.8,
-            told["slope of the force after uplift, slender"][0] / 1e3,
+            values["slope of the force after uplift, slender"][0] / 1e3,
             0.05,
         ),
         (
             "displacement capacity, slender [m]",
             0.378,
-            told["displacement capacity, slender"][0],
+            values["displacement capacity, slender"][0],
             5e-4,
         ),
         ("the same without tendons [m]", 0.197, loose["displacement capacity, slender"][0], 5e-4),
@@ -136,7 +141,7 @@ def _statics(frame):
         "force at uplift over (1/2 + gamma) N m_c g is alpha, which Eq. 1 lacks in "
         "print [-] (D of W)",
         0.1359,
-        told["horizontal force at uplift, slender"][0] / weight,
+        values["horizontal force at uplift, slender"][0] / weight,
         1e-12,
     )
     s, c, gamma = math.sin(0.1359), math.cos(0.1359), frame.mass_ratio

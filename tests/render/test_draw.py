@@ -14,8 +14,8 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render import camera, command, movie
 from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.instants import chosen_instants
+from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
-from fecolumn.pictures.render.wish import Wish
 
 SMALL = dict(size=(360, 240), fps=10.0)
 
@@ -30,7 +30,7 @@ def _pictures(file):
 
 
 def test_movie_of_a_history_has_a_picture_for_each_instant_and_moves(block):
-    (file,) = render(block, Wish(only="movie", **SMALL), quiet=True)
+    (file,) = render(block, RenderOptions(only="movie", **SMALL), quiet=True)
     pictures = _pictures(file)
     assert (
         file == block / "render" / "motion.mp4"
@@ -45,7 +45,7 @@ def test_movie_of_a_history_has_a_picture_for_each_instant_and_moves(block):
 def test_movie_of_fields_is_as_slow_as_asked_and_comes_as_gif(drum):
     (file,) = render(
         drum,
-        Wish(
+        RenderOptions(
             only="movie",
             gif=True,
             exaggerate="auto",
@@ -62,12 +62,14 @@ def test_movie_of_fields_is_as_slow_as_asked_and_comes_as_gif(drum):
         and file.read_bytes().startswith(b"GIF89a")
         and len(_pictures(file)) == 3
     )
-    (file,) = render(drum, Wish(only="movie", start=0.0, end=0.2, speed=0.5, **SMALL), quiet=True)
+    (file,) = render(
+        drum, RenderOptions(only="movie", start=0.0, end=0.2, speed=0.5, **SMALL), quiet=True
+    )
     assert len(_pictures(file)) == 5
 
 
 def test_stills_and_sequence_of_the_instants_asked_for(drum):
-    files = render(drum, Wish(only="pictures", instants=(0.0, 0.11)), quiet=True)
+    files = render(drum, RenderOptions(only="pictures", instants=(0.0, 0.11)), quiet=True)
     # the fields' instants
     assert [file.name for file in files] == [
         "sequence.pdf",
@@ -150,7 +152,7 @@ def test_folders_that_hold_no_finished_analysis_say_what_they_are(block, tmp_pat
 
 def test_interrupted_movie_leaves_what_was_there(tmp_path, monkeypatch, capsys):
     folder = analysed(BLOCK, tmp_path / "run")
-    render(folder, Wish(only="movie", **SMALL), quiet=True)
+    render(folder, RenderOptions(only="movie", **SMALL), quiet=True)
     before = (folder / "render" / "motion.mp4").read_bytes()
     add = movie.Movie.add
 

@@ -8,8 +8,8 @@ from rocking_structures import STONE, analysed
 
 from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.frames import Frames
+from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
-from fecolumn.pictures.render.wish import Wish
 
 
 @pytest.fixture(scope="module")
@@ -94,13 +94,13 @@ def test_all_kinds_of_bodies_are_drawn_and_those_without_elements_are_grey(row):
     ] == [pytest.approx([0.4, 0.4, height]) for height in (0.8, 0.4, 0.8)]
     leaning = frame.points[result.scene.first[2] :]
     assert leaning[:, 0].max() > 1.2 + 0.05 and leaning[:, 2].min() == pytest.approx(0.0, abs=1e-4)
-    assert render(row, Wish(only="movie", size=(360, 240), fps=25.0), quiet=True)
+    assert render(row, RenderOptions(only="movie", size=(360, 240), fps=25.0), quiet=True)
 
 
 def test_paraview_opens_elements_of_all_kinds(row):
     import pyvista
 
-    (script,) = render(row, Wish(paraview=True), quiet=True)
+    (script,) = render(row, RenderOptions(paraview=True), quiet=True)
     reader = pyvista.get_reader(str(script.parent / "fields" / "fields.xdmf"))
     grid = reader.read()
     kinds = [set(grid.celltypes[grid.cell_data["body"] == number]) for number in (1, 2, 3)]

@@ -19,10 +19,10 @@ from fecolumn.pictures.render.page.document import times_of
 from fecolumn.pictures.render.page.ground import ground_of
 from fecolumn.pictures.render.page.parts import MOST_TRIANGLES, parts_of
 from fecolumn.pictures.render.page.rods import rods_of_links, rods_of_storeys
+from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
-from fecolumn.pictures.render.wish import Wish
 
-PAGE = Wish(html=True)
+PAGE = RenderOptions(html=True)
 INSTALLED = "k3d is not installed: pip install 'fecolumn[html]'"
 
 
@@ -65,8 +65,8 @@ def test_page_of_a_column_has_its_top_where_the_history_has_it(drum):
     assert told["count"] == 13 and told["step"] == pytest.approx(0.02)
     times = told["start"] + told["step"] * np.arange(told["count"])
     (part,) = told["parts"]
-    top = result.told.top
-    way = [np.interp(times, result.time, one) for one in result.way.T]
+    top = result.scene_history.top
+    way = [np.interp(times, result.time, one) for one in result.u_top.T]
     # to single precision, and by how much the drum deforms
     assert top_of_part(part, top) - top == pytest.approx(np.transpose(way), abs=2e-5)
     assert np.abs(way[0]).max() > 0.01
@@ -76,7 +76,7 @@ def test_page_of_a_column_has_its_top_where_the_history_has_it(drum):
 
 def test_page_of_a_part_of_the_motion_in_slow_motion(drum):
     pytest.importorskip("k3d", reason=INSTALLED)
-    (file,) = render(drum, Wish(html=True, start=0.05, end=0.15, speed=0.1, view="front"))
+    (file,) = render(drum, RenderOptions(html=True, start=0.05, end=0.15, speed=0.1, view="front"))
     told = told_by(file)
     assert told["count"] == 51 and told["step"] == pytest.approx(0.002)
     assert told["start"] == pytest.approx(0.05) and told["speed"] == 0.1
@@ -132,7 +132,7 @@ def test_floors_of_a_building_are_parts_with_columns_between(building):
     assert [part.body for part in parts] == [0, 0, 0]
     sway = [part.place[1, 0] - part.place[0, 0] for part in parts]
     row = np.searchsorted(result.time, 0.06 - 1e-9)
-    floors = result.told.floors[0][row, :, 0] - result.told.floors[0][0, :, 0]
+    floors = result.scene_history.floors[0][row, :, 0] - result.scene_history.floors[0][0, :, 0]
     assert np.subtract(sway, sway[0]) == pytest.approx(floors - floors[0], abs=1e-9)
     assert abs(sway[2] - sway[0]) > 1e-4
     columns = rods_of_storeys(result, parts)

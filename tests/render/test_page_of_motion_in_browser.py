@@ -5,8 +5,8 @@ import pytest
 from chromium import SOLID, chromium, open_page
 
 from fecolumn.pictures.render.draw import render
+from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
-from fecolumn.pictures.render.wish import Wish
 
 pytest.importorskip("k3d", reason="k3d is not installed: pip install 'fecolumn[html]'")
 TOP = "const part = motionPage.parts[0].drawn[0]; part.updateMatrixWorld(true);"
@@ -20,7 +20,7 @@ def window():
 
 @pytest.fixture(scope="module")
 def page(gate):
-    (file,) = render(gate, Wish(html=True), quiet=True)
+    (file,) = render(gate, RenderOptions(html=True), quiet=True)
     return file.as_uri()
 
 

@@ -12,8 +12,8 @@ from rocking_analyses import BLOCK, DRUM, analysed
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.frames import Frames
+from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
-from fecolumn.pictures.render.wish import Wish
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +62,9 @@ def test_pictures_without_field_files_show_stress_and_pressure(stateful_block):
     weight = 0.4**2 * 1.2 * 2700 * 9.80665
     assert np.count_nonzero(pressure) == 4 and 0.8 * weight < pressure.sum() * 0.1**2 < 1.1 * weight
     files = render(
-        stateful_block, Wish(only="pictures", instants=(0.0, 0.08), exaggerate="auto"), quiet=True
+        stateful_block,
+        RenderOptions(only="pictures", instants=(0.0, 0.08), exaggerate="auto"),
+        quiet=True,
     )
     assert {file.name for file in files} >= {"sequence.png", "still_0.000s.png", "still_0.080s.png"}
     assert not Frames(
@@ -73,7 +75,7 @@ def test_pictures_without_field_files_show_stress_and_pressure(stateful_block):
 def test_paraview_opens_what_the_states_give(stateful_block):
     import pyvista
 
-    (script,) = render(stateful_block, Wish(paraview=True), quiet=True)
+    (script,) = render(stateful_block, RenderOptions(paraview=True), quiet=True)
     assert 'os.path.join(here, "fields", "fields.xdmf")' in script.read_text()
     reader = pyvista.get_reader(str(script.parent / "fields" / "fields.xdmf"))
     assert reader.time_values == pytest.approx(np.arange(0, 0.21, 0.04))
@@ -86,8 +88,10 @@ def test_states_of_other_modes_are_refused_and_the_history_still_drawn(drum, tmp
     with h5py.File(folder / "states.h5", "r+") as file:
         file["signature"][0] *= -1  # a mode of the other sign, as another machine's may be
     with pytest.raises(InputError, match="of other modes .*--color displacement"):
-        render(folder, Wish(only="pictures", instants=(0.08,)), quiet=True)
-    assert render(folder, Wish(only="pictures", instants=(0.08,), color="displacement"), quiet=True)
+        render(folder, RenderOptions(only="pictures", instants=(0.08,)), quiet=True)
+    assert render(
+        folder, RenderOptions(only="pictures", instants=(0.08,), color="displacement"), quiet=True
+    )
 
 
 def test_damaged_states_are_told(drum, tmp_path):

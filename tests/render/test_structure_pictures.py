@@ -12,8 +12,8 @@ from fecolumn.cli import main
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.frames import Frames
+from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
-from fecolumn.pictures.render.wish import Wish
 
 SMALL = dict(size=(360, 240), fps=10.0)
 
@@ -28,7 +28,9 @@ def _pictures(file):
 
 
 def test_movie_of_a_gate_shows_its_motion_and_the_pressure_on_its_joints(gate):
-    (file,) = render(gate, Wish(only="movie", speed=0.25, exaggerate="auto", **SMALL), quiet=True)
+    (file,) = render(
+        gate, RenderOptions(only="movie", speed=0.25, exaggerate="auto", **SMALL), quiet=True
+    )
     pictures = _pictures(file)
     assert len(pictures) == 5 and pictures[0].shape == (240, 360, 3)
     # the structure, and the joints in plan
@@ -56,16 +58,18 @@ def test_the_history_alone_has_every_body_where_its_top_says(gate, tmp_path):
                 result.history[f"mark/{piece.name}.top/displacement"][row], abs=1e-5
             )
             assert np.abs(moved).max() > 1e-3
-    assert render(folder, Wish(only="movie", **SMALL), quiet=True)
+    assert render(folder, RenderOptions(only="movie", **SMALL), quiet=True)
 
 
 def test_stills_and_sequence_of_a_building_without_stress(building):
-    files = render(building, Wish(only="pictures", instants=(0.06,), view="iso"), quiet=True)
+    files = render(
+        building, RenderOptions(only="pictures", instants=(0.06,), view="iso"), quiet=True
+    )
     assert {file.name for file in files} == {"sequence.pdf", "sequence.png", "still_0.060s.png"}
     frames = Frames(read_result(building), np.array([0.06]), 0.04)
     assert frames.colour == "displacement" and frames.frame(0).struts.shape == (8, 2, 3)
     with pytest.raises(InputError, match="--color = 'stress': no body of this structure deforms"):
-        render(building, Wish(only="pictures", color="stress"), quiet=True)
+        render(building, RenderOptions(only="pictures", color="stress"), quiet=True)
 
 
 def test_exaggeration_leaves_the_slab_of_a_building_where_it_is(building):
@@ -84,7 +88,7 @@ def test_paraview_opens_a_structure_as_a_time_series(gate, building):
     import pyvista
 
     for folder, cells in ((gate, 3), (building, 1)):
-        (script,) = render(folder, Wish(paraview=True), quiet=True)
+        (script,) = render(folder, RenderOptions(paraview=True), quiet=True)
         reader = pyvista.get_reader(str(script.parent / "fields" / "fields.xdmf"))
         assert reader.time_values == pytest.approx(np.arange(0, 0.11, 0.02))
         reader.set_active_time_value(reader.time_values[-1])
@@ -103,7 +107,7 @@ def test_fields_that_an_analysis_wrote_are_drawn_as_its_states_are(gate, tmp_pat
     """As the full-order engine writes them: here from the states, so that both must show the
     same.
     """
-    render(gate, Wish(paraview=True), quiet=True)
+    render(gate, RenderOptions(paraview=True), quiet=True)
     folder = shutil.copytree(
         gate, tmp_path / "run", ignore=shutil.ignore_patterns("render", "states.h5")
     )
@@ -122,7 +126,7 @@ def test_fields_that_an_analysis_wrote_are_drawn_as_its_states_are(gate, tmp_pat
 def test_the_top_of_a_body_that_is_named_is_followed(gate):
     result = read_result(gate, "column 2")
     assert result.top_title == "top of column 2" and np.array_equal(
-        result.way, result.history["mark/column 2.top/displacement"]
+        result.u_top, result.history["mark/column 2.top/displacement"]
     )
     low, high = (
         result.shown("foot", result.time).min(axis=0),
@@ -159,7 +163,7 @@ def test_folders_without_states_or_with_others_say_what_to_do(gate, tmp_path):
     with h5py.File(copy / "states.h5", "r+") as file:
         file["signature"][0, 0] *= -1
     with pytest.raises(InputError, match='is of other modes of "column 1"'):
-        render(copy, Wish(only="pictures", instants=(0.0,)), quiet=True)
+        render(copy, RenderOptions(only="pictures", instants=(0.0,)), quiet=True)
     with h5py.File(copy / "states.h5", "r+") as file:
         file.attrs["bodies"] = ["column 1", "column 2", "beam"]
     with pytest.raises(

@@ -14,9 +14,9 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.frames import Frames
 from fecolumn.pictures.render.overlay import legend_force
+from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
 from fecolumn.pictures.render.thrust import JointForces, _inside, arrow_length
-from fecolumn.pictures.render.wish import Wish
 
 THICKNESS = ARCH["bodies"]["arch"]["thickness_m"]
 OPEN = 1e-2
@@ -140,10 +140,10 @@ def test_forces_are_seen(arch, tmp_path):
     from PIL import Image
 
     folder = shutil.copytree(arch, tmp_path / "run")
-    wish = dict(only="pictures", instants=(0.0,), view="front")
+    options = dict(only="pictures", instants=(0.0,), view="front")
 
     def orange(forces):
-        files = render(folder, Wish(**wish, color="none", forces=forces), quiet=True)
+        files = render(folder, RenderOptions(**options, color="none", forces=forces), quiet=True)
         (still,) = (file for file in files if file.name.startswith("still"))
         picture = np.asarray(Image.open(still).convert("RGB"), int)
         near = np.abs(picture - [0xD5, 0x5E, 0x00]).max(axis=2) < 40
@@ -160,4 +160,4 @@ def test_history_without_resultants_is_refused(arch, tmp_path):
         for name in gone:
             del file[name]
     with pytest.raises(InputError, match=r"history\.h5: has no column .*/resultant.*--forces"):
-        render(folder, Wish(only="pictures", forces=True), quiet=True)
+        render(folder, RenderOptions(only="pictures", forces=True), quiet=True)

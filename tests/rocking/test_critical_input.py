@@ -7,7 +7,7 @@ import pytest
 
 from fecolumn.engines.rocking.critical_input import critical_motion, least_impulse, tilt_velocities
 from fecolumn.engines.rocking.impact import housner_restitution
-from fecolumn.engines.rocking.overturning import verge_velocity
+from fecolumn.engines.rocking.overturning import critical_tilt_rate
 from fecolumn.engines.rocking.swing import FALL, IMPACTS, PEAK, rock_one, row_of_block
 
 ALPHA, P = 0.2, 2.0
@@ -30,8 +30,12 @@ def test_the_last_impulse_overturns_and_a_little_less_does_not(impulses):
 
 def test_many_impulses_below_the_limit_never_overturn_and_above_it_do():
     limit = least_impulse(ALPHA, P, KEPT)
-    assert tilt_velocities(ALPHA, P, KEPT, 0.999 * limit, 2000).max() < P * verge_velocity(ALPHA)
-    assert tilt_velocities(ALPHA, P, KEPT, 1.001 * limit, 2000).max() > P * verge_velocity(ALPHA)
+    assert tilt_velocities(ALPHA, P, KEPT, 0.999 * limit, 2000).max() < P * critical_tilt_rate(
+        ALPHA
+    )
+    assert tilt_velocities(ALPHA, P, KEPT, 1.001 * limit, 2000).max() > P * critical_tilt_rate(
+        ALPHA
+    )
     assert np.diff([least_impulse(ALPHA, P, KEPT, n) for n in (1, 2, 5, 50)]).max() < 0
 
 

@@ -7,12 +7,12 @@ import pytest
 
 from fecolumn.engines.rocking.overturning import (
     Band,
-    design_slenderness,
+    critical_tilt_rate,
     half_sine_overturning,
     linear_overturning,
     outcomes,
     overturning_bands,
-    verge_velocity,
+    slenderness_factor,
 )
 from fecolumn.engines.rocking.swing import GRAVITY, rock_all, rock_one, row_of_block
 
@@ -93,10 +93,10 @@ def test_half_sine_needs_more_than_the_rectangular_pulse_of_its_length_and_less_
 def test_column_of_the_design_slenderness_stands_a_rectangular_pulse():
     """Makris and Vassiliou's formula and Housner's exact one meet where p T is small."""
     for duration in (0.05, 0.2, 1.0):
-        amplitude = 1 / (design_slenderness(GRAVITY, duration, 1.0))  # over g tan(alpha)
+        amplitude = 1 / slenderness_factor(duration)  # over g tan(alpha)
         assert amplitude == pytest.approx((1 + duration) / duration)
     assert rectangular_overturning(0.05) * 0.05 == pytest.approx(1.0, abs=0.05)
-    assert design_slenderness(0.0, 1.0, 1.0) == 0
+    assert slenderness_factor(0.0) == 0
 
 
 def test_verge_is_reached_from_upright_at_its_velocity_and_not_below():
@@ -104,7 +104,9 @@ def test_verge_is_reached_from_upright_at_its_velocity_and_not_below():
     ground, row = np.zeros((2, 2)), row_of_block(alpha, 1.0, 0.9)
     for share, falls in ((1 - 1e-6, False), (1 + 1e-6, True)):
         assert (
-            math.isinf(rock_one(ground, 0.01, row, tilt_rate=share * verge_velocity(alpha))[2][0])
+            math.isinf(
+                rock_one(ground, 0.01, row, tilt_rate=share * critical_tilt_rate(alpha))[2][0]
+            )
             == falls
         )
 

@@ -89,13 +89,13 @@ def test_slenderness_and_half_diagonal_make_the_block_of_that_width_and_height(a
 
 @pytest.mark.parametrize("keys", HELD, ids=str)
 def test_restoring_moment_is_the_slope_of_the_potential(keys):
-    rocker = block(**keys).planes[0].rocker
+    plane = block(**keys).planes[0]
     for side in (1, -1):
         for lean in (0.05, 0.2, 0.6):
             work = quad(
-                lambda phi, side=side: float(rocker.restoring(phi, side)), 0, lean, epsabs=1e-9
+                lambda phi, side=side: float(plane.restoring(phi, side)), 0, lean, epsabs=1e-9
             )[0]
-            assert sum(rocker.potential(lean, side)) == pytest.approx(work, rel=1e-9)
+            assert sum(plane.potential(lean, side)) == pytest.approx(work, rel=1e-9)
 
 
 def test_spring_bed_and_tendon_hold_with_the_force_of_their_stretch():
@@ -124,7 +124,7 @@ def test_spring_bed_and_tendon_hold_with_the_force_of_their_stretch():
             roof_thrust_n=200.0,
         ),
     )
-    moment = [float(one.planes[0].rocker.restoring(lean, 1)) for one in (free, held)]
+    moment = [float(one.planes[0].restoring(lean, 1)) for one in (free, held)]
     assert moment[1] - moment[0] == pytest.approx(
         (energy(lean + d) - energy(lean - d)) / (2 * d), rel=1e-7
     )
@@ -196,7 +196,7 @@ def test_friction_is_demanded_as_the_rectangular_block_of_zhang_and_makris():
     """Eq. 24 of Makris' review, of a rectangular block, at every state of a motion."""
     model, motion = block(), shaken(5)
     found, plane = model.respond(motion), model.planes[0]
-    alpha, p2 = plane.rocker.alpha[0], plane.rocker.p2[0]
+    alpha, p2 = plane.alpha[0], plane.p2[0]
     theta, ground = found.coordinates["theta_x"], motion.acceleration[:, 0] / GRAVITY
     motion = GroundMotion(motion.acceleration * [1, 0, 0], motion.dt, "", "")
     states = plane.respond(motion, 0.0, 0.0, 0.0)

@@ -163,7 +163,7 @@ def test_figures_of_overturning_show_bands_and_the_design_chart(tmp_path):
 def test_keys_of_the_models_are_listed(capsys):
     assert main(["keys", "block"]) == 0 and main(["keys", "frame.tendon_n_m"]) == 0
     told = capsys.readouterr().out
-    assert "half_diagonal_m [m]" in told and "stiffness of each column's restraint" in told
+    assert "half_diagonal_m [m]" in told and "stiffness of a tendon on the axis" in told
 
 
 def test_help_waits_for_no_library():

@@ -39,7 +39,7 @@ def test_frame_rocks_as_a_larger_block_of_its_slenderness(gamma):
     alpha, radius = 0.17, 2.0
     found = RockingFrame.of(3, alpha, radius, 100.0, 300.0 * gamma)
     larger = (1 + gamma / (1 + 2 * gamma)) * radius
-    assert found.plane.rocker.p2[0] == pytest.approx(3 * GRAVITY / (4 * larger), rel=1e-12)
+    assert found.plane.p2[0] == pytest.approx(3 * GRAVITY / (4 * larger), rel=1e-12)
     kept = frame_restitution(alpha, gamma)
     assert kept <= housner_restitution(alpha)
     block = RockingBlock.of_section(
@@ -112,7 +112,9 @@ def test_tested_frame_has_the_numbers_derived_from_its_paper():
 
 
 def test_tendon_over_two_joints_counts_four_times():
-    one, two = (frame(tendon_n_m=1e6, tendon_joints=n).plane.rocker.tendon[0][0] for n in (1, 2))
+    one, two = (
+        frame(tendon_n_m=1e6, tendon_joints=n).plane.restraints[0].tendon[0] for n in (1, 2)
+    )
     assert two == pytest.approx(4 * one)
 
 
@@ -123,7 +125,7 @@ def test_pushover_does_the_work_of_the_potential():
     displacement = np.linspace(0, 0.2, 4001)
     work = trapezoid(held.pushover(displacement), displacement)
     lean = 0.2 - math.asin(math.sin(0.2) - 0.1)
-    assert work == pytest.approx(float(sum(held.plane.rocker.potential(lean))), rel=1e-6)
+    assert work == pytest.approx(float(sum(held.plane.potential(lean))), rel=1e-6)
 
 
 def test_trilith_of_pena_does_not_lift_in_its_plane():

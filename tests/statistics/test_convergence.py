@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from scipy.stats import kstwo
 
 from fecolumn.statistics.convergence import cdf_convergence
 
@@ -8,14 +9,16 @@ def test_distance_from_the_whole_falls_as_drawing_without_replacement_says():
     """2000 motions, none overturned: Kolmogorov's quantiles times sqrt((N - n) / (N - 1)), within
     what 1000 draws can tell.
     """
-    u = np.random.default_rng(1).lognormal(-3, 1, 2000)
-    found = cdf_convergence(u, np.zeros(2000, bool), [20, 100, 500, 1000], 1000, 2)
-    np.testing.assert_allclose(found.median, found.expected_median, rtol=0.06)
-    np.testing.assert_allclose(found.upper_95, found.expected_95, rtol=0.08)
+    u, sizes = np.random.default_rng(1).lognormal(-3, 1, 2000), np.array([20, 100, 500, 1000])
+    found = cdf_convergence(u, np.zeros(2000, bool), sizes, 1000, 2)
+    factor = np.sqrt((2000 - sizes) / 1999)
+    np.testing.assert_allclose(found.median, factor * kstwo.ppf(0.5, sizes), rtol=0.06)
+    np.testing.assert_allclose(found.upper_95, factor * kstwo.ppf(0.95, sizes), rtol=0.08)
     assert (found.upper_95 < found.dkw_95).all()
     # halving what is left out matters as much as the number drawn: at n = N/2 the distance is
     # 1/sqrt(2) of an endless ensemble's
-    assert found.expected_95[-1] / found.dkw_95[-1] == pytest.approx(np.sqrt(0.5), abs=0.01)
+    expected = factor[-1] * kstwo.ppf(0.95, 1000)
+    assert expected / found.dkw_95[-1] == pytest.approx(np.sqrt(0.5), abs=0.01)
 
 
 def test_the_whole_is_itself_whatever_it_is_worth():

@@ -6,7 +6,18 @@ import warnings
 
 import numpy as np
 import pytest
-from small_grounds import BLOCK, HEIGHT, MASS, SETTLED, SIDE, SUBGRADE, WEIGHT, analysed
+from small_grounds import (
+    BLOCK,
+    HEIGHT,
+    MASS,
+    SETTLED,
+    SIDE,
+    SUBGRADE,
+    WEIGHT,
+    analysed,
+    bridge,
+    wave,
+)
 from small_structures import structure
 
 from fecolumn.case.sections import GRAVITY
@@ -103,17 +114,7 @@ def test_a_block_that_slides_over_the_edge_of_its_plate_is_told_by_name(tmp_path
 
 @pytest.fixture(scope="module")
 def shaken(tmp_path_factory):
-    """A motion of one sine wave that begins and ends softly: its file, times, displacements."""
-    folder = tmp_path_factory.mktemp("motion")
-    times = 1e-3 * np.arange(401)
-    w = 2 * np.pi / 0.4
-    # displacement d (1 - cos w t)^2, at rest at both ends
-    displacement = 2e-4 * (1 - np.cos(w * times)) ** 2
-    acceleration = 2e-4 * 2 * w**2 * (np.cos(w * times) - np.cos(2 * w * times))
-    file = folder / "wave.csv"
-    rows = "\n".join(f"{t:.6f},{a:.15e},0.0" for t, a in zip(times, acceleration))
-    file.write_text(f"t,ax,ay\n{rows}\n", encoding="utf-8")
-    return file, times, displacement
+    return wave(tmp_path_factory.mktemp("motion"))
 
 
 def test_a_bridge_on_unlike_supports_is_stretched_by_their_relative_displacement(tmp_path, shaken):
@@ -121,40 +122,13 @@ def test_a_bridge_on_unlike_supports_is_stretched_by_their_relative_displacement
     the force of the spring between them is its stiffness times how far the grounds move apart.
     """
     file, times, displacement = shaken
-    motion, stiffness = dict(source=str(file), units="m/s2", free_vibration_s=0.05), 1e5
-    summary, rows = analysed(
-        tmp_path / "run",
-        bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[4.0, 0, 0.5])),
-        joints=dict(left=dict(between=["left", "valley"]), right=dict(between=["right", "hill"])),
-        grounds=dict(valley={}, hill=dict(level_m=0.5, motion=motion | dict(scale=-0.5))),
-        links=dict(
-            deck=dict(
-                kind="spring",
-                body="right",
-                point_m=[0, 0, 0.05],
-                to="left",
-                to_point_m=[-4.0, 0, 0.05],
-                stiffness_n_m=stiffness,
-            ),
-            anchor=dict(
-                kind="spring",
-                body="left",
-                point_m=[0, 0, 0.1],
-                to="hill",
-                to_point_m=[3.0, 0, 0.1],
-                stiffness_n_m=stiffness,
-            ),
-        ),
-        motion=motion,
-        integration=dict(dt_s=1e-3, duration_s=0.0),
-    )
+    stiffness = 1e5
+    summary, rows = analysed(tmp_path / "run", **bridge(file, BLOCK, stiffness))
     apart = np.interp(rows["time"], times, -1.5 * displacement)
-    assert rows["link/deck/tension"] == pytest.approx(
-        stiffness * apart, abs=2e-3 * stiffness * np.abs(apart).max()
-    )
-    assert rows["link/anchor/tension"] == pytest.approx(
-        stiffness * apart, abs=2e-3 * stiffness * np.abs(apart).max()
-    )
+    for link in ("deck", "anchor"):
+        assert rows[f"link/{link}/tension"] == pytest.approx(
+            stiffness * apart, abs=2e-3 * stiffness * np.abs(apart).max()
+        )
     # relative to the first ground, all of the right pier goes along with its own
     assert rows["body/right/displacement"][:, 0] == pytest.approx(apart, abs=2e-6)
     assert np.abs(rows["interface/right: right on hill/slide"]).max() < 2e-6

@@ -5,7 +5,18 @@ that rigid bodies have: marble on soil hardly deforms.
 import numpy as np
 import pytest
 from small_grounds import BLOCK as RIGID_BLOCK
-from small_grounds import HEIGHT, MASS, SETTLED, SIDE, SUBGRADE, VERTICAL, WEIGHT, frequency
+from small_grounds import (
+    HEIGHT,
+    MASS,
+    SETTLED,
+    SIDE,
+    SUBGRADE,
+    VERTICAL,
+    WEIGHT,
+    bridge,
+    frequency,
+    wave,
+)
 from small_grounds import analysed as analysed_by
 
 from fecolumn.case.sections import GRAVITY
@@ -122,46 +133,13 @@ def test_a_block_that_slides_over_the_edge_of_its_plate_is_told_by_name(tmp_path
 
 @pytest.fixture(scope="module")
 def shaken(tmp_path_factory):
-    """A motion of one wave that begins and ends softly: its file, times [s], displacements [m]."""
-    times = 1e-3 * np.arange(401)
-    w = 2 * np.pi / 0.4
-    displacement = 2e-4 * (1 - np.cos(w * times)) ** 2
-    acceleration = 2e-4 * 2 * w**2 * (np.cos(w * times) - np.cos(2 * w * times))
-    file = tmp_path_factory.mktemp("motion") / "wave.csv"
-    rows = "\n".join(f"{t:.6f},{a:.15e},0.0" for t, a in zip(times, acceleration))
-    file.write_text(f"t,ax,ay\n{rows}\n", encoding="utf-8")
-    return file, times, displacement
+    return wave(tmp_path_factory.mktemp("motion"))
 
 
 def test_a_bridge_on_unlike_supports_is_stretched_by_their_relative_displacement(tmp_path, shaken):
     file, times, displacement = shaken
-    motion, stiffness = dict(source=str(file), units="m/s2", free_vibration_s=0.05), 1e5
-    summary, rows = analysed(
-        tmp_path / "run",
-        bodies=dict(left=BLOCK, right=BLOCK | dict(at_m=[4.0, 0, 0.5])),
-        joints=dict(left=dict(between=["left", "valley"]), right=dict(between=["right", "hill"])),
-        grounds=dict(valley={}, hill=dict(level_m=0.5, motion=motion | dict(scale=-0.5))),
-        links=dict(
-            deck=dict(
-                kind="spring",
-                body="right",
-                point_m=[0, 0, 0.05],
-                to="left",
-                to_point_m=[-4.0, 0, 0.05],
-                stiffness_n_m=stiffness,
-            ),
-            anchor=dict(
-                kind="spring",
-                body="left",
-                point_m=[0, 0, 0.1],
-                to="hill",
-                to_point_m=[3.0, 0, 0.1],
-                stiffness_n_m=stiffness,
-            ),
-        ),
-        motion=motion,
-        integration=dict(dt_s=1e-3, duration_s=0.0),
-    )
+    stiffness = 1e5
+    summary, rows = analysed(tmp_path / "run", **bridge(file, BLOCK, stiffness))
     apart = np.interp(rows["time"], times, -1.5 * displacement)
     for link in ("deck", "anchor"):
         assert rows[f"link/{link}/tension"] == pytest.approx(

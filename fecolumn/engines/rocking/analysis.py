@@ -10,11 +10,10 @@ import warnings
 
 import numpy as np
 
-from fecolumn.engines.analysis import CHECKPOINT, Analysis, energy_closure
-from fecolumn.engines.ending import AT_REST, OVERTURNED, REST_SHARE, STILL_ROCKING, Ending
-from fecolumn.engines.rocking.model import ModelResponse
+from fecolumn.engines.analysis import Analysis
+from fecolumn.engines.ending import AT_REST, OVERTURNED, STILL_ROCKING, Ending
+from fecolumn.engines.rocking.model import STATE_TERMS, ModelResponse
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
-from fecolumn.engines.summary import write_sealed
 from fecolumn.motions.record import GroundMotion
 
 
@@ -34,9 +33,21 @@ class ModelAnalysis(Analysis):
         self.began, self.cpu_began = time.perf_counter(), time.process_time()
 
     @property
-    def rest_j(self) -> float:
-        """As of Analysis, of the model's own barrier; upright its energy is 0."""
-        return REST_SHARE * self.model.energy_to_overturn if self.until_rest else -math.inf
+    def barrier_j(self) -> float:
+        """As of Analysis, of the model."""
+        return self.model.energy_to_overturn
+
+    def energy_left(self) -> float:
+        """As of Analysis; upright the energy of a model is 0."""
+        last = self.history.last()
+        return max(0.0, float(sum(last[f"energy/{name}"] for name in STATE_TERMS)))
+
+    def limits(self) -> dict:
+        """As of Analysis, of the model."""
+        return dict(
+            critical_tilt_rad=self.model.critical_tilt,
+            u_critical_m=self.model.critical_displacement,
+        )
 
     def run(self, stop) -> dict:
         """The whole response; its summary. `stop` is not asked."""
@@ -74,7 +85,11 @@ class ModelAnalysis(Analysis):
             }
         )
         self.stepping_s = time.perf_counter() - self.began
-        return self._summary(response, ending)
+        times, end = response.impact_times, self.history.last()["time"]
+        more = dict(
+            impacts=int((times <= end).sum()), notes=list(response.notes), peaks=response.peaks
+        )
+        return self.write_results(ending, len(response.coordinates), more)
 
     def _energy(self, response: ModelResponse, rows: int) -> dict[str, np.ndarray]:
         """All terms of the ledger; those that a model has not are 0."""
@@ -108,10 +123,10 @@ class ModelAnalysis(Analysis):
                     f"point of no return: tilt {response.tilt[lost]:.3g} rad, critical "
                     f"{critical:.3g} rad, at {response.time[lost]:.3f} s",
                 )
-        energy = sum(response.energy[name] for name in ("kinetic", "strain", "gravity"))
+        energy = sum(response.energy[name] for name in STATE_TERMS)
         if self.until_rest:
             still = np.flatnonzero(
-                (energy[:last] <= self.rest_j) & (np.arange(last) >= self.motion_steps)
+                (energy[:last] <= self.still_j) & (np.arange(last) >= self.motion_steps)
             )
             if len(still):
                 end = response.time[still[0]]
@@ -121,68 +136,5 @@ class ModelAnalysis(Analysis):
                     f"{end - self.motion_steps * self.case.integration.dt_s:.3f} s "
                     f"after the motion's end, at {end:.3f} s",
                 )
-        outcome = (
-            AT_REST
-            if energy[last - 1] <= REST_SHARE * self.model.energy_to_overturn
-            else STILL_ROCKING
-        )
+        outcome = AT_REST if energy[last - 1] <= self.still_j else STILL_ROCKING
         return last, Ending(outcome, f"end of the analysed time, {response.time[last - 1]:.3f} s")
-
-    def _summary(self, response: ModelResponse, ending: Ending) -> dict:
-        rows, plan, overturned = (
-            self.history.arrays(),
-            self.case.integration,
-            ending.outcome == OVERTURNED,
-        )
-        end, fall = float(rows["time"][-1]), rows["u_top"][-1]
-        left = max(
-            0.0, float(sum(rows[f"energy/{name}"][-1] for name in ("kinetic", "strain", "gravity")))
-        )
-        summary = dict(
-            case_id=self.case.id,
-            title=self.case.title,
-            **self.code,
-            engine=plan.engine,
-            dofs=len(response.coordinates),
-            steps=self.step,
-            dt=plan.dt_s,
-            motion=self.motion.name if self.motion else "",
-            duration_s=end,
-            motion_cut_at_s=self.cut_at_s,
-            outcome=ending.outcome,
-            ended_by=ending.ended_by,
-            u_max_m=float(np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1]).max()),
-            u_max_censored=overturned,
-            overturned=overturned,
-            overturn_time_s=end if overturned else None,
-            overturn_direction_deg=float(np.degrees(np.arctan2(fall[1], fall[0])))
-            if overturned
-            else None,
-            slid_off=False,
-            slid_off_time_s=None,
-            slid_off_direction_deg=None,
-            critical_tilt_rad=self.model.critical_tilt,
-            u_critical_m=self.model.critical_displacement,
-            energy_left_j=None if overturned else left,
-            energy_to_overturn_j=self.model.energy_to_overturn,
-            tilt_max_rad=float(rows["tilt"].max()),
-            residual_slide_m=0.0,
-            ranks=self.comm.size,
-            wall_s=time.perf_counter() - self.began,
-            cpu_s=self.cpu_s,
-            s_per_step=self.stepping_s / max(self.step, 1),
-            impacts=int((response.impact_times <= end).sum()),
-            energy_closure_rel=energy_closure(rows),
-            energy_j={
-                name.partition("/")[2]: float(values[-1])
-                for name, values in rows.items()
-                if name.startswith("energy/")
-            },
-            notes=list(response.notes),
-            peaks=response.peaks,
-        )
-        self.write_history()
-        if self.comm.rank == 0:
-            summary = write_sealed(self.folder, summary)
-            (self.folder / CHECKPOINT).unlink(missing_ok=True)
-        return self.comm.bcast(summary)

@@ -13,39 +13,18 @@ import numpy as np
 
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.impact import body_restitution, one_sided_restitution
-from fecolumn.engines.rocking.model import ModelResponse
-from fecolumn.engines.rocking.plane import Plane, respond
+from fecolumn.engines.rocking.outline_keys import RockingKeys
+from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
-from fecolumn.foundation.schema import InputError, Section, parameter
-from fecolumn.motions.record import GroundMotion
+from fecolumn.foundation.schema import InputError, parameter
 
 
-@dataclass(frozen=True, slots=True)
-class BlockSection(Section):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BlockSection(RockingKeys):
     """Rectangular rigid block that rocks along x, about the edges of its foot; with depth_m along
     y, too, as if each did not know of the other.
     """
 
-    width_m: float | None = parameter(
-        None,
-        doc="width along x; or slenderness_rad and half_diagonal_m",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    height_m: float | None = parameter(
-        None, doc="height; or slenderness_rad and half_diagonal_m", unit="m", above=0, high=1000
-    )
-    slenderness_rad: float | None = parameter(
-        None,
-        doc="alpha: tilt at which the centre of mass stands over the edge",
-        unit="rad",
-        above=0,
-        high=1.5,
-    )
-    half_diagonal_m: float | None = parameter(
-        None, doc="R: half the diagonal", unit="m", above=0, high=1000
-    )
     depth_m: float | None = parameter(
         None,
         doc="depth along y; left out: 1 m of a wall that rocks along x alone",
@@ -59,18 +38,6 @@ class BlockSection(Section):
         unit="kg/m3",
         above=0,
         high=1e5,
-    )
-    friction_coefficient: float = parameter(
-        0.6,
-        doc="Coulomb friction coefficient of the foot: only checked, the block does not slide",
-        above=0,
-        high=10,
-    )
-    restitution: float | None = parameter(
-        None,
-        doc="angular velocity after over before an impact; left out: by the plastic impact",
-        low=0,
-        high=1,
     )
     sides: int = parameter(
         2, doc="2: leans to both sides; 1: to +x alone, held by a wall behind it", low=1, high=2
@@ -102,16 +69,6 @@ class BlockSection(Section):
         above=0,
         high=1000,
     )
-    tendon_n_m: float = parameter(
-        0.0,
-        doc="stiffness of a tendon in a duct on the block's axis, anchored below the foot",
-        unit="N/m",
-        low=0,
-        high=1e12,
-    )
-    tendon_prestress_n: float = parameter(
-        0.0, doc="force of that tendon upright", unit="N", low=0, high=1e12
-    )
     roof_mass_kg: float = parameter(
         0.0, doc="mass on the top, which moves with it as a point", unit="kg", low=0, high=1e9
     )
@@ -132,7 +89,7 @@ class BlockSection(Section):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class RockingBlock:
+class RockingBlock(PlanarModel):
     """A rigid body that rocks in the planes of x and y, each as if the other did not move.
 
     Attributes
@@ -155,7 +112,8 @@ class RockingBlock:
         InputError
             keys that do not fit together.
         """
-        width, height = outline(section, "block", file)
+        half, height = section.half_and_height("block", file)
+        width = 2 * half
         own = dataclasses.replace(section, width_m=width, height_m=height)
         mass = section.density_kg_m3 * width * height * (section.depth_m or 1.0)
         for key, value, high in (
@@ -233,34 +191,6 @@ class RockingBlock:
             )
         return cls(tuple(planes))
 
-    @property
-    def critical_tilt(self) -> float:
-        """Least tilt at which it is lost without help [rad]."""
-        return min(plane.verge()[0] for plane in self.planes)
-
-    @property
-    def critical_displacement(self) -> float:
-        """Displacement of the top there [m]."""
-        return min(plane.verge() for plane in self.planes)[1]
-
-    @property
-    def energy_to_overturn(self) -> float:
-        """That takes it there from upright [J]."""
-        return min(plane.verge()[2] for plane in self.planes)
-
-    def respond(
-        self,
-        motion: GroundMotion,
-        *,
-        free_s: float = 0.0,
-        every_s: float = 0.0,
-        tilt: float = 0.0,
-        tilt_rate: float = 0.0,
-        direction: float = 0.0,
-    ) -> ModelResponse:
-        """As of Model."""
-        return respond(self.planes, motion, free_s, every_s, tilt, tilt_rate, direction)
-
     def describe(self) -> dict[str, tuple[float, str]]:
         """Derived parameters, name to (value, unit)."""
         return {
@@ -268,34 +198,6 @@ class RockingBlock:
             for plane in self.planes
             for name, value in described(plane, len(self.planes) > 1).items()
         }
-
-
-def outline(section, table: str, file) -> tuple[float, float]:
-    """Width and height [m] of a table that states them, or slenderness and half diagonal.
-
-    Raises
-    ------
-    InputError
-        neither pair is there, or both are.
-    """
-    sides, angles = ("width_m", "height_m"), ("slenderness_rad", "half_diagonal_m")
-    given = [
-        tuple(key for key in pair if getattr(section, key) is not None) for pair in (sides, angles)
-    ]
-    if sides == given[0] and not given[1]:
-        return section.width_m, section.height_m
-    if angles == given[1] and not given[0]:
-        return 2 * section.half_diagonal_m * math.sin(
-            section.slenderness_rad
-        ), 2 * section.half_diagonal_m * math.cos(section.slenderness_rad)
-    key = next(iter(given[0] + given[1]), "width_m")
-    raise InputError(
-        file,
-        f"{table}.{key}",
-        getattr(section, key),
-        f"state {table}.width_m and {table}.height_m, or {table}.slenderness_rad and "
-        f"{table}.half_diagonal_m",
-    )
 
 
 def body_plane(
@@ -371,9 +273,8 @@ def _plane(section: BlockSection, axis: int, width: float, mass: float) -> Plane
 
 
 def _refuse_fallen(plane: Plane, file, section) -> None:
-    rocker = plane.rocker
     for side in plane.sides:
-        if not rocker.restoring(0.0, side) > 0:
+        if not plane.restoring(0.0, side) > 0:
             raise InputError(
                 file,
                 "block.roof_thrust_n",
@@ -387,23 +288,23 @@ def described(plane: Plane, several: bool = False) -> dict[str, tuple[float, str
     """Derived parameters of a plane, name to (value, unit); those of its axis told apart where
     there are several.
     """
-    rocker, along = plane.rocker, f" along {'xy'[plane.axis]}" if several else ""
-    tilt, displacement, energy = plane.verge()
+    along = f" along {'xy'[plane.axis]}" if several else ""
+    tilt, displacement, energy = plane.critical_state()
     found = {
         "mass": (plane.mass, "kg"),
-        f"slenderness alpha{along}": (rocker.alpha[0], "rad"),
-        f"R{along}": (rocker.radius[0], "m"),
-        f"frequency parameter p{along}": (math.sqrt(rocker.p2[0]), "rad/s"),
+        f"slenderness alpha{along}": (plane.alpha[0], "rad"),
+        f"R{along}": (plane.radius[0], "m"),
+        f"frequency parameter p{along}": (math.sqrt(plane.p2[0]), "rad/s"),
     }
-    if rocker.alpha[0] != rocker.alpha[1]:
+    if plane.alpha[0] != plane.alpha[1]:
         found |= {
-            f"alpha to the other side{along}": (rocker.alpha[1], "rad"),
-            f"p to the other side{along}": (math.sqrt(rocker.p2[1]), "rad/s"),
+            f"alpha to the other side{along}": (plane.alpha[1], "rad"),
+            f"p to the other side{along}": (math.sqrt(plane.p2[1]), "rad/s"),
         }
-    if rocker.restitution[0] != rocker.restitution[1]:
-        found[f"restitution from the other side{along}"] = (rocker.restitution[1], "-")
+    if plane.restitution[0] != plane.restitution[1]:
+        found[f"restitution from the other side{along}"] = (plane.restitution[1], "-")
     return found | {
-        f"restitution of the angular velocity{along}": (rocker.restitution[0], "-"),
+        f"restitution of the angular velocity{along}": (plane.restitution[0], "-"),
         f"uplift{along} at": (min(plane.uplift(side) for side in plane.sides), "g"),
         f"critical tilt{along}": (tilt, "rad"),
         f"displacement of the top there{along}": (displacement, "m"),

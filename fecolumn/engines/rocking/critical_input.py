@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 
-from fecolumn.engines.rocking.overturning import verge_velocity
+from fecolumn.engines.rocking.overturning import critical_tilt_rate
 from fecolumn.engines.rocking.swing import GRAVITY, rock_one, row_of_block
 from fecolumn.motions.record import GroundMotion
 
@@ -42,7 +42,10 @@ def least_impulse(
     """
     given = p * p * math.cos(slenderness) / GRAVITY
     return (
-        p * verge_velocity(slenderness) * (1 - restitution) / (given * (1 - restitution**impulses))
+        p
+        * critical_tilt_rate(slenderness)
+        * (1 - restitution)
+        / (given * (1 - restitution**impulses))
     )
 
 

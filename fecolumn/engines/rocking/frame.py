@@ -14,65 +14,22 @@ from typing import ClassVar
 
 import numpy as np
 
-from fecolumn.engines.rocking.block import described, outline
+from fecolumn.engines.rocking.block import described
 from fecolumn.engines.rocking.impact import frame_restitution
-from fecolumn.engines.rocking.model import ModelResponse
-from fecolumn.engines.rocking.plane import Plane, respond
+from fecolumn.engines.rocking.outline_keys import RockingKeys
+from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.swing import GRAVITY
-from fecolumn.foundation.schema import Section, parameter
-from fecolumn.motions.record import GroundMotion
+from fecolumn.foundation.schema import parameter
 
 
-@dataclass(frozen=True, slots=True)
-class FrameSection(Section):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FrameSection(RockingKeys):
     """Equal rectangular columns that carry a beam and rock along x."""
 
     column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
     beam_mass_kg: float = parameter(doc="mass of the beam", unit="kg", low=0, high=1e9)
     columns: int = parameter(2, doc="number of columns", low=1, high=10_000)
-    width_m: float | None = parameter(
-        None,
-        doc="width of a column along x; or slenderness_rad and half_diagonal_m",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    height_m: float | None = parameter(
-        None,
-        doc="height of a column; or slenderness_rad and half_diagonal_m",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    slenderness_rad: float | None = parameter(
-        None, doc="alpha of a column", unit="rad", above=0, high=1.5
-    )
-    half_diagonal_m: float | None = parameter(
-        None, doc="R of a column: half its diagonal", unit="m", above=0, high=1000
-    )
-    friction_coefficient: float = parameter(
-        0.6,
-        doc="Coulomb friction coefficient at the feet: only checked, the columns do not slide",
-        above=0,
-        high=10,
-    )
-    restitution: float | None = parameter(
-        None,
-        doc="angular velocity after over before an impact; left out: by the plastic impact",
-        low=0,
-        high=1,
-    )
-    tendon_n_m: float = parameter(
-        0.0,
-        doc="stiffness of each column's restraint: tendon and springs in series",
-        unit="N/m",
-        low=0,
-        high=1e12,
-    )
-    tendon_prestress_n: float = parameter(
-        0.0, doc="force of each tendon upright", unit="N", low=0, high=1e12
-    )
     tendon_joints: int = parameter(
         1,
         doc="joints that a tendon crosses: 1 where it is anchored in the column, 2 where "
@@ -83,7 +40,7 @@ class FrameSection(Section):
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class RockingFrame:
+class RockingFrame(PlanarModel):
     """A rocking frame in the plane of x.
 
     Attributes
@@ -96,8 +53,8 @@ class RockingFrame:
         alpha of a column [rad]
     half_diagonal
         R [m].
-    plane
-        its law of motion and restraints.
+    planes
+        the one of x: its law of motion and restraints; the ground's motion along y does nothing.
     """
 
     TABLE: ClassVar[str] = "frame"
@@ -108,7 +65,7 @@ class RockingFrame:
     beam_mass: float
     slenderness: float
     half_diagonal: float
-    plane: Plane
+    planes: tuple[Plane, ...]
 
     @classmethod
     def of_section(cls, section: FrameSection, file) -> RockingFrame:
@@ -119,8 +76,8 @@ class RockingFrame:
         InputError
             keys that do not fit together.
         """
-        width, height = outline(section, "frame", file)
-        reach = width * section.tendon_joints
+        half, height = section.half_and_height("frame", file)
+        reach = 2 * half * section.tendon_joints
         tendons = (
             (
                 (
@@ -134,8 +91,8 @@ class RockingFrame:
         )
         return cls.of(
             section.columns,
-            math.atan2(width, height),
-            math.hypot(width, height) / 2,
+            math.atan2(2 * half, height),
+            math.hypot(2 * half, height) / 2,
             section.column_mass_kg,
             section.beam_mass_kg,
             restitution=section.restitution,
@@ -183,7 +140,7 @@ class RockingFrame:
             (restraint or Restraint(),) * 2,
             friction,
         )
-        return cls(columns, column_mass, beam_mass, slenderness, half_diagonal, plane)
+        return cls(columns, column_mass, beam_mass, slenderness, half_diagonal, (plane,))
 
     @property
     def mass_ratio(self) -> float:
@@ -191,19 +148,9 @@ class RockingFrame:
         return self.beam_mass / (self.columns * self.column_mass)
 
     @property
-    def critical_tilt(self) -> float:
-        """As of Model."""
-        return self.plane.verge()[0]
-
-    @property
-    def critical_displacement(self) -> float:
-        """As of Model."""
-        return self.plane.verge()[1]
-
-    @property
-    def energy_to_overturn(self) -> float:
-        """As of Model."""
-        return self.plane.verge()[2]
+    def plane(self) -> Plane:
+        """The plane of x."""
+        return self.planes[0]
 
     @property
     def critical_tendon_stiffness(self) -> float:
@@ -237,19 +184,6 @@ class RockingFrame:
             stiffness * b * self.slenderness / 2 - weight
         ) * np.asarray(displacement, float) / (2 * h)
 
-    def respond(
-        self,
-        motion: GroundMotion,
-        *,
-        free_s: float = 0.0,
-        every_s: float = 0.0,
-        tilt: float = 0.0,
-        tilt_rate: float = 0.0,
-        direction: float = 0.0,
-    ) -> ModelResponse:
-        """As of Model; the ground's motion along y does nothing."""
-        return respond((self.plane,), motion, free_s, every_s, tilt, tilt_rate, direction)
-
     def describe(self) -> dict[str, tuple[float, str]]:
         """Derived parameters, name to (value, unit)."""
         found = described(self.plane) | {
@@ -261,7 +195,7 @@ class RockingFrame:
             ),
         }
         found["R of the block that rocks alike"] = (
-            3 * GRAVITY / (4 * self.plane.rocker.p2[0]),
+            3 * GRAVITY / (4 * self.plane.p2[0]),
             "m",
         )
         return found

@@ -60,9 +60,6 @@ class Collapse:
     velocity
         (blocks, 3) of the mechanism: x, y of the centre and counter-clockwise turn, such that the
         loads' power is 1.
-    dilatancy
-        dilation over slip that the mechanism needs: the friction coefficient where it is
-        associated.
     residual
         largest |s| - mu n over all joints, over the total weight; above 0 the forces are not those
         of the friction asked for.
@@ -74,7 +71,6 @@ class Collapse:
     normal: np.ndarray
     shear: np.ndarray
     velocity: np.ndarray
-    dilatancy: float
     residual: float
     iterations: int
 
@@ -188,7 +184,7 @@ def associated(wall: Wall, friction: float) -> Collapse:
     slope, kept = np.full(len(wall.joints), friction), np.zeros(len(wall.joints))
     multiplier, normal, shear, velocity = _programme(wall, slope, kept)
     return Collapse(
-        multiplier, normal, shear, velocity, friction, _residual(wall, normal, shear, friction), 1
+        multiplier, normal, shear, velocity, _residual(wall, normal, shear, friction), 1
     )
 
 
@@ -244,9 +240,7 @@ def non_associated(
             )
             residual = _residual(wall, ends, shear, friction)
             if slope == dilatancy and residual < tolerance:
-                found.append(
-                    Collapse(multiplier, ends, shear, velocity, slope, residual, iteration)
-                )
+                found.append(Collapse(multiplier, ends, shear, velocity, residual, iteration))
                 break
             normal = 0.4 * normal + 0.6 * ends.sum(axis=1)
     if not found:

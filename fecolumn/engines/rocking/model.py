@@ -8,15 +8,17 @@ A model is a frozen dataclass with the methods of `Model`. Its name is a word of
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol
 
-if TYPE_CHECKING:  # the command line asks for the names alone, and must not wait for libraries
-    import numpy as np
+import numpy as np
 
-    from fecolumn.motions.record import GroundMotion
+from fecolumn.motions.record import GroundMotion
 
 SAFE, OVERTURNED = "safe", "overturned"
+#: Terms of the energy that are of a state, not added up over time.
+STATE_TERMS = ("kinetic", "strain", "gravity")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -110,7 +112,6 @@ class Model(Protocol):
         motion: GroundMotion,
         *,
         free_s: float = 0.0,
-        every_s: float = 0.0,
         tilt: float = 0.0,
         tilt_rate: float = 0.0,
         direction: float = 0.0,
@@ -120,9 +121,7 @@ class Model(Protocol):
         Parameters
         ----------
         free_s
-            time followed after the motion's end [s].
-        every_s
-            interval of the rows [s]; 0 for every sample of the motion.
+            time followed after the motion's end [s]; there is a row for every sample.
         tilt, tilt_rate
             at the start [rad, rad/s], towards `direction`, from x to y [rad].
         """
@@ -131,3 +130,47 @@ class Model(Protocol):
         """Derived parameters for a table: name to (value, unit), such as {"frequency parameter p":
         (2.1, "rad/s")}.
         """
+
+
+def balanced(**terms: np.ndarray) -> dict[str, np.ndarray]:
+    """Terms of the energy (n,) [J] as of ModelResponse, and their closure."""
+    kinetic, strain, gravity = (terms[name] for name in STATE_TERMS)
+    total = kinetic + strain + gravity
+    closure = total - total[0] - terms["base_work"] - terms["impact"]
+    return terms | dict(closure=closure - terms["damping"] if "damping" in terms else closure)
+
+
+def check_friction(
+    what: str, peak: str, along, upward, time, counts, available: float
+) -> tuple[list[str], dict[str, float]]:
+    """Note where a model that does not slide demands more friction than there is, and the peak.
+
+    Parameters
+    ----------
+    what, peak
+        begin of the note, name of the peak value.
+    along, upward
+        (n,) force of the ground on the foot, horizontal and vertical [N].
+    time
+        (n,) [s].
+    counts
+        (n,) whether a row counts.
+    available
+        friction coefficient.
+    """
+    if not counts.any():
+        return [], {}
+    with np.errstate(divide="ignore", invalid="ignore"):
+        demanded = np.where(upward > 0, along / upward, math.inf)[counts]
+    most, leaves = float(demanded.max()), bool(np.isinf(demanded.max()))
+    # a model that leaves the ground has no finite peak
+    peaks = {} if leaves else {peak: most}
+    if not most > available:
+        return [], peaks
+    first = time[counts][int(np.argmax(demanded > available))]
+    note = (
+        f"{what} demands a friction coefficient of {'more than any' if leaves else f'{most:.3g}'}, "
+        f"from {first:.3f} s on for {(demanded > available).mean():.1%} of the time; there is "
+        f"{available:g}: it would slide{' or leave the ground' * leaves}"
+    )
+    return [note], peaks

@@ -109,9 +109,9 @@ class _Reader:
     def _refuse(self, key: str, value, allowed: str) -> NoReturn:
         raise InputError(self.file, key, value, allowed)
 
-    def _lacks(self, told: str) -> NoReturn:
-        """Refuse the model, which `told` says what it needs."""
-        self._refuse("integration.engine", self.engine, told)
+    def _lacks(self, needs: str) -> NoReturn:
+        """Refuse the model; `needs` says what it needs."""
+        self._refuse("integration.engine", self.engine, needs)
 
     def _refuse_laws(self) -> None:
         """Refuse keys of which the model knows nothing."""

@@ -150,35 +150,22 @@ def linear_overturning(shape: str, frequency) -> np.ndarray:
     return 1 + LINEAR[shape] * np.asarray(frequency, float)
 
 
-def design_slenderness(amplitude, period, p, pulse: str = "rectangular") -> np.ndarray:
-    """Least tan(alpha) that stands a pulse: (a_p/g) p T_p/(gamma + p T_p) (Makris and Vassiliou
-    2012).
+def slenderness_factor(duration, pulse: str = "rectangular") -> np.ndarray:
+    """phi(p T_p) = p T_p/(gamma + p T_p): least tan(alpha) of a block that stands a pulse, over
+    a_p/g (Makris and Vassiliou 2012).
 
     Parameters
     ----------
-    amplitude
-        a_p [m/s2].
-    period
-        T_p [s].
-    p
-        [rad/s].
+    duration
+        p T_p [-].
     pulse
         of DESIGN; the rectangular one asks for the most.
     """
-    return (
-        np.asarray(amplitude, float)
-        / GRAVITY
-        * slenderness_factor(np.asarray(period, float) * np.asarray(p, float), pulse)
-    )
-
-
-def slenderness_factor(duration, pulse: str = "rectangular") -> np.ndarray:
-    """phi(p T_p) = p T_p/(gamma + p T_p) of `design_slenderness`."""
     return np.asarray(duration, float) / (DESIGN[pulse] + np.asarray(duration, float))
 
 
-def verge_velocity(slenderness: float) -> float:
-    """Tilt velocity over p that takes a block upright to the verge: sqrt(2 (1 - cos alpha)), alpha
-    where it is slender (Eq. 39 of Makris 2014).
+def critical_tilt_rate(slenderness: float) -> float:
+    """Tilt velocity over p that takes a block from upright to the critical tilt:
+    sqrt(2 (1 - cos alpha)), alpha where it is slender (Eq. 39 of Makris 2014).
     """
     return math.sqrt(2 * (1 - math.cos(slenderness)))

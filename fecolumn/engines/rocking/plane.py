@@ -1,5 +1,5 @@
-"""Rocking structures of one degree of freedom in the planes of x and y: from their mass, edges and
-restraints to a response.
+"""Rigid structures that rock in vertical planes with one degree of freedom in each: from mass,
+edges and restraints to a response. `swing` has the law of motion and integrates it.
 """
 
 from __future__ import annotations
@@ -9,20 +9,30 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.engines.rocking.model import ModelResponse
+from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction
 from fecolumn.engines.rocking.restraint import Restraint
-from fecolumn.engines.rocking.rocker import Rocker
 from fecolumn.engines.rocking.swing import (
+    ALPHA,
     EDGE,
     FALL,
+    FASTEST,
     GRAVITY,
+    HELD,
+    KEPT,
     LOSS,
+    N_PARAMETERS,
+    ONLY,
     P2,
     PEAK,
+    PER_MASS,
     RATE,
+    SPRING,
+    TENDON,
+    THRUST,
     TILT,
     TIME,
     WORK,
+    look,
     rock_one,
 )
 from fecolumn.motions.record import GroundMotion
@@ -58,7 +68,7 @@ class Plane:
     friction
         Coulomb coefficient, which is only checked.
     only
-        side it can lean to alone; 0 both.
+        side it can lean to alone, +1 or -1; 0 for both.
     """
 
     axis: int
@@ -74,26 +84,36 @@ class Plane:
     only: int = 0
 
     @property
-    def rocker(self) -> Rocker:
-        """Its law of motion."""
-        springs, tendon, thrust = [], [], []
-        for restraint, inertia in zip(self.restraints, self.inertia):
-            force, height, inside = restraint.thrust
-            springs.append(tuple(one / inertia for one in restraint.moments))
-            tendon.append(tuple(one / inertia for one in restraint.tendon))
-            thrust.append((force * height / inertia, force * inside / inertia))
-        radius = tuple(math.hypot(edge, self.height) for edge in self.edges)
-        return Rocker(
-            alpha=tuple(math.atan2(edge, self.height) for edge in self.edges),
-            p2=tuple(self.mass * GRAVITY * r / inertia for r, inertia in zip(radius, self.inertia)),
-            restitution=self.restitution,
-            radius=radius,
-            mass=self.mass,
-            springs=tuple(springs),
-            tendon=tuple(tendon),
-            thrust=tuple(thrust),
-            only=self.only,
-        )
+    def alpha(self) -> tuple[float, ...]:
+        """Angle of the line from each edge to the centre of mass to the vertical (2,) [rad]."""
+        return tuple(math.atan2(edge, self.height) for edge in self.edges)
+
+    @property
+    def radius(self) -> tuple[float, ...]:
+        """R: distance of the centre of mass from each edge (2,) [m]."""
+        return tuple(math.hypot(edge, self.height) for edge in self.edges)
+
+    @property
+    def p2(self) -> tuple[float, ...]:
+        """Square p^2 of the frequency parameter about each edge (2,) [1/s2]."""
+        return tuple(self.mass * GRAVITY * r / i for r, i in zip(self.radius, self.inertia))
+
+    @property
+    def row(self) -> np.ndarray:
+        """(N_PARAMETERS,) for `swing.rock_all`."""
+        row, inertia = np.zeros(N_PARAMETERS), np.array(self.inertia)[:, None]
+        springs = np.array([one.moments for one in self.restraints]) / inertia
+        tendon = np.array([one.tendon for one in self.restraints]) / inertia
+        thrust = np.array([one.thrust_moments for one in self.restraints]) / inertia
+        row[ALPHA : ALPHA + 2], row[P2 : P2 + 2] = self.alpha, self.p2
+        row[KEPT : KEPT + 2], row[ONLY] = self.restitution, self.only
+        row[SPRING : SPRING + 6], row[TENDON : TENDON + 4] = springs.ravel(), tendon.ravel()
+        row[THRUST : THRUST + 4] = thrust.ravel()
+        row[PER_MASS : PER_MASS + 2] = GRAVITY * np.array(self.radius) / self.p2
+        stiff = np.abs(springs).sum(axis=1) + np.abs(tendon[:, 0]) + np.abs(thrust).sum(axis=1)
+        row[FASTEST] = math.sqrt(max(self.p2 + stiff))
+        row[HELD] = float(np.any(springs) or np.any(tendon) or np.any(thrust))
+        return row
 
     @property
     def sides(self) -> tuple[int, ...]:
@@ -117,39 +137,56 @@ class Plane:
         """Horizontal force at the top [N] that holds the structure at a displacement of the top >=
         0 [m], from virtual work.
         """
-        rocker, inside = self.rocker, self.top_inside[0 if side > 0 else 1]
+        inside = self.top_inside[0 if side > 0 else 1]
         reach = math.hypot(self.top, inside)
         start = math.atan2(inside, self.top)
         lean = start - np.arcsin(
             np.clip(math.sin(start) - np.asarray(displacement, float) / reach, -1, 1)
         )
-        return rocker.restoring(lean, side) / (self.top * np.cos(lean) + inside * np.sin(lean))
+        return self.restoring(lean, side) / (self.top * np.cos(lean) + inside * np.sin(lean))
 
     def uplift(self, side: int = 1) -> float:
         """Ground acceleration against a side that lifts the structure onto it [g], without vertical
         motion.
         """
-        rocker, k = self.rocker, 0 if side > 0 else 1
-        return float(rocker.restoring(0.0, side)) / (
-            self.mass * GRAVITY * rocker.radius[k] * math.cos(rocker.alpha[k])
+        k = 0 if side > 0 else 1
+        return float(self.restoring(0.0, side)) / (
+            self.mass * GRAVITY * self.radius[k] * math.cos(self.alpha[k])
         )
 
-    def verge(self) -> tuple[float, float, float]:
+    def critical_state(self) -> tuple[float, float, float]:
         """Least critical tilt of its sides [rad], displacement of the top there [m], energy that
         takes it there [J].
         """
-        rocker = self.rocker
         found = []
         for side in self.sides:
-            tilt = rocker.critical(side)
-            found.append(
-                (
-                    tilt,
-                    abs(float(self.moved(tilt, side)[0, 0])),
-                    float(sum(rocker.potential(tilt, side))),
-                )
-            )
+            tilt = self.critical(side)
+            moved = abs(float(self.moved(tilt, side)[0, 0]))
+            found.append((tilt, moved, float(sum(self.potential(tilt, side)))))
         return min(found)
+
+    def restoring(self, tilt, side: int = 1) -> np.ndarray:
+        """Restoring moment at lean `tilt` >= 0 on a side [N m], without ground motion."""
+        return self._along(tilt, side)[..., 0]
+
+    def potential(self, tilt, side: int = 1) -> tuple[np.ndarray, np.ndarray]:
+        """Gravity energy, and that of springs, tendon and thrust, at lean `tilt` >= 0 on a side,
+        from upright [J].
+        """
+        found = self._along(tilt, side)
+        return found[..., 1], found[..., 2]
+
+    def _along(self, tilt, side: int) -> np.ndarray:
+        """Restoring moment [N m], gravity energy and energy of the restraints [J], (..., 3)."""
+        row, k, found = self.row, 0 if side > 0 else 1, np.empty((np.size(tilt), 4))
+        look(row, k, np.ascontiguousarray(np.ravel(tilt), float), found)
+        return self.mass * row[PER_MASS + k] * found[:, :3].reshape(*np.shape(tilt), 3)
+
+    def critical(self, side: int = 1) -> float:
+        """Lean at which the restoring moment vanishes [rad]; pi/2 where it never does."""
+        found = np.empty((1, 4))
+        look(self.row, 0 if side > 0 else 1, np.zeros(1), found)
+        return float(found[0, 3])
 
     def respond(
         self, motion: GroundMotion, free_s: float, tilt: float, rate: float
@@ -157,7 +194,7 @@ class Plane:
         """Motion in this plane, at every sample of the motion; a fall that is bound to come is
         followed to its end.
         """
-        ground, row = motion.acceleration[:, [self.axis, 2]], self.rocker.row
+        ground, row = motion.acceleration[:, [self.axis, 2]], self.row
         for patience in range(_PATIENCE):
             longer = free_s if patience == 0 else free_s + 2.0**patience / row[P2] ** 0.5
             states, impacts, found = rock_one(
@@ -187,40 +224,41 @@ class PlaneResponse:
             self.fallen,
         )
 
+    def held(self, n: int, dt: float) -> PlaneResponse:
+        """Its states followed by the last one up to n, where another plane's fall took longer."""
+        more = np.repeat(self.states[-1:], n - len(self.states), axis=0)
+        more[:, TIME] += dt * np.arange(1, len(more) + 1)
+        states = np.concatenate([self.states, more])
+        return PlaneResponse(self.plane, states, self.impacts, self.fallen)
+
     @property
     def energy(self) -> dict[str, np.ndarray]:
         """Terms of the energy [J]."""
-        plane, rocker, states = self.plane, self.plane.rocker, self.states
+        plane, states = self.plane, self.states
         lean, side = np.abs(states[:, TILT]), np.where(states[:, EDGE] < 0, -1, 1)
         gravity, strain = np.zeros(len(lean)), np.zeros(len(lean))
         for one in (1, -1):
-            gravity[side == one], strain[side == one] = rocker.potential(lean[side == one], one)
+            gravity[side == one], strain[side == one] = plane.potential(lean[side == one], one)
         kinetic = 0.5 * np.where(side > 0, *plane.inertia) * states[:, RATE] ** 2
         work, impact = plane.mass * states[:, WORK], plane.mass * states[:, LOSS]
-        total = kinetic + strain + gravity
-        return dict(
-            kinetic=kinetic,
-            strain=strain,
-            gravity=gravity,
-            base_work=work,
-            impact=impact,
-            closure=total - total[0] - work - impact,
+        return balanced(
+            kinetic=kinetic, strain=strain, gravity=gravity, base_work=work, impact=impact
         )
 
     def base_force(self, ground: np.ndarray) -> np.ndarray:
         """Force of the base (n, 2) along the axis and up [N], between impacts, from the momentum of
         the whole; `ground` (n, 2) [m/s2].
         """
-        plane, rocker, states = self.plane, self.plane.rocker, self.states
+        plane, states = self.plane, self.states
         side = np.sign(states[:, EDGE])
         k = np.where(side < 0, 1, 0)
         lean, rate = np.abs(states[:, TILT]), states[:, RATE] * side
         alpha, radius, p2 = (
-            np.array(values)[k] for values in (rocker.alpha, rocker.radius, rocker.p2)
+            np.array(values)[k] for values in (plane.alpha, plane.radius, plane.p2)
         )
         lever = alpha - lean
         held = (
-            np.where(k == 0, rocker.restoring(lean, 1), rocker.restoring(lean, -1))
+            np.where(k == 0, plane.restoring(lean, 1), plane.restoring(lean, -1))
             / np.array(plane.inertia)[k]
         )
         turn = np.where(
@@ -243,89 +281,95 @@ class PlaneResponse:
         )
 
 
-def respond(
-    planes: tuple[Plane, ...],
-    motion: GroundMotion,
-    free_s: float,
-    every_s: float,
-    tilt: float,
-    rate: float,
-    direction: float,
-) -> ModelResponse:
-    """Response of structures that rock in planes of their own, each as if the other did not move;
-    arguments as of Model.respond.
+class PlanarModel:
+    """Base of the models that rock in vertical planes, each as if the other did not move.
 
-    The tilts of two planes add as the legs of a right angle. It ends where the first of them falls.
+    A subclass has `planes`, one for each axis along which it can rock.
     """
-    lean = (math.cos(direction), math.sin(direction))
-    found = [
-        plane.respond(motion, free_s, tilt * lean[plane.axis], rate * lean[plane.axis])
-        for plane in planes
-    ]
-    lengths = [len(one.states) for one in found if one.fallen] or [
-        min(len(one.states) for one in found)
-    ]
-    rows, fallen = min(lengths), any(one.fallen for one in found)
-    found = [one.cut(rows) if len(one.states) >= rows else one for one in found]
-    found = [one if len(one.states) == rows else _held(one, rows, motion.dt) for one in found]
-    ground = np.zeros((rows, 3))
-    ground[: min(rows, len(motion.acceleration))] = motion.acceleration[:rows]
-    peaks: dict[str, float] = {}
-    notes, u_top, tilts = [], np.zeros((rows, 3)), np.zeros(rows)
-    for one in found:
-        states, axis = one.states, one.plane.axis
-        moved = one.plane.moved(np.abs(states[:, TILT]), states[:, EDGE])
-        u_top[:, axis], u_top[:, 2] = moved[:, 0], u_top[:, 2] + moved[:, 1]
-        tilts = np.hypot(tilts, states[:, TILT])
-        notes += _forces(one, ground[:, [axis, 2]], peaks)
-    steps = max(1, round(every_s / motion.dt)) if every_s else 1
-    kept = np.unique(np.append(np.arange(0, rows, steps), rows - 1))
-    energies = [one.energy for one in found]
-    return ModelResponse(
-        time=max(found, key=lambda one: one.states[-1, TIME]).states[kept, TIME],
-        coordinates={f"theta_{'xy'[one.plane.axis]}": one.states[kept, TILT] for one in found},
-        units={f"theta_{'xy'[one.plane.axis]}": "rad" for one in found},
-        tilt=tilts[kept],
-        u_top=u_top[kept],
-        overturned=fallen,
-        impact_times=np.sort(np.concatenate([one.impacts for one in found])),
-        energy={name: sum(one[name] for one in energies)[kept] for name in energies[0]},
-        notes=tuple(notes),
-        peaks=peaks,
-    )
 
+    __slots__ = ()
+    planes: tuple[Plane, ...]
 
-def _held(one: PlaneResponse, rows: int, dt: float) -> PlaneResponse:
-    """States followed by their last one, where another plane's fall took longer."""
-    more = np.repeat(one.states[-1:], rows - len(one.states), axis=0)
-    more[:, TIME] += dt * np.arange(1, len(more) + 1)
-    return PlaneResponse(one.plane, np.concatenate([one.states, more]), one.impacts, one.fallen)
+    @property
+    def critical_tilt(self) -> float:
+        """As of Model, the least of its planes."""
+        return min(plane.critical_state()[0] for plane in self.planes)
 
+    @property
+    def critical_displacement(self) -> float:
+        """As of Model, of the plane with the least critical tilt."""
+        return min(plane.critical_state() for plane in self.planes)[1]
 
-def _forces(one: PlaneResponse, ground, peaks: dict) -> list[str]:
-    """Note the largest friction and tension demanded in `peaks`, and tell of more friction than
-    there is.
-    """
-    force, name, mu = one.base_force(ground), "xy"[one.plane.axis], one.plane.friction
-    upward = np.abs(one.states[:, TILT]) < math.pi / 4  # what has fallen slides as it likes
-    with np.errstate(divide="ignore", invalid="ignore"):
-        demanded = np.where(force[:, 1] > 0, np.abs(force[:, 0]) / force[:, 1], math.inf)[upward]
-    if np.isfinite(demanded.max()):
-        # of one that leaves the ground there is none
-        peaks[f"friction demanded along {name} [-]"] = float(demanded.max())
-    if any(restraint.tendons for restraint in one.plane.restraints):
-        lean = np.abs(one.states[:, TILT])
-        peaks[f"tension of the tendons, {name} [N]"] = float(
-            one.plane.restraints[0].tension(lean).max()
+    @property
+    def energy_to_overturn(self) -> float:
+        """As of Model, the least of its planes."""
+        return min(plane.critical_state()[2] for plane in self.planes)
+
+    def respond(
+        self,
+        motion: GroundMotion,
+        *,
+        free_s: float = 0.0,
+        tilt: float = 0.0,
+        tilt_rate: float = 0.0,
+        direction: float = 0.0,
+    ) -> ModelResponse:
+        """As of Model.
+
+        The tilts of two planes add as the legs of a right angle. It ends where the first of them
+        falls.
+        """
+        lean = (math.cos(direction), math.sin(direction))
+        found = [
+            plane.respond(motion, free_s, tilt * lean[plane.axis], tilt_rate * lean[plane.axis])
+            for plane in self.planes
+        ]
+        lengths = [len(one.states) for one in found]
+        ended = [n for n, one in zip(lengths, found) if one.fallen]
+        rows = min(ended or lengths)
+        found = [one.cut(rows) if len(one.states) >= rows else one for one in found]
+        found = [one if len(one.states) == rows else one.held(rows, motion.dt) for one in found]
+        ground = np.zeros((rows, 3))
+        ground[: min(rows, len(motion.acceleration))] = motion.acceleration[:rows]
+        peaks: dict[str, float] = {}
+        notes, u_top, tilts = [], np.zeros((rows, 3)), np.zeros(rows)
+        for one in found:
+            states, axis = one.states, one.plane.axis
+            moved = one.plane.moved(np.abs(states[:, TILT]), states[:, EDGE])
+            u_top[:, axis], u_top[:, 2] = moved[:, 0], u_top[:, 2] + moved[:, 1]
+            tilts = np.hypot(tilts, states[:, TILT])
+            notes += _check_forces(one, ground[:, [axis, 2]], peaks)
+        energies = [one.energy for one in found]
+        thetas = {f"theta_{'xy'[one.plane.axis]}": one.states[:, TILT] for one in found}
+        return ModelResponse(
+            time=max(found, key=lambda one: one.states[-1, TIME]).states[:, TIME],
+            coordinates=thetas,
+            units=dict.fromkeys(thetas, "rad"),
+            tilt=tilts,
+            u_top=u_top,
+            overturned=bool(ended),
+            impact_times=np.sort(np.concatenate([one.impacts for one in found])),
+            energy={name: sum(one[name] for one in energies) for name in energies[0]},
+            notes=tuple(notes),
+            peaks=peaks,
         )
-    if not demanded.max() > mu:
-        return []
-    first = int(np.argmax(demanded > mu))
-    most = "more than any" if math.isinf(demanded.max()) else f"{demanded.max():.3g}"
-    return [
-        f"rocking along {name} demands a friction coefficient of {most}, from "
-        f"{one.states[upward][first, TIME]:.3f} s on for {(demanded > mu).mean():.1%} "
-        "of the time; "
-        f"there is {mu:g}: it would "
-        f"slide{' or leave the ground' if math.isinf(demanded.max()) else ''}"
-    ]
+
+
+def _check_forces(one: PlaneResponse, ground, peaks: dict) -> list[str]:
+    """Add the largest friction and tension demanded to `peaks`; notes on friction that lacks."""
+    force, name, plane = one.base_force(ground), "xy"[one.plane.axis], one.plane
+    lean = np.abs(one.states[:, TILT])
+    notes, found = check_friction(
+        f"rocking along {name}",
+        f"friction demanded along {name} [-]",
+        np.abs(force[:, 0]),
+        force[:, 1],
+        one.states[:, TIME],
+        lean < math.pi / 4,  # what has fallen slides as it likes
+        plane.friction,
+    )
+    peaks |= found
+    if any(restraint.tendons for restraint in plane.restraints):
+        tension = plane.restraints[0].tension(lean).max()
+        peaks[f"tension of the tendons, {name} [N]"] = float(tension)
+    return notes

@@ -11,43 +11,23 @@ from typing import ClassVar
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.engines.rocking.block import outline
-from fecolumn.engines.rocking.model import ModelResponse
+from fecolumn.engines.rocking.model import ModelResponse, balanced
+from fecolumn.engines.rocking.outline_keys import RectangleKeys
 from fecolumn.engines.rocking.podium_impact import CRV, LAWS, podium_restitution
 from fecolumn.engines.rocking.storeys import PROFILES, ElasticBuilding, storeys
-from fecolumn.foundation.schema import InputError, Section, parameter
+from fecolumn.foundation.schema import InputError, parameter
 from fecolumn.motions.record import GroundMotion
 
 _SHARE = 30  # steps in the period of the highest mode
 
 
-@dataclass(frozen=True, slots=True)
-class PodiumSection(Section):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PodiumSection(RectangleKeys):
     """Building of equal storeys on a beam on rocking rectangular columns, along x."""
 
     column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
     floor_mass_kg: float = parameter(doc="mass of each floor", unit="kg", above=0, high=1e9)
     columns: int = parameter(4, doc="number of columns", low=1, high=10_000)
-    width_m: float | None = parameter(
-        None,
-        doc="width of a column along x; or slenderness_rad and half_diagonal_m",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    height_m: float | None = parameter(
-        None,
-        doc="height of a column; or slenderness_rad and half_diagonal_m",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    slenderness_rad: float | None = parameter(
-        None, doc="alpha of a column", unit="rad", above=0, high=1.5
-    )
-    half_diagonal_m: float | None = parameter(
-        None, doc="R of a column: half its diagonal", unit="m", above=0, high=1000
-    )
     beam_mass_kg: float | None = parameter(
         None,
         doc="mass of the beam on the columns; left out: that of a floor",
@@ -120,7 +100,7 @@ class Podium:
             keys that do not fit together, or columns so stout that the impact law would throw them
             back.
         """
-        width, height = outline(section, cls.TABLE, file)
+        half, height = section.half_and_height(cls.TABLE, file)
         building = storeys(
             section.profile,
             section.storeys,
@@ -129,8 +109,8 @@ class Podium:
             section.damping_ratio,
         )
         found = cls(
-            math.atan2(width, height),
-            math.hypot(width, height) / 2,
+            math.atan2(2 * half, height),
+            math.hypot(2 * half, height) / 2,
             section.columns * section.column_mass_kg,
             section.beam_mass_kg or section.floor_mass_kg,
             building,
@@ -223,7 +203,6 @@ class Podium:
         motion: GroundMotion,
         *,
         free_s: float = 0.0,
-        every_s: float = 0.0,
         tilt: float = 0.0,
         tilt_rate: float = 0.0,
         direction: float = 0.0,
@@ -251,8 +230,6 @@ class Podium:
         rows, impacts, shears, peak, fallen = self.shake(
             ground, motion.dt, tilt * math.cos(direction), tilt_rate * math.cos(direction)
         )
-        steps = max(1, round(every_s / motion.dt)) if every_s else 1
-        rows = rows[np.unique(np.append(np.arange(0, len(rows), steps), len(rows) - 1))]
         terms = {
             name: self.columns_mass * rows[:, column]
             for name, column in (
@@ -264,10 +241,6 @@ class Podium:
                 ("damping", DAMPED),
             )
         }
-        total = terms["kinetic"] + terms["strain"] + terms["gravity"]
-        terms["closure"] = (
-            total - total[0] - terms["base_work"] - terms["impact"] - terms["damping"]
-        )
         theta = rows[:, TILT]
         beta = self.slenderness - np.abs(theta)
         beam = np.sign(theta) * 2 * self.half_diagonal * (math.sin(self.slenderness) - np.sin(beta))
@@ -291,7 +264,7 @@ class Podium:
             u_top=np.column_stack([rows[:, ROOF], np.zeros(len(rows)), up]),
             overturned=bool(fallen),
             impact_times=impacts,
-            energy=terms,
+            energy=balanced(**terms),
             peaks=peaks,
         )
 

@@ -68,6 +68,12 @@ class Restraint:
             sum(force * reach / 2 for _, force, reach in self.tendons),
         )
 
+    @property
+    def thrust_moments(self) -> tuple[float, float]:
+        """H y, H c of the thrust [N m]."""
+        force, height, inside = self.thrust
+        return force * height, force * inside
+
     def tension(self, lean) -> np.ndarray:
         """Of all tendons together [N]."""
         return sum(

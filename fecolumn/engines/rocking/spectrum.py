@@ -8,39 +8,13 @@ diagonal, and at its plastic impact r = 1 - 3/2 sin^2 alpha.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from fecolumn.engines.rocking.impact import housner_restitution
-from fecolumn.engines.rocking.swing import PEAK, RATE, TILT, TIME, rock_all, rock_one, row_of_block
+from fecolumn.engines.rocking.swing import PEAK, rock_all, row_of_block
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.record import GroundMotion
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Rocking:
-    """Motion of one block.
-
-    Attributes
-    ----------
-    time
-        (n_states,) [s].
-    tilt
-        (n_states,) [rad], within +-pi/2.
-    tilt_velocity
-        (n_states,) [rad/s].
-    impact_times
-        (n_impacts,) [s].
-    overturned
-        whether the block fell flat, or is bound to.
-    """
-
-    time: np.ndarray
-    tilt: np.ndarray
-    tilt_velocity: np.ndarray
-    impact_times: np.ndarray
-    overturned: bool
 
 
 def rocking_spectrum(
@@ -77,6 +51,7 @@ def rocking_spectrum(
         a value outside its range.
     """
     ground = rotate(motion, -angle_deg).acceleration[:, 0]
+    ground = np.column_stack([ground, np.zeros(len(ground))])
     periods, slendernesses = (
         np.atleast_1d(np.asarray(periods, dtype=np.float64)),
         np.atleast_1d(slenderness),
@@ -84,7 +59,7 @@ def rocking_spectrum(
     blocks = np.array(
         [_block(period, alpha, restitution) for alpha in slendernesses for period in periods]
     )
-    peaks = rock_all([_along(ground)], motion.dt, np.zeros(len(blocks), int), 1.0, blocks)[:, PEAK]
+    peaks = rock_all([ground], motion.dt, np.zeros(len(blocks), int), 1.0, blocks)[:, PEAK]
     result = peaks.reshape(len(slendernesses), len(periods)) / slendernesses[:, None]
     return result if np.ndim(slenderness) else result[0]
 
@@ -113,35 +88,6 @@ def tilt_quantile(peaks: np.ndarray, share: float) -> np.ndarray:
         in (0, 1].
     """
     return np.sort(peaks, axis=0)[math.ceil(share * len(peaks) - 1e-9) - 1]
-
-
-def rock(
-    motion: GroundMotion,
-    period: float,
-    slenderness: float,
-    restitution: float | None = None,
-    *,
-    tilt: float = 0.0,
-    tilt_velocity: float = 0.0,
-) -> Rocking:
-    """Planar rocking along x, from a tilt [rad] and tilt velocity [rad/s] on; other arguments as in
-    rocking_spectrum.
-    """
-    states, impacts, found = rock_one(
-        _along(motion.acceleration[:, 0]),
-        motion.dt,
-        _block(period, slenderness, restitution),
-        tilt=tilt,
-        tilt_rate=tilt_velocity,
-    )
-    return Rocking(
-        states[:, TIME], states[:, TILT], states[:, RATE], impacts, math.isinf(found[PEAK])
-    )
-
-
-def _along(ground):
-    """Accelerations along x and z (n, 2) of a motion along x alone."""
-    return np.column_stack([ground, np.zeros(len(ground))])
 
 
 def _block(period, slenderness, restitution):

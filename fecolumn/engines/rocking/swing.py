@@ -245,7 +245,7 @@ def _potential(par, k, phi):
 
 
 @njit(alone=True)
-def _verge(par, k):
+def _critical_lean(par, k):
     """Least lean from which the restoring moment pushes over; pi/2 where none does."""
     if par[HELD] == 0.0:
         return par[ALPHA + k]
@@ -466,14 +466,14 @@ def _free_peak(par, k, s, phi, rate):
     """
     peak, count = phi, 0
     for swing in range(6):
-        verge = _verge(par, k)
-        energy, barrier = 0.5 * rate * rate + _potential(par, k, phi), _potential(par, k, verge)
-        if verge < _FLAT:
-            # beyond the verge what has not the energy to come back falls, whichever way it moves
-            if (energy >= barrier and rate > 0.0) or (phi > verge and energy < barrier):
+        critical = _critical_lean(par, k)
+        energy, barrier = 0.5 * rate * rate + _potential(par, k, phi), _potential(par, k, critical)
+        if critical < _FLAT:
+            # beyond the critical lean it falls without the energy to come back, however it moves
+            if (energy >= barrier and rate > 0.0) or (phi > critical and energy < barrier):
                 return math.inf, count, s
         if rate > 0.0:
-            low, high = phi, verge
+            low, high = phi, critical
             for _ in range(_BISECTIONS):
                 middle = 0.5 * (low + high)
                 if _potential(par, k, middle) < energy:
@@ -498,14 +498,14 @@ def look(par, k, leans, out):
     """Restoring moment, gravity and held potential over the inertia at leans (n,), and the critical
     lean; out: (n, 4).
     """
-    verge = _verge(par, k)
+    critical = _critical_lean(par, k)
     for one in range(len(leans)):
         gravity = par[P2 + k] * (math.cos(par[ALPHA + k] - leans[one]) - math.cos(par[ALPHA + k]))
         out[one, 0], out[one, 1], out[one, 2], out[one, 3] = (
             _restoring(par, k, leans[one]),
             gravity,
             _potential(par, k, leans[one]) - gravity,
-            verge,
+            critical,
         )
 
 

@@ -17,9 +17,10 @@ import numpy as np
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.column import RigidColumn
-from fecolumn.engines.rocking.model import ModelResponse
+from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction
+from fecolumn.engines.rocking.outline_keys import RollingKeys
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.foundation.schema import InputError, Section, parameter
+from fecolumn.foundation.schema import InputError, parameter
 from fecolumn.motions.record import GroundMotion
 
 #: Tolerance of a step's error, relative to the state: free motion then keeps its energy to 1e-10 in
@@ -29,66 +30,16 @@ TOLERANCE = 1e-12
 _ROUND = 0.02
 
 
-@dataclass(frozen=True, slots=True)
-class WobblingSection(Section):
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WobblingSection(RollingKeys):
     """Round rigid column that rolls on the rim of its foot."""
 
-    outer_diameter_m: float | None = parameter(
-        None,
-        doc="outer diameter; or slenderness_rad and half_diagonal_m",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    height_m: float | None = parameter(
-        None, doc="height; or slenderness_rad and half_diagonal_m", unit="m", above=0, high=1000
-    )
-    slenderness_rad: float | None = parameter(
-        None,
-        doc="alpha: tilt at which the centre of mass stands over the rim",
-        unit="rad",
-        above=0,
-        high=1.5,
-    )
-    half_diagonal_m: float | None = parameter(
-        None, doc="R: distance of the centre of mass from the rim", unit="m", above=0, high=1000
-    )
-    wall_m: float | None = parameter(
-        None,
-        doc="wall thickness of a tube; left out: a solid cylinder",
-        unit="m",
-        above=0,
-        high=500,
-    )
     density_kg_m3: float = parameter(
         2000.0,
         doc="density; of a free column it matters to forces and energies alone",
         unit="kg/m3",
         above=0,
         high=1e5,
-    )
-    tendon_n_m: float = parameter(
-        0.0,
-        doc="stiffness of a tendon on the axis, from the ground to the column",
-        unit="N/m",
-        low=0,
-        high=1e12,
-    )
-    tendon_prestress_n: float = parameter(
-        0.0, doc="force of that tendon upright", unit="N", low=0, high=1e12
-    )
-    restitution: float = parameter(
-        1.0,
-        doc="rate of the tilt after over before, where it passes upright in a plane; "
-        "rolling past upright loses nothing",
-        low=0,
-        high=1,
-    )
-    friction_coefficient: float = parameter(
-        0.6,
-        doc="Coulomb friction coefficient of the foot: only checked, the column does not slide",
-        above=0,
-        high=10,
     )
 
 
@@ -110,6 +61,8 @@ class Wobbling:
 
     TABLE: ClassVar[str] = "wobbling"
     SECTION: ClassVar[type] = WobblingSection
+    #: Rims on which the point rolls whose displacement counts: a slab lies on the upper one, too
+    RIMS: ClassVar[int] = 1
 
     body: np.ndarray
     columns: int = 1
@@ -125,8 +78,8 @@ class Wobbling:
         InputError
             keys that do not fit together.
         """
-        radius, height = round_outline(section, cls.TABLE, file)
-        inner = bore(section, radius, cls.TABLE, file)
+        radius, height = section.half_and_height(cls.TABLE, file)
+        inner = section.bore(radius, cls.TABLE, file)
         mass = section.density_kg_m3 * math.pi * (radius**2 - inner**2) * height
         return cls(
             cylinder_body(
@@ -188,6 +141,16 @@ class Wobbling:
         return math.atan2(self.body[0], self.body[1])
 
     @property
+    def frequency(self) -> float:
+        """P [rad/s]: p^2 = (1 + 2 gamma) m_c g R/(I + 4 gamma m_c R^2), I of a column about a point
+        of its rim, gamma the mass of a slab over that of the columns (Reggiani Manzo and Vassiliou
+        2022, equation 6).
+        """
+        rise, lever, _ = interpreted(equations.moments)(self.body, 0.0)
+        inertia, _ = interpreted(equations.inertia)(self.body, 0.0)
+        return math.sqrt(self.body[9] * math.hypot(rise, lever) / inertia)
+
+    @property
     def critical_tilt(self) -> float:
         """Tilt at which nothing rights it any more [rad]; a right angle where a tendon
         always does.
@@ -216,10 +179,8 @@ class Wobbling:
         return self.body[9] * rise + tendon
 
     def moved(self, tilt) -> tuple[np.ndarray, np.ndarray]:
-        """Displacement towards the azimuth and up [m] of the point whose displacement counts, here
-        the top's centre.
-        """
-        tilt, radius, height = np.asarray(tilt, float), self.body[0], self.body[2]
+        """Displacement towards the azimuth and up [m] of the top's centre, or of the slab."""
+        tilt, radius, height = np.asarray(tilt, float), self.RIMS * self.body[0], self.body[2]
         down = 2 * np.sin(tilt / 2) ** 2
         return radius * down + height * np.sin(tilt), radius * np.sin(tilt) - height * down
 
@@ -228,11 +189,9 @@ class Wobbling:
         motion: GroundMotion,
         *,
         free_s: float = 0.0,
-        every_s: float = 0.0,
         tilt: float = 0.0,
         tilt_rate: float = 0.0,
         direction: float = 0.0,
-        tolerance: float = TOLERANCE,
     ) -> ModelResponse:
         """As of Model; `impact_times` are those of passing upright in a plane or nearly so."""
         from fecolumn.engines.rocking.wobbling_motion import (
@@ -250,14 +209,11 @@ class Wobbling:
             [max(tilt, LIFTED) if tilt or tilt_rate else 0.0, direction, tilt_rate, 0.0]
         )
         rows, passages, fallen = wobble(
-            self.body, ground, motion.dt, start, self.critical_tilt, tolerance, self.restitution
+            self.body, ground, motion.dt, start, self.critical_tilt, TOLERANCE, self.restitution
         )
-        notes, peaks = self._forces(foot_forces(self.body, rows, ground[: len(rows)]), rows)
-        steps = max(1, round(every_s / motion.dt)) if every_s else 1
-        rows = rows[np.unique(np.append(np.arange(0, len(rows), steps), len(rows) - 1))]
+        notes, peaks = self._check_forces(foot_forces(self.body, rows, ground[: len(rows)]), rows)
         kinetic, strain, gravity = self.columns * energies(self.body, rows).T
         work, impact = self.columns * rows[:, [WORK, LOSS]].T
-        total = kinetic + strain + gravity
         theta, phi = rows[:, 1], rows[:, 2]
         along, up = self.moved(theta)
         return ModelResponse(
@@ -268,60 +224,39 @@ class Wobbling:
             u_top=np.column_stack([along * np.cos(phi), along * np.sin(phi), up]),
             overturned=bool(fallen),
             impact_times=passages,
-            energy=dict(
-                kinetic=kinetic,
-                strain=strain,
-                gravity=gravity,
-                base_work=work,
-                impact=impact,
-                closure=total - total[0] - work - impact,
+            energy=balanced(
+                kinetic=kinetic, strain=strain, gravity=gravity, base_work=work, impact=impact
             ),
             notes=tuple(notes),
             peaks=peaks,
         )
 
-    def _forces(self, foot, rows) -> tuple[list[str], dict[str, float]]:
-        """Notes and peaks of the friction that no slip demands, while it is not falling."""
-        upward = (rows[:, 1] > 0) & (rows[:, 1] < self.critical_tilt)
-        if not upward.any():
-            return [], {}
-        foot = foot[upward]
+    def _check_forces(self, foot, rows) -> tuple[list[str], dict[str, float]]:
+        """Notes and peaks of the friction demanded, while the column neither stands nor falls."""
+        tilt = rows[:, 1]
         # a column's tendon presses it on the ground, a frame's one is between column and slab
         if not self.body[4]:
-            stretch = 2 * self.body[0] * np.sin(rows[upward, 1] / 2)
-            pull = self.body[8] + self.body[7] * stretch
-            foot = foot + pull[:, None] * np.column_stack(
-                [np.sin(rows[upward, 1] / 2), np.zeros(len(foot)), np.cos(rows[upward, 1] / 2)]
-            )
-        with np.errstate(divide="ignore", invalid="ignore"):
-            demanded = np.where(
-                foot[:, 2] > 0, np.hypot(foot[:, 0], foot[:, 1]) / foot[:, 2], math.inf
-            )
-        # of one that leaves the ground there is none
-        peaks = (
-            {"friction demanded [-]": float(demanded.max())} if np.isfinite(demanded.max()) else {}
+            pull = self.body[8] + self.body[7] * 2 * self.body[0] * np.sin(tilt / 2)
+            along = np.column_stack([np.sin(tilt / 2), np.zeros(len(tilt)), np.cos(tilt / 2)])
+            foot = foot + pull[:, None] * along
+        return check_friction(
+            "wobbling",
+            "friction demanded [-]",
+            np.hypot(foot[:, 0], foot[:, 1]),
+            foot[:, 2],
+            rows[:, 0],
+            (tilt > 0) & (tilt < self.critical_tilt),
+            self.friction,
         )
-        if not demanded.max() > self.friction:
-            return [], peaks
-        most = "more than any" if math.isinf(demanded.max()) else f"{demanded.max():.3g}"
-        return [
-            f"wobbling demands a friction coefficient of {most}, more than the "
-            f"{self.friction:g} there is for {(demanded > self.friction).mean():.1%} "
-            "of the time off the ground: it would slide"
-        ], peaks
 
     def describe(self) -> dict[str, tuple[float, str]]:
         """Derived parameters, name to (value, unit)."""
-        (rise, lever, tendon), along = (
-            interpreted(equations.moments)(self.body, 0.0),
-            interpreted(equations.inertia)(self.body, 0.0)[0],
-        )
-        pace = self.body[9] * math.hypot(rise, lever) / along
+        rise, lever, tendon = interpreted(equations.moments)(self.body, 0.0)
         return {
             "mass": (self.columns * (self.body[3] + self.body[4]), "kg"),
             "slenderness alpha": (self.slenderness, "rad"),
             "R": (math.hypot(self.body[0], self.body[1]), "m"),
-            "frequency parameter p": (math.sqrt(pace), "rad/s"),
+            "frequency parameter p": (self.frequency, "rad/s"),
             "uplift at": ((self.body[9] * rise + tendon) / (self.body[9] * lever), "g"),
             "critical tilt": (self.critical_tilt, "rad"),
             "displacement of the top there": (self.critical_displacement, "m"),
@@ -356,50 +291,3 @@ def cylinder_body(
             GRAVITY,
         ]
     )
-
-
-def round_outline(section, table: str, file) -> tuple[float, float]:
-    """Radius and height [m] of a table that states diameter and height, or slenderness and half
-    diagonal.
-
-    Raises
-    ------
-    InputError
-        neither pair is there, or both are.
-    """
-    pairs = ("outer_diameter_m", "height_m"), ("slenderness_rad", "half_diagonal_m")
-    given = [tuple(key for key in pair if getattr(section, key) is not None) for pair in pairs]
-    if given == [pairs[0], ()]:
-        return section.outer_diameter_m / 2, section.height_m
-    if given == [(), pairs[1]]:
-        return section.half_diagonal_m * math.sin(
-            section.slenderness_rad
-        ), 2 * section.half_diagonal_m * math.cos(section.slenderness_rad)
-    key = next(iter(given[0] + given[1]), "outer_diameter_m")
-    raise InputError(
-        file,
-        f"{table}.{key}",
-        getattr(section, key),
-        f"state {table}.outer_diameter_m and {table}.height_m, or "
-        f"{table}.slenderness_rad and {table}.half_diagonal_m",
-    )
-
-
-def bore(section, radius: float, table: str, file) -> float:
-    """Inner radius [m] of a table that may state a wall.
-
-    Raises
-    ------
-    InputError
-        a wall thicker than the radius.
-    """
-    if section.wall_m is None:
-        return 0.0
-    if section.wall_m > radius:
-        raise InputError(
-            file,
-            f"{table}.wall_m",
-            section.wall_m,
-            f"must be at most the outer radius, {radius:g} m",
-        )
-    return radius - section.wall_m

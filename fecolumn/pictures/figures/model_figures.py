@@ -10,16 +10,15 @@ import numpy as np
 
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.pictures.figures.style import (
-    BLUE,
     GREY,
     LINES,
     PAGE_WIDTH_IN,
-    VERMILION,
     legend_beside,
     new_figure,
     save,
     styled,
 )
+from fecolumn.pictures.figures.top_figure import ground_panel
 from fecolumn.statistics.ecdf import ecdf
 
 _STATES = (
@@ -58,12 +57,7 @@ def response_figure(motion, response, model, path, title: str = "") -> list[Path
         )
         if title:
             above.set_title(title)
-        for component, label, colour in zip(
-            ground, ("$a_x$", "$a_y$", "$a_z$"), (BLUE, VERMILION, GREY)
-        ):
-            if np.abs(component).max() > 0:
-                above.plot(time, component, color=colour, label=label, linewidth=0.7)
-        above.set_ylabel("ground\n[m/s$^2$]")
+        ground_panel(above, time, ground.T)
         units = set(response.units.values())
         for (name, values), (colour, dashes) in zip(response.coordinates.items(), LINES):
             unit = "" if len(units) == 1 else f" [{response.units[name]}]"

@@ -24,7 +24,6 @@ from fecolumn.pictures.figures.style import (
 from fecolumn.pictures.figures.thinning import thinned
 
 _SECTORS = 12
-_POINTS = 40_000  # more points than these are drawn as an image
 # times the reach of the paths: a foot or a critical displacement farther off would shrink them
 _FAR = 3
 _FINE = 0.002  # of the axes, what a path may be off

@@ -303,10 +303,10 @@ def link_figure(columns, path, links: list[str], formats=("png", "pdf")) -> list
             if broke:
                 loops.scatter(*zip(*broke), marker="x", s=30, color=GREY, zorder=3)
             taken, energy = _in_unit([sum(columns[f"link/{name}/work"] for name in copies)], "J")
-            told = f"; {taken[0][-1]:.3g} {energy} taken" if taken[0][-1] else ""
+            energy_taken = f"; {taken[0][-1]:.3g} {energy} taken" if taken[0][-1] else ""
             over_time.set(xlim=(time[0], time[-1]), ylabel=f"{link}\ntension $T$ [{force}]")
             over_time.tick_params(labelbottom=over_time is grid[-1, 0])
-            loops.set(xlabel=f"elongation $e$ [{length}]{told}", ylim=over_time.get_ylim())
+            loops.set(xlabel=f"elongation $e$ [{length}]{energy_taken}", ylim=over_time.get_ylim())
             loops.tick_params(labelleft=False)
             if len(copies) > 1:
                 legend_beside(loops)

@@ -15,21 +15,19 @@ with warnings.catch_warnings():
     from matplotlib.figure import Figure
 
 COLUMN_WIDTH_IN, PAGE_WIDTH_IN = 3.5, 7.2
-# Okabe & Ito (2008)
-BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE = (
+# Okabe & Ito (2008), without their yellow, which is too faint for a line
+BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE = (
     "#000000",
     "#E69F00",
     "#56B4E9",
     "#009E73",
-    "#F0E442",
     "#0072B2",
     "#D55E00",
     "#CC79A7",
 )
 GREY = "#9A9A9A"
 _PRINT_DPI = 300  # of those parts of a PDF that are drawn as an image, for their many lines
-# Told apart by colour and by dash, so that print in grey still reads; yellow is too faint for a
-# line.
+# Told apart by colour and by dash, so that print in grey still reads
 LINES = tuple(
     zip(
         (BLUE, VERMILION, GREEN, PURPLE, ORANGE, BLACK, SKY),

@@ -50,7 +50,8 @@ def top_figure(history, ending, path, formats=("png", "pdf")) -> list[Path]:
             gridspec_kw={"height_ratios": [1, 1.2, 1.2] if shaken else [1, 1]},
         )
         if shaken:
-            _ground(panels[0], time, history.ground)
+            ground_panel(panels[0], time, history.ground)
+            legend_beside(panels[0])
         above, below = panels[-2:]
         for component, label, colour in zip(u.T, ("$u_x$", "$u_y$"), (BLUE, VERMILION)):
             above.plot(time, component, color=colour, label=label)
@@ -62,14 +63,14 @@ def top_figure(history, ending, path, formats=("png", "pdf")) -> list[Path]:
         return save(figure, path, formats)
 
 
-def _ground(axes, time, ground) -> None:
+def ground_panel(axes, time: np.ndarray, ground: np.ndarray) -> None:
+    """Draw the components of a ground acceleration (n, 3) [m/s2] that are not 0 over time [s]."""
     for component, label, colour in zip(
         ground.T, ("$a_x$", "$a_y$", "$a_z$"), (BLUE, VERMILION, GREY)
     ):
         if np.abs(component).max() > 0:
             axes.plot(time, component, color=colour, label=label, linewidth=0.7)
     axes.set_ylabel("ground\n[m/s$^2$]")
-    legend_beside(axes)
 
 
 def _magnitude(axes, history, ending, magnitude) -> None:

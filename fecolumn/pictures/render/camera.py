@@ -86,7 +86,7 @@ def _across_lean(result, times: np.ndarray) -> float:
     at full length; from -x to x or from the front.
     """
     rows = slice(*np.searchsorted(result.time, [times[0], times[-1] + 1e-12]))
-    way = result.way[rows, :2]
+    way = result.u_top[rows, :2]
     if not len(way):
         return -90.0
     x, y = way[np.argmax(np.hypot(*way.T))]

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fecolumn.mesh.picture import light_and_look, off_screen_plotter
 from fecolumn.pictures.figures.style import BLACK, VERMILION
 from fecolumn.pictures.render.camera import Camera
 from fecolumn.pictures.render.frame import Frame
@@ -53,9 +53,8 @@ class Canvas:
     """
 
     def __init__(self, frames: Frames, camera: Camera, size: tuple[int, int], quick: bool = False):
-        # VTK asks for an X server first and complains where there is none
-        if not os.environ.get("DISPLAY"):
-            os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+        pixels = [round(_FINER * side) for side in size] if quick else list(size)
+        self._plotter = off_screen_plotter(pixels)
         import pyvista
 
         self._frames, self._camera, path = frames, camera, frames.result.path
@@ -67,14 +66,8 @@ class Canvas:
             frames.result.time[::every],
         )
         self._size, self._quick, self._last = size, quick, None
-        self._plotter = pyvista.Plotter(
-            off_screen=True,
-            window_size=[round(_FINER * side) for side in size] if quick else list(size),
-            lighting="none",
-        )
         if quick:
             self._plotter.render_window.SetMultiSamples(0)
-        self._plotter.set_background("white")
         self._line_width = max(1.0, size[1] / 720)
         first = frames.frame(0)
         self._bodies = self._add(frames.scene.surface, first, first.colour)
@@ -104,7 +97,9 @@ class Canvas:
         # where the feet stood before they moved
         self._add_lines(self._lifted(frames.scene.outlines), BLACK, 1.2)
         self._overlay = first.thrust and Overlay(self._plotter, frames, camera, first.thrust)
-        self._light_and_look()
+        reach = 20 * camera.half_height + 5 * frames.result.height
+        view = camera.right, camera.up, camera.toward
+        light_and_look(self._plotter, camera.focus, view, camera.half_height, reach, 0.8)
 
     @property
     def legend(self) -> float:
@@ -190,31 +185,6 @@ class Canvas:
         mesh = _mesh_of(surface, first)
         self._plotter.add_mesh(mesh, **look)
         return mesh
-
-    def _light_and_look(self) -> None:
-        import pyvista
-
-        view, reach = self._camera, 20 * self._camera.half_height + 5 * self._frames.result.height
-        for direction, strength in (
-            (view.toward + 0.8 * view.up - 0.5 * view.right, 0.95),
-            (view.toward + view.right, 0.25),
-        ):
-            self._plotter.add_light(
-                pyvista.Light(
-                    position=tuple(view.focus + reach * direction),
-                    focal_point=tuple(view.focus),
-                    intensity=strength,
-                    light_type="scene light",
-                )
-            )
-        self._plotter.enable_parallel_projection()
-        self._plotter.camera_position = [
-            tuple(view.focus + reach * view.toward),
-            tuple(view.focus),
-            tuple(view.up),
-        ]
-        self._plotter.camera.parallel_scale = view.half_height
-        self._plotter.camera.clipping_range = (0.2 * reach, 1.8 * reach)
 
     def image(self, frame: Frame) -> np.ndarray:
         """(height, width, 3) pixels of a frame."""

@@ -119,11 +119,11 @@ def main(args) -> int:
         no finished analysis in the folder, or an option that does not fit it.
     """
     from fecolumn.pictures.render.draw import render
-    from fecolumn.pictures.render.wish import Wish
+    from fecolumn.pictures.render.render_options import RenderOptions
 
-    wish = Wish.of(args)
+    options = RenderOptions.of(args)
     try:
-        files = render(args.folder, wish, quiet=args.quiet)
+        files = render(args.folder, options, quiet=args.quiet)
     except KeyboardInterrupt:
         print("fecolumn: stopped; nothing was written", file=sys.stderr)
         return 130

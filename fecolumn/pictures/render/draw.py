@@ -1,4 +1,4 @@
-"""Draws an analysis: the files of what the user wishes."""
+"""Draws an analysis: the files that the options of the user ask for."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from fecolumn.foundation.folder import written
 from fecolumn.foundation.progress import CountProgress
 from fecolumn.pictures.render.camera import camera
 from fecolumn.pictures.render.instants import chosen_instants
+from fecolumn.pictures.render.render_options import RenderOptions, check_option
 from fecolumn.pictures.render.result import read_result
 from fecolumn.pictures.render.thrust import arrow_length
-from fecolumn.pictures.render.wish import Wish, check_option
 
 # A picture's resolution, that of post.style, twice as fine for what VTK draws
 _DPI = 400
@@ -20,11 +20,11 @@ _DPI = 400
 _SAMPLES = 24
 # A longer movie was asked for by mistake
 _MOST_PICTURES = 100_000
-_ALL = Wish()
+_ALL = RenderOptions()
 
 
-def render(folder, wish: Wish = _ALL, quiet: bool = False) -> list[Path]:
-    """Write what is wished into `folder`/render; returns the files.
+def render(folder, options: RenderOptions = _ALL, quiet: bool = False) -> list[Path]:
+    """Write what the options ask for into `folder`/render; returns the files.
 
     Raises
     ------
@@ -32,42 +32,45 @@ def render(folder, wish: Wish = _ALL, quiet: bool = False) -> list[Path]:
         no finished analysis in the folder, times outside of it, or colours, exaggeration and
         forces that need what was not written.
     """
-    result = read_result(folder, wish.body)
+    result = read_result(folder, options.body)
     target = result.folder / "render"
-    if wish.html:
-        return [_page(result, wish, target)]
-    if wish.paraview:
+    if options.html:
+        return [_page(result, options, target)]
+    if options.paraview:
         from fecolumn.pictures.render.paraview import NAME, write_view
 
         with written(target, "render paraview", names=(NAME,)) as draft:
-            write_view(result, draft, wish.view, quiet)
+            write_view(result, draft, options.view, quiet)
         return [target / NAME]
-    start, end = _window(result, wish)
+    start, end = _window(result, options)
     files = []
-    if wish.only != "movie":
-        files += _pictures(result, wish, start, end, target)
-    if wish.only != "pictures":
-        files += _movie(result, wish, start, end, target, quiet)
+    if options.only != "movie":
+        files += _pictures(result, options, start, end, target)
+    if options.only != "pictures":
+        files += _movie(result, options, start, end, target, quiet)
     return files
 
 
-def _page(result, wish: Wish, target: Path) -> Path:
+def _page(result, options: RenderOptions, target: Path) -> Path:
     from fecolumn.pictures.render.page.document import NAME, page_of
 
-    page = page_of(result, _window(result, wish), wish.view, wish.speed)
+    page = page_of(result, _window(result, options), options.view, options.speed)
     with written(target, "render html", names=(NAME,)) as draft:
         (draft / NAME).write_text(page, encoding="utf-8")
     return target / NAME
 
 
-def _window(result, wish: Wish) -> tuple[float, float]:
+def _window(result, options: RenderOptions) -> tuple[float, float]:
     time = result.time
     first, last = float(time[0]), float(time[-1])
-    start, end = first if wish.start is None else wish.start, last if wish.end is None else wish.end
+    start, end = (
+        first if options.start is None else options.start,
+        last if options.end is None else options.end,
+    )
     for option, value in (
         ("--start", start),
         ("--end", end),
-        *(("--instants", value) for value in wish.instants),
+        *(("--instants", value) for value in options.instants),
     ):
         check_option(
             first - 1e-9 <= value <= last + 1e-9,
@@ -79,40 +82,47 @@ def _window(result, wish: Wish) -> tuple[float, float]:
     return start, end
 
 
-def _frames(result, wish: Wish, start: float, end: float, times: np.ndarray, interval: float):
+def _frames(
+    result, options: RenderOptions, start: float, end: float, times: np.ndarray, interval: float
+):
     """Frames at `times` that range over the same colours, whichever they are of those from start to
     end [s].
     """
     from fecolumn.pictures.render.frames import Frames
 
     samples = np.linspace(start, end, _SAMPLES)
-    whole = Frames(result, samples, interval, wish.exaggerate, wish.color, forces=wish.forces)
-    return Frames(result, times, interval, wish.exaggerate, wish.color, whole, wish.forces)
+    whole = Frames(
+        result, samples, interval, options.exaggerate, options.color, forces=options.forces
+    )
+    return Frames(result, times, interval, options.exaggerate, options.color, whole, options.forces)
 
 
-def _camera(result, wish: Wish, times: np.ndarray, aspect: float = 1.0):
-    below = arrow_length(result.scene) if wish.forces else 0.0
-    return camera(result, wish.view, times, aspect, below)
+def _camera(result, options: RenderOptions, times: np.ndarray, aspect: float = 1.0):
+    below = arrow_length(result.scene) if options.forces else 0.0
+    return camera(result, options.view, times, aspect, below)
 
 
-def _pictures(result, wish: Wish, start: float, end: float, target: Path) -> list[Path]:
+def _pictures(result, options: RenderOptions, start: float, end: float, target: Path) -> list[Path]:
     """Stills, and the sequence figure of them."""
     from fecolumn.pictures.render.canvas import Canvas
     from fecolumn.pictures.render.sequence import beside, picture_size, sequence_figure
     from fecolumn.pictures.render.still import still_figure, still_size
 
-    instants = np.unique(wish.instants) if wish.instants else chosen_instants(result, start, end)
-    interval = max(
-        1 / wish.fps * wish.speed, result.frames.interval if len(result.frames.time) > 1 else 0.0
+    instants = (
+        np.unique(options.instants) if options.instants else chosen_instants(result, start, end)
     )
-    frames = _frames(result, wish, start, end, instants, interval)
+    interval = max(
+        1 / options.fps * options.speed,
+        result.frames.interval if len(result.frames.time) > 1 else 0.0,
+    )
+    frames = _frames(result, options, start, end, instants, interval)
     drawn = list(frames)
 
     def scene(size):
-        return Canvas(frames, _camera(result, wish, frames.times, size[0] / size[1]), size)
+        return Canvas(frames, _camera(result, options, frames.times, size[0] / size[1]), size)
 
     with written(target, "render pictures", names=("sequence.png", "sequence.pdf")) as draft:
-        natural = _camera(result, wish, frames.times).natural
+        natural = _camera(result, options, frames.times).natural
         size = picture_size(len(drawn), natural, _DPI, beside(frames))
         with scene(size) as sequence:
             sequence_figure(
@@ -138,28 +148,30 @@ def _pictures(result, wish: Wish, start: float, end: float, target: Path) -> lis
     return [target / name for name in names]
 
 
-def _movie(result, wish: Wish, start: float, end: float, target: Path, quiet: bool) -> list[Path]:
+def _movie(
+    result, options: RenderOptions, start: float, end: float, target: Path, quiet: bool
+) -> list[Path]:
     from fecolumn.pictures.render.canvas import Canvas
     from fecolumn.pictures.render.movie import GIF_RATE, Gif, Movie
     from fecolumn.pictures.render.panel import Panel
 
-    fps = min(wish.fps, GIF_RATE) if wish.gif else wish.fps
-    interval, name = wish.speed / fps, "motion.gif" if wish.gif else "motion.mp4"
+    fps = min(options.fps, GIF_RATE) if options.gif else options.fps
+    interval, name = options.speed / fps, "motion.gif" if options.gif else "motion.mp4"
     count = int((end - start) / interval + 1e-6) + 1
     check_option(
         count <= _MOST_PICTURES,
         "--fps, --speed",
-        f"{wish.fps:g}, {wish.speed:g}",
+        f"{options.fps:g}, {options.speed:g}",
         f"make {count} pictures, more than {_MOST_PICTURES}; give --start and --end",
     )
-    frames = _frames(result, wish, start, end, start + interval * np.arange(count), interval)
+    frames = _frames(result, options, start, end, start + interval * np.arange(count), interval)
     panel, progress = (
-        Panel(frames, wish.size, wish.speed),
+        Panel(frames, options.size, options.speed),
         CountProgress(len(frames), "pictures", quiet),
     )
     size = panel.scene_size
     with written(target, f"render {name}", names=(name,)) as draft:
-        view = _camera(result, wish, frames.times, size[0] / size[1])
+        view = _camera(result, options, frames.times, size[0] / size[1])
         with Canvas(frames, view, size, quick=True) as scene:
             panel.place_legend(scene.legend)
 
@@ -167,15 +179,15 @@ def _movie(result, wish: Wish, start: float, end: float, target: Path, quiet: bo
                 frame = frames.frame(k)
                 return panel.picture(frame, scene.image(frame))
 
-            if wish.gif:
+            if options.gif:
                 movie = Gif(
                     draft / name,
-                    wish.size,
+                    options.size,
                     fps,
                     [picture(k) for k in np.unique(np.linspace(0, len(frames) - 1, 6).astype(int))],
                 )
             else:
-                movie = Movie(draft / name, wish.size, fps)
+                movie = Movie(draft / name, options.size, fps)
             with movie:
                 for k in range(len(frames)):
                     movie.add(picture(k))

@@ -223,7 +223,7 @@ class Frames:
         for number, (piece, poses) in enumerate(zip(self.scene.bodies, self._poses)):
             own = self.scene.own(number)
             placed[own] = poses.move(placed[own], k)
-            shifts = self.result.told.floors.get(number)
+            shifts = self.result.scene_history.floors.get(number)
             if shifts is None:
                 continue
             time = self.result.time

@@ -26,7 +26,7 @@ def chosen_instants(result, start: float, end: float) -> np.ndarray:
     rows = np.flatnonzero((time >= start - 1e-9) & (time <= end + 1e-9))
     if len(rows) <= CHOSEN:
         return time[rows]
-    reach = np.hypot(*result.way[rows, :2].T)
+    reach = np.hypot(*result.u_top[rows, :2].T)
     peaks = (
         find_peaks(reach, height=_PEAK * reach.max())[0] if reach.max() > 0 else np.empty(0, int)
     )

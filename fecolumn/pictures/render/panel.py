@@ -137,11 +137,11 @@ class Panel:
 
     def _place_top(self, figure) -> None:
         """Plan view of the way of the top."""
-        axes, way = figure.add_axes(_TOP), self.frames.result.way[:, :2]
-        quantity = Quantity.of("", "m", np.abs(way).max())
-        self._way = way / quantity.scale
-        axes.plot(*self._way.T, color=GREY, linewidth=0.4, alpha=0.5)
-        square(axes, self._way, 1.1)
+        axes, top = figure.add_axes(_TOP), self.frames.result.u_top[:, :2]
+        quantity = Quantity.of("", "m", np.abs(top).max())
+        self._top_path = top / quantity.scale
+        axes.plot(*self._top_path.T, color=GREY, linewidth=0.4, alpha=0.5)
+        square(axes, self._top_path, 1.1)
         axes.set(xlabel=f"$u_x$ [{quantity.unit}]")
         axes.set_ylabel(f"$u_y$ [{quantity.unit}]", labelpad=1)
         axes.set_title(self.frames.result.top_title, loc="left")
@@ -161,11 +161,11 @@ class Panel:
                 orientation="horizontal",
                 label=quantity.label,
             )
-        told = [f"speed × {speed:g}"] if speed != 1 else []
-        told += (
+        captions = [f"speed × {speed:g}"] if speed != 1 else []
+        captions += (
             [f"elastic deformation × {frames.exaggeration:g}"] if frames.exaggeration != 1 else []
         )
-        figure.text(0.395, 0.955, ", ".join(told), ha="right", va="bottom")
+        figure.text(0.395, 0.955, ", ".join(captions), ha="right", va="bottom")
         self._stamp = figure.text(0.02, 0.955, "", fontsize=11, va="bottom", animated=True)
 
     def picture(self, frame: Frame, scene: np.ndarray) -> np.ndarray:
@@ -184,9 +184,9 @@ class Panel:
         first, last = np.searchsorted(
             self.frames.result.time, [self.frames.times[0] - 1e-9, frame.time + 1e-9]
         )
-        way = self._way[min(first, last - 1) : last]
-        self._trace.set_data(*way.T)
-        self._top.set_data(*way[-1:].T)
+        top = self._top_path[min(first, last - 1) : last]
+        self._trace.set_data(*top.T)
+        self._top.set_data(*top[-1:].T)
         self._plan.show(frame)
         for axes, artist in self._moving:
             axes.draw_artist(artist)

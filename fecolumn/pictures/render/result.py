@@ -16,8 +16,8 @@ from fecolumn.foundation.files import Unreadable, is_file, read_json
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.field_frames import FieldFrames, FrameSeries
 from fecolumn.pictures.render.pose import Poses, nearest_rigid
+from fecolumn.pictures.render.scene_history import SceneHistory, read_scene_history
 from fecolumn.pictures.render.state_frames import StateFrames
-from fecolumn.pictures.render.told import Told, told_by
 from fecolumn.simulation import read_folder_case
 
 # Base that is shown around a foot, and height that the view of the foot shows, over its width [-]
@@ -54,8 +54,8 @@ class Result:
         of `fecolumn.engines.summary`.
     history
         columns of n rows by name
-    told
-        what these tell of the scene.
+    scene_history
+        motion of the scene by these columns.
     poses
         Poses of each body.
     fields
@@ -68,7 +68,7 @@ class Result:
     case: object
     summary: dict
     history: dict[str, np.ndarray]
-    told: Told
+    scene_history: SceneHistory
     poses: tuple[Poses, ...]
     fields: FieldFrames
     states: StateFrames | None
@@ -76,7 +76,7 @@ class Result:
     @property
     def scene(self) -> Scene:
         """What is drawn."""
-        return self.told.scene
+        return self.scene_history.scene
 
     @property
     def time(self) -> np.ndarray:
@@ -84,19 +84,19 @@ class Result:
         return self.history["time"]
 
     @property
-    def way(self) -> np.ndarray:
+    def u_top(self) -> np.ndarray:
         """Displacement (n, 3) [m] of the top that is followed."""
-        return self.told.way
+        return self.scene_history.u_top
 
     @property
     def path(self) -> np.ndarray:
         """Its positions (n, 3) [m]."""
-        return self.way + self.told.top
+        return self.u_top + self.scene_history.top
 
     @property
     def top_title(self) -> str:
         """Title of its plan view."""
-        return self.told.title
+        return self.scene_history.title
 
     @property
     def height(self) -> float:
@@ -162,7 +162,7 @@ class Result:
         ground that tilts most.
         """
         contacts = [contact for contact in self.scene.contacts if contact.on_ground]
-        own = [contact for contact in contacts if contact.piece == self.told.body]
+        own = [contact for contact in contacts if contact.piece == self.scene_history.body]
         return (own or sorted(contacts, key=self._largest_tilt))[-1]
 
     def _largest_tilt(self, contact: JointFace) -> float:
@@ -227,7 +227,7 @@ def read_result(folder, body: str = "") -> Result:
     except Unreadable as error:
         raise InputError(folder / NAME, "", None, str(error)) from None
     history = read_rows(folder / "history.h5")
-    known = told_by(case, folder, history, body)
+    known = read_scene_history(case, folder, history, body)
     fields = FieldFrames(folder / "fields")
     fields.check(known.scene)
     states = StateFrames(folder / STATES, known.scene) if is_file(folder / STATES) else None

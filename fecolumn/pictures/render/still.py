@@ -44,10 +44,10 @@ def still_figure(
         axes = figure.add_axes([0, low, 1 - right / COLUMN_WIDTH_IN, share])
         axes.imshow(image, interpolation="antialiased", aspect="auto")
         axes.axis("off")
-        told = f"$t$ = {frame.time:.3f} s" + (
+        caption = f"$t$ = {frame.time:.3f} s" + (
             f", elastic deformation × {frames.exaggeration:g}" if frames.exaggeration != 1 else ""
         )
-        figure.text(0.02, 1 - 0.05 / tall, told, va="top")
+        figure.text(0.02, 1 - 0.05 / tall, caption, va="top")
         quantity = frames.colour_quantity
         if frames.coloured:
             figure.colorbar(

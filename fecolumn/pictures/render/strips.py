@@ -65,7 +65,7 @@ def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
             strip("twist", r"$\psi$", "rad", by_kind([_twist(one.rotation) for one in poses])),
         )
     return [
-        ground_strip(history, result.way, rows),
+        ground_strip(history, result.u_top, rows),
         *shown,
         energy_strip(history, rows, leans),
     ]

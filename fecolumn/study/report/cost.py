@@ -51,11 +51,7 @@ def cost_ratios(sweep: Sweep, axis: str, ends: bool = False) -> list[CostRatio]:
     levels, found = sweep.axes[axis], []
     for low, high in [(levels[0], levels[-1])] if ends else zip(levels, levels[1:]):
         logs: dict[str, list[float]] = {}
-        for line in sweep.lines(axis):
-            at = {repr(setting.values[axis]): setting for setting in line.settings}
-            if repr(low) not in at or repr(high) not in at:
-                continue
-            a, b = at[repr(low)], at[repr(high)]
+        for a, b in sweep.pairs(axis, low, high):
             motions = [motion for motion in a.runs if motion in b.runs]
             with np.errstate(divide="ignore", invalid="ignore"):
                 ratio = np.log(second_cost(b, motions) / second_cost(a, motions))

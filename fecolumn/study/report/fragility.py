@@ -91,7 +91,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageS
             "its own, where there are more than two."
         )
     low, high = fit.median_interval()
-    told = (
+    median_text = (
         f"{sentence(sweep.at(own))} half of the {sweep.subject.noun}s overturn at "
         f"{_speed(fit.median)} m/s {interval(low, high, _speed)}, with a "
         "logarithmic "
@@ -136,7 +136,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageS
             Paragraph(
                 "[[fragility]] and [[fragilities]]: probability of overturning over "
                 "the peak ground velocity, lognormal, by maximum likelihood (Baker "
-                f"2015), each run one yes or no. {told}{known}Intensities are those of "
+                f"2015), each run one yes or no. {median_text}{known}Intensities are those of "
                 f"the ensemble as it stands, {scaled}."
             ),
             gallery.draw("fragility", caption, line_figure, panels),

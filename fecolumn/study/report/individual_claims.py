@@ -19,7 +19,7 @@ from fecolumn.study.report.notation import (
     percent,
     setting_text,
 )
-from fecolumn.study.report.sweep import DT, FINE_DT_S, Line, Sweep, common_motions
+from fecolumn.study.report.sweep import DT, FINE_DT_S, Line, Sweep, common_motions, common_peaks
 
 _STRONG_SPREAD, _LITTLE_SPREAD = 1.25, 1.05
 _OFTEN = 0.05
@@ -53,8 +53,7 @@ class SettingSpread:
 def setting_spread(settings) -> SettingSpread:
     """Spread of the peaks over settings, motion by motion."""
     motions = common_motions(settings)
-    pairs = [setting.peaks(motions) for setting in settings]
-    u, over = np.array([u for u, _ in pairs]), np.array([over for _, over in pairs])
+    u, over = common_peaks(settings, motions)
     times = over.sum(axis=0)
     stands = (times == 0) & (u.min(axis=0) > 0)
     return SettingSpread(

@@ -61,7 +61,7 @@ def link_section(sweep: Sweep) -> PageSection | None:
 
 
 def _three(unit: float):
-    def told(*values) -> str:
+    def written(*values) -> str:
         return ", ".join(number(unit * value) for value in values)
 
-    return told
+    return written

@@ -68,15 +68,15 @@ def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
         for row in _rows(line, others, name if len(ensembles) > 1 else "", some, bool(fewer))
     ]
     nearest = {line.reference.values[ENGINE] for line in lines}
-    told = " or ".join(NAMES[one] for one in NEAREST if one in nearest)
+    references = " or ".join(NAMES[one] for one in NEAREST if one in nearest)
     found = {one.values[ENGINE] for line in lines for one in line.settings}
-    motions_told = (
+    motions_text = (
         f"{_span(len(line.reference.runs) for line in lines)} motions{_exceptions(fewer)}"
     )
     text = (
-        f"{count(len(found), 'engine')} ran through the same {motions_told}. "
+        f"{count(len(found), 'engine')} ran through the same {motions_text}. "
         f"[[models]] sets their distributions beside each other, [[engines]] "
-        f"measures each against {told}: D is the largest distance of the two "
+        f"measures each against {references}: D is the largest distance of the two "
         "distributions, p the probability of as large a one if the engine "
         "did not matter (engines swapped within motions). Common motions make D "
         "smaller than chance between two samples of motions would: a D that is not "
@@ -122,7 +122,7 @@ def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     blocks.append(
         gallery.draw(
             "models",
-            f"Distributions of u_max by engine, on the same {motions_told}.{left_out}",
+            f"Distributions of u_max by engine, on the same {motions_text}.{left_out}",
             cdf_figure,
             panels,
         )
@@ -145,7 +145,9 @@ def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
         *(
             (
                 PageColumn(
-                    "reference_overturned", f"{told}: over\N{SOFT HYPHEN}turned of the same", number
+                    "reference_overturned",
+                    f"{references}: over\N{SOFT HYPHEN}turned of the same",
+                    number,
                 ),
             )
             if fewer
@@ -160,7 +162,7 @@ def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
             rows,
             "Engines on the same motions. e₅₀, the difference of the medians over that "
             "of the reference, D, p, the distance not excluded (at 95 %) and the share "
-            f"of motions with the same outcome are to {told}"
+            f"of motions with the same outcome are to {references}"
             f"{', on the n motions of the line' if fewer else ''}. CPU: mean processor time "
             "of an analysis, without what is made or compiled once; wall time where an "
             "analysis did not record it.",
@@ -219,8 +221,10 @@ def _span(numbers) -> str:
 
 def _exceptions(fewer: dict[str, list[int]]) -> str:
     """What is said of engines that have fewer motions, by their names."""
-    told = (f"{NAMES.get(name, name)}: {_span(numbers)} of them" for name, numbers in fewer.items())
-    return f" ({', '.join(told)})" if fewer else ""
+    spans = (
+        f"{NAMES.get(name, name)}: {_span(numbers)} of them" for name, numbers in fewer.items()
+    )
+    return f" ({', '.join(spans)})" if fewer else ""
 
 
 def _label(line: _Beside, setting: Setting, motions: int) -> str:
@@ -262,12 +266,12 @@ def _rows(line: _Beside, others, ensemble: str, some: set | None, any_fewer: boo
         fallen, base_fallen = (
             one.column("overturned", motions).astype(bool) for one in (setting, line.reference)
         )
-        told = [None] * (5 + any_fewer)
+        beside = [None] * (5 + any_fewer)
         if setting is not line.reference:
             test = paired_kolmogorov_smirnov(censored(u, lost), censored(base, base_lost))
             medians = [percentile(*one, 0.5) for one in ((u, lost), (base, base_lost))]
             e50 = abs(medians[0] - medians[1]) / medians[1] if np.isfinite(medians).all() else None
-            told = [
+            beside = [
                 e50,
                 float(test.statistic),
                 float(test.p),
@@ -283,7 +287,7 @@ def _rows(line: _Beside, others, ensemble: str, some: set | None, any_fewer: boo
             float(fallen.mean()),
             *proportion_interval(int(fallen.sum()), len(motions)),
             percentile(u, lost, 0.5),
-            *told,
+            *beside,
             _cost(setting, motions),
         )
 

@@ -205,18 +205,18 @@ def _abstract(sweep: Sweep, sections: list[PageSection]) -> str:
             f"P(overturn) is {percent(over.mean())} (95 % interval {percent(bounds[0])} "
             f"to {percent(bounds[1])})."
         )
-    told = next(
+    claim_list = next(
         (block for section in sections for block in section.blocks if isinstance(block, ClaimList)),
         None,
     )
-    if told:
-        claims = told.claims
+    if claim_list:
+        claims = claim_list.claims
         tally = {
             verdict: [claim.key for claim in claims if claim.verdict == verdict]
             for verdict in dict.fromkeys(c.verdict for c in claims)
         }
         parts.append(
-            f"Of {len(claims)} findings of {told.authors} put to it, "
+            f"Of {len(claims)} findings of {claim_list.authors} put to it, "
             + _listed(
                 [
                     f"{len(keys)} {'is' if len(keys) == 1 else 'are'} {verdict}"

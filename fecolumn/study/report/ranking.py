@@ -5,10 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from fecolumn.statistics.sensitivity import Sensitivity, sensitivity
-from fecolumn.study.report.sweep import ENGINE, Setting, Sweep, common_motions
+from fecolumn.study.report.sweep import ENGINE, Setting, Sweep, common_motions, common_peaks
 
 _SAMPLED = 8  # an axis with more levels is a sampled one: its outer quarters are compared
 _LEAST_MOTIONS = 5
@@ -53,11 +51,7 @@ def ranking(sweep: Sweep) -> list[Rank]:
 def _crossed(sweep: Sweep, axis: str) -> Rank | None:
     """Extreme levels at equal values of all others."""
     low, high = sweep.axes[axis][0], sweep.axes[axis][-1]
-    ends = []
-    for line in sweep.lines(axis):
-        at = {repr(setting.values[axis]): setting for setting in line.settings}
-        if repr(low) in at and repr(high) in at:
-            ends.append((at[repr(low)], at[repr(high)]))
+    ends = sweep.pairs(axis, low, high)
     return _effect(axis, low, high, [a for a, _ in ends], [b for _, b in ends])
 
 
@@ -81,9 +75,5 @@ def _effect(axis: str, low, high, at_low: list[Setting], at_high: list[Setting])
     motions = common_motions(at_low + at_high) if at_low else []
     if len(motions) < _LEAST_MOTIONS:
         return None
-    u_low, over_low, u_high, over_high = (
-        np.array([setting.peaks(motions)[kind] for setting in settings])
-        for settings in (at_low, at_high)
-        for kind in (0, 1)
-    )
-    return Rank(axis, low, high, len(at_low), sensitivity(u_low, over_low, u_high, over_high))
+    effect = sensitivity(*common_peaks(at_low, motions), *common_peaks(at_high, motions))
+    return Rank(axis, low, high, len(at_low), effect)

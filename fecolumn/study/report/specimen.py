@@ -19,7 +19,7 @@ def specimen(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageSe
     """The section; None where neither the specimen's shape nor a motion is to be found."""
     varied = {axis.partition(".")[0] for axis in sweep.varied} & {"column", "cap", "flange", "base"}
     outline = specimen_outline(sweep.case) if sweep.case else None
-    motion, told = _middle(sweep, intensities)
+    motion, motion_text = _middle(sweep, intensities)
     if outline is None and motion is None:
         return None
     tilt = next((run.get("critical_tilt_rad") for run in sweep.reference.runs.values()), None)
@@ -33,7 +33,7 @@ def specimen(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageSe
             "Specimen: "
             f"{outline.words}{' in the first setting; others vary it' if varied else ''}. "
         )
-    text += told + (f"In all analyses {setting_text(same)}." if same else "")
+    text += motion_text + (f"In all analyses {setting_text(same)}." if same else "")
     shown = [
         words
         for words, there in (

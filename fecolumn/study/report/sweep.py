@@ -75,8 +75,7 @@ class Line:
 
     def peaks(self) -> tuple[np.ndarray, np.ndarray]:
         """u_max [m] and overturned, (levels, n) of the common motions."""
-        pairs = [setting.peaks(self.motions()) for setting in self.settings]
-        return np.array([u for u, _ in pairs]), np.array([over for _, over in pairs])
+        return common_peaks(self.settings, self.motions())
 
     @property
     def levels(self) -> list:
@@ -210,10 +209,25 @@ class Sweep:
             for group in groups.values()
         ]
 
+    def pairs(self, axis: str, low, high) -> list[tuple[Setting, Setting]]:
+        """Settings at two levels of an axis of each of its lines that has both."""
+        found = []
+        for line in self.lines(axis):
+            at = {repr(setting.values[axis]): setting for setting in line.settings}
+            if repr(low) in at and repr(high) in at:
+                found.append((at[repr(low)], at[repr(high)]))
+        return found
+
     def lines(self, axis: str) -> list[Line]:
         """Every line along an axis with at least two levels that have runs of common motions."""
         lines = [Line(axis, others, settings) for others, settings in self.groups(axis)]
         return [line for line in lines if len(line.settings) > 1 and line.motions()]
+
+
+def common_peaks(settings, motions: list[str]) -> tuple[np.ndarray, np.ndarray]:
+    """u_max [m] and whether lost, (settings, motions) each."""
+    pairs = [setting.peaks(motions) for setting in settings]
+    return np.array([u for u, _ in pairs]), np.array([over for _, over in pairs])
 
 
 def common_motions(settings) -> list[str]:

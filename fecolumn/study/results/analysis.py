@@ -163,19 +163,19 @@ class AnalysisResult:
         """
         return AnalysisPlots(self.folder)
 
-    def render(self, **wishes) -> list[Path]:
+    def render(self, **options) -> list[Path]:
         """Movie, stills and sequence as of `fecolumn render`; the files.
 
         Parameters
         ----------
-        wishes
-            by the names of `render.wish.Wish`, such as view="front", only="pictures",
-            instants=(0.5, 1.0) [s].
+        options
+            by the names of `pictures.render.render_options.RenderOptions`, such as view="front",
+            only="pictures", instants=(0.5, 1.0) [s].
         """
         from fecolumn.pictures.render.draw import render
-        from fecolumn.pictures.render.wish import Wish
+        from fecolumn.pictures.render.render_options import RenderOptions
 
-        return render(self.folder, Wish(**wishes), quiet=True)
+        return render(self.folder, RenderOptions(**options), quiet=True)
 
     def compare(self, other: AnalysisResult, tolerance: float = 0.05):
         """Compare with another analysis as `fecolumn compare` does; a `results.parting.Parting`.

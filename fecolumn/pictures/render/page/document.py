@@ -18,9 +18,9 @@ from fecolumn.pictures.render.page.ground import ground_of
 from fecolumn.pictures.render.page.parts import RigidPart, parts_of
 from fecolumn.pictures.render.page.plot import MotionPlot, base64_of
 from fecolumn.pictures.render.page.rods import Rod, rods_of_links, rods_of_storeys
+from fecolumn.pictures.render.render_options import COMMAND
 from fecolumn.pictures.render.result import Result
 from fecolumn.pictures.render.strips import strips_of
-from fecolumn.pictures.render.wish import COMMAND
 
 #: The file
 NAME = "motion.html"
@@ -71,7 +71,7 @@ def page_of(result: Result, span: tuple[float, float], view: str, speed: float) 
         for k, family in enumerate(dict.fromkeys(_family(part.kind) for part in parts))
     }
     links = rods_of_links(result, parts, times)
-    told = {
+    content = {
         "title": result.case.title or result.folder.resolve().name,
         "engine": result.case.integration.engine,
         "start": float(times[0]),
@@ -86,7 +86,7 @@ def page_of(result: Result, span: tuple[float, float], view: str, speed: float) 
         "arrows": _arrows(result, parts, times, plot),
         "strips": [_strip(strip) for strip in strips_of(result, times)],
     } | _seen(result, times, view)
-    return _page(plot.html(_script(told)), str(told["title"]))
+    return _page(plot.html(_script(content)), str(content["title"]))
 
 
 def times_of(result: Result, span: tuple[float, float], speed: float) -> np.ndarray:
@@ -171,10 +171,10 @@ def _written(value: float, unit: str) -> str:
     return f"{value / quantity.scale:.3g} {quantity.unit}"
 
 
-def _script(told: dict) -> str:
+def _script(content: dict) -> str:
     """The program of the page with what it shows; nothing in it ends a script element."""
     own = files(__package__)
-    text = json.dumps(told).replace("</", "<\\/")
+    text = json.dumps(content).replace("</", "<\\/")
     style = json.dumps((own / "page.css").read_text())
     programs = "\n".join((own / name).read_text() for name in _PROGRAMS)
     return f"{programs}\nshowMotion(K3DInstance, {text}, {style});\n"

@@ -80,7 +80,7 @@ def parts_of(result: Result, times: np.ndarray) -> list[RigidPart]:
 
 def _shifts(result: Result, number: int, times: np.ndarray) -> list[np.ndarray]:
     """Displacement (t, 3) [m] beyond the pose of a body, of a building's slab and of each floor."""
-    floors = result.told.floors.get(number)
+    floors = result.scene_history.floors.get(number)
     if floors is None:
         return [np.zeros((len(times), 3))]
     rows = np.minimum(np.searchsorted(result.time, times - 1e-9), len(result.time) - 1)

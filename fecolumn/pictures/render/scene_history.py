@@ -1,5 +1,5 @@
-"""What the history of an analysis tells of the pieces of its scene: how bodies move, and the way of
-the top that is followed.
+"""Motion of the bodies of a scene, and of the top that is followed, from the history of an
+analysis.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from fecolumn.pictures.render.pose import Poses
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class SceneHistory:
     """A scene and its history.
 
     Attributes
     ----------
     poses
-        of each body at the rows of the history; None where it does not tell them.
-    way
+        of each body at the rows of the history; None where the history has no rotations.
+    u_top
         displacement (n, 3) [m] of the top that is followed.
     top
         (3,) [m] its place at rest.
@@ -36,15 +36,15 @@ class Told:
 
     scene: Scene
     poses: tuple[Poses, ...] | None
-    way: np.ndarray
+    u_top: np.ndarray
     top: np.ndarray
     title: str
     body: int
     floors: dict[int, np.ndarray] = field(default_factory=dict)
 
 
-def told_by(case, folder, history: dict[str, np.ndarray], body: str) -> Told:
-    """What the history of an analysis tells; before version 0.7 no poses.
+def read_scene_history(case, folder, history: dict[str, np.ndarray], body: str) -> SceneHistory:
+    """Motion of a scene from the history of an analysis; a version before 0.7 has no poses.
 
     Raises
     ------
@@ -62,8 +62,8 @@ def told_by(case, folder, history: dict[str, np.ndarray], body: str) -> Told:
     followed, observed = _place(structure, body), structure.observed
     mark = observed[1] if followed == observed[0] else "top"
     part = structure.parts[followed]
-    way = f"mark/{part.name}.{mark}/displacement"
-    wanted = [f"body/{one.name}/displacement" for one in structure.parts] + [way]
+    column = f"mark/{part.name}.{mark}/displacement"
+    wanted = [f"body/{one.name}/displacement" for one in structure.parts] + [column]
     for name in wanted:
         if name not in history:
             raise InputError(
@@ -83,10 +83,10 @@ def told_by(case, folder, history: dict[str, np.ndarray], body: str) -> Told:
         there = one.center + history[f"body/{one.name}/displacement"]
         moves.append(Poses(history["time"], matrices, there, one.center))
     scene = scene_of(case, structure, file)
-    return Told(
+    return SceneHistory(
         scene,
         moves and tuple(moves),
-        history[way],
+        history[column],
         part.center + part.model.marks[mark][0],
         f"{mark} of {part.name}",
         followed,
@@ -109,7 +109,9 @@ def _place(structure, body: str) -> int:
 
 
 def _floors(scene: Scene, structure, history: dict, moves) -> dict[int, np.ndarray]:
-    """As of `Told`: from the marks of the floors, and the drift of the lowest from the slab."""
+    """As of `SceneHistory`: from the marks of the floors, and the drift of the lowest from the
+    slab.
+    """
     found = {}
     for k, (piece, part, pose) in enumerate(zip(scene.bodies, structure.parts, moves)):
         shifts = []

@@ -1,4 +1,4 @@
-"""What the user wishes to be drawn, checked."""
+"""Options of a picture, checked."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _ASPECT = 1.4, 3.0
 
 
 @dataclass(frozen=True, slots=True)
-class Wish:
+class RenderOptions:
     """What is to be drawn; times in s.
 
     Attributes
@@ -123,7 +123,7 @@ class Wish:
             )
 
     @classmethod
-    def of(cls, args) -> Wish:
+    def of(cls, args) -> RenderOptions:
         """The options of the command line."""
         size = re.fullmatch(r"(\d{1,5})x(\d{1,5})", args.size)
         check_option(size, "--size", args.size, "must be two numbers of pixels such as 1280x720")

@@ -1,0 +1,164 @@
+"""Keys of the rigid bodies of rocking models: a rectangle or a circle by its sides, or by
+slenderness and half diagonal; its friction, tendon and restitution.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from fecolumn.foundation.schema import InputError, Section, parameter
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OutlineKeys(Section):
+    """A body of a height and a size across."""
+
+    ACROSS: ClassVar[str]
+
+    height_m: float | None = parameter(
+        None,
+        doc="height of the block, or of a column; or slenderness_rad and half_diagonal_m",
+        unit="m",
+        above=0,
+        high=1000,
+    )
+    slenderness_rad: float | None = parameter(
+        None,
+        doc="alpha: tilt at which the centre of mass of the block, or of a column alone, stands "
+        "over the edge",
+        unit="rad",
+        above=0,
+        high=1.5,
+    )
+    half_diagonal_m: float | None = parameter(
+        None,
+        doc="R: half the diagonal, which is the distance of the centre of mass from the edge",
+        unit="m",
+        above=0,
+        high=1000,
+    )
+
+    def half_and_height(self, table: str, file) -> tuple[float, float]:
+        """Half the size across and the height [m].
+
+        Raises
+        ------
+        InputError
+            neither the sides are stated nor slenderness and half diagonal, or keys of both.
+        """
+        keys = self.ACROSS, "height_m", "slenderness_rad", "half_diagonal_m"
+        across, height, alpha, diagonal = values = [getattr(self, key) for key in keys]
+        given = [key for key, value in zip(keys, values) if value is not None]
+        if given == [*keys[:2]]:
+            return across / 2, height
+        if given == [*keys[2:]]:
+            return diagonal * math.sin(alpha), 2 * diagonal * math.cos(alpha)
+        key = given[0] if given else self.ACROSS
+        raise InputError(
+            file,
+            f"{table}.{key}",
+            getattr(self, key),
+            f"state {table}.{self.ACROSS} and {table}.height_m, or {table}.slenderness_rad and "
+            f"{table}.half_diagonal_m",
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RectangleKeys(OutlineKeys):
+    """A rectangle that rocks along x."""
+
+    ACROSS: ClassVar[str] = "width_m"
+
+    width_m: float | None = parameter(
+        None,
+        doc="width of the block, or of a column, along x; or slenderness_rad and half_diagonal_m",
+        unit="m",
+        above=0,
+        high=1000,
+    )
+
+
+@dataclass(frozen=True, kw_only=True)  # of two bases one alone can have slots
+class RestraintKeys(Section):
+    """Friction, and a tendon, of each body of a model."""
+
+    friction_coefficient: float = parameter(
+        0.6,
+        doc="Coulomb friction coefficient at the foot: only checked, the model does not slide",
+        above=0,
+        high=10,
+    )
+    tendon_n_m: float = parameter(
+        0.0,
+        doc="stiffness of a tendon on the axis of the block, or of each column, anchored below "
+        "the foot: of tendon and springs in series",
+        unit="N/m",
+        low=0,
+        high=1e12,
+    )
+    tendon_prestress_n: float = parameter(
+        0.0, doc="force of each tendon upright", unit="N", low=0, high=1e12
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RockingKeys(RestraintKeys, RectangleKeys):
+    """A rectangle that rocks about its edges."""
+
+    restitution: float | None = parameter(
+        None,
+        doc="ratio of the angular velocity after an impact to that before it; left out: of the "
+        "plastic impact",
+        low=0,
+        high=1,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RollingKeys(RestraintKeys, OutlineKeys):
+    """A cylinder or tube that rolls on the rim of its foot."""
+
+    ACROSS: ClassVar[str] = "outer_diameter_m"
+
+    outer_diameter_m: float | None = parameter(
+        None,
+        doc="outer diameter of a column; or slenderness_rad and half_diagonal_m",
+        unit="m",
+        above=0,
+        high=1000,
+    )
+    wall_m: float | None = parameter(
+        None,
+        doc="wall thickness of a tube; left out: a solid cylinder",
+        unit="m",
+        above=0,
+        high=500,
+    )
+    restitution: float = parameter(
+        1.0,
+        doc="ratio of the tilt's rate after to before, where a column passes upright in a plane; "
+        "rolling past upright loses nothing",
+        low=0,
+        high=1,
+    )
+
+    def bore(self, radius: float, table: str, file) -> float:
+        """Inner radius [m] of a column of this outer radius [m].
+
+        Raises
+        ------
+        InputError
+            a wall thicker than the radius.
+        """
+        if self.wall_m is None:
+            return 0.0
+        if self.wall_m > radius:
+            raise InputError(
+                file,
+                f"{table}.wall_m",
+                self.wall_m,
+                f"must be at most the outer radius, {radius:g} m",
+            )
+        return radius - self.wall_m
