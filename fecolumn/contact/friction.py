@@ -146,7 +146,8 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
                 if residual < least:
                     best, least = forces, residual
     many = n > tolerances.MANY_POINTS and len(coupling.whole) == 0
-    for way in range(2 if len(coupling.whole) == 0 else 0):
+    # of few points the whole matrix follows
+    for way in range((2 if many else 1) if len(coupling.whole) == 0 else 0):
         if least <= tolerance:
             break
         if many == (way == 0):
