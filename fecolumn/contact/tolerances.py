@@ -145,8 +145,9 @@ IMPACT_MISSED, FROZEN_ENDS = 1e-3, 1e-2
 #: steps. Share of what is still missed to which a round is solved; slope along a step, over that
 #: at its start, at which a search ends.
 FROZEN_ROUNDS, FROZEN_STEPS, FROZEN_SEARCHES = 12, 60, 30
-#: Rounds more where slips go to and fro, in which they go half the way: 300 points of a wall of
-#: thirty stones come to a thousandth in a dozen of them, and to a hundredth without. Of the forces
+#: Rounds more where slips go to and fro, in which they go half the way: of six made-up impacts
+#: of 289 points of a wall five came to a thousandth with half ways from the fourth round on, one to
+#: 4e-3; without, most stayed at a hundredth. Of the forces
 #: of a step they go half the way from the second number of rounds on. What the laws of an impact of
 #: more than MANY_POINTS may be missed by, over what they else are, where all rounds are spent.
 FROZEN_MORE, FROZEN_HALVED, MANY_MISSED = 24, 4, 10.0

@@ -65,7 +65,7 @@ class Passing:
         return self._told * (
             f't = {motion.time:.4g} s: "{self._names[b]}" goes {ways[b]:.2g} times its thickness '
             f"in a step: on the way it may sink into what it meets; integration.dt_s = {dt:g}: "
-            f"{_rounded(dt * _FAST / ways[b]):g} s lets contact follow it"
+            f"{_rounded(dt * _FAST / ways[b]):g} s goes no further than that thickness"
         )
 
     def _speeds(self, motion) -> np.ndarray:
