@@ -192,7 +192,7 @@ def engine_of(body: BodyModel, stone: Stone, dt: float, alpha: float = -0.05) ->
         HHT(dt, alpha),
         (0.0, 0.0, -GRAVITY),
     )
-    eye = view_of(
+    view = view_of(
         model,
         structure_of(model, hht, gravity)[0],
         body.mass * GRAVITY,
@@ -201,7 +201,7 @@ def engine_of(body: BodyModel, stone: Stone, dt: float, alpha: float = -0.05) ->
     return Engine(
         lambda step: structure_of(model, step, gravity),
         (base,),
-        eye,
+        view,
         hht,
         lambda made: of_parts(made, model.parts, True),
         model=model,

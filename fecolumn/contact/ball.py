@@ -61,7 +61,7 @@ def from_center(interface, normal, offset):
 
 
 @njit
-def lay_down(points, number):
+def remove_lift(points, number):
     """Take from the points of an interface the heights of the last step."""
     for i in range(len(points)):
         if points[i].interface == number:

@@ -313,8 +313,8 @@ def softened(coupling, give):
 
 @njit
 def stiffnesses(coupling, together):
-    """Stiffness (n,) [N/m] of each point when it moves alone, or when all move: then it is less,
-    and with the other each would seem to slip to and fro.
+    """Stiffness (n,) [N/m] of each point when it moves alone, or when all move `together`, which is
+    less: with the stiffness alone, points would change their direction of slip at each iteration.
     """
     W, n = coupling.whole, max(len(coupling.whole) // 3, len(coupling.own))
     found = np.empty(n)

@@ -217,7 +217,9 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
             ):
                 taken[i] = grown = True
     if least > tolerance and n > tolerances.FEW_POINTS:
-        forces, residual, made, more = _one_by_one(coupling, q, friction, rho, tolerance, sweeps)
+        forces, residual, made, more = _incremental_active_set(
+            coupling, q, friction, rho, tolerance, sweeps
+        )
         iterations += made
         others += more
         if residual < least:
@@ -275,10 +277,10 @@ def by_frozen_slips(coupling, q, friction, start, tolerance, rho):
 
 
 @njit
-def _one_by_one(coupling, q, friction, rho, tolerance, sweeps):
-    """As `iterate`, from no forces at all: the point that obeys the laws least is taken in, one
-    after the other; one that then carries nothing is let go, but not again and again. Each problem
-    is near to the last, and its solution a good guess.
+def _incremental_active_set(coupling, q, friction, rho, tolerance, sweeps):
+    """As `iterate`, from no forces at all: the point that violates the laws most is
+    added to the active set, one at a time; one that then carries nothing is removed once. Each
+    solution is the first guess of the next problem.
     """
     n, least, iterations, others = len(q), np.inf, 0, 0
     forces, best, taken, gone = (
@@ -337,7 +339,7 @@ def _find_some(coupling, q, friction, forces, start, listed, tolerance, sweeps, 
         mu[u] = friction[i]
         for a in range(3):
             slack[u, a], guess[u, a], first[u, a] = q[i, a], forces[i, a], start[i, a]
-    found, _, iterations, others = _by_all_ways(
+    found, _, iterations, others = _with_fallbacks(
         part_of(coupling, listed), slack, mu, guess, first, tolerance, sweeps, turns
     )
     forces[:] = 0.0
@@ -348,7 +350,7 @@ def _find_some(coupling, q, friction, forces, start, listed, tolerance, sweeps, 
 
 
 @njit
-def _by_all_ways(coupling, q, friction, guess, start, tolerance, sweeps, turns):
+def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turns):
     """Forces (n, 3) by one way after the other, residual, Newton iterations and others; guess,
     start: (n, 3) from which Newton is tried; turns: of `_with_frozen_slips`, 0 to leave it.
     """

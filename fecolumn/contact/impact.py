@@ -27,7 +27,7 @@ from fecolumn.contact.tolerances import (
 )
 from fecolumn.foundation._compiled import njit
 
-# Answers of `what_happens`
+# Answers of `impact_event`
 NOTHING, LANDS, TURNS = range(3)
 
 
@@ -79,7 +79,7 @@ def _slid(points, before, i):
 
 
 @njit
-def what_happens(interfaces, points, listed, before, after, dt, early, late, landing, turning):
+def impact_event(interfaces, points, listed, before, after, dt, early, late, landing, turning):
     """Whether the velocities at the end of a step must be taken anew: NOTHING, a point LANDS, or
     slip TURNS for most of the foot.
 
@@ -151,8 +151,8 @@ def find_impact(
     contact_work,
     counts,
 ):
-    """Find the impulses (n, 3) [N s] that replace those of the step: a way to end, whether there
-    are any, the impulses.
+    """Find the impulses (n, 3) [N s] that replace those of the step: OK or the code of what failed,
+    whether there are any, the impulses.
 
     Until the moment of impact only the points that carried before take impulses, from then on all
     points do. These are two projections. A single one would let the weight's impulse of the whole
@@ -234,7 +234,7 @@ def find_impact(
     if taken > 0:
         if not lands:
             return OK, False, impulses
-        kept = _harmless(
+        kept = _energy_limited_share(
             _work(changed, end, np.zeros(3 * k)),
             _work(changed, np.zeros(3 * k), _jump(mobility, changed)),
             contact_work,
@@ -249,19 +249,21 @@ def find_impact(
         jump = _jump(mobility, carried)
         for j in range(3 * k):
             velocity[j] += jump[j]
-        blow, solved = all_impulses(mobility, velocity, friction, second, speed, pressed, counts)
+        landing_impulses, solved = all_impulses(
+            mobility, velocity, friction, second, speed, pressed, counts
+        )
         if not solved:
             return IMPACT_FAILED, False, impulses
         for j in range(3 * k):
-            blow[j] *= restitution[j // 3]
-        returned, jump = _jump(mobility, blow), _jump(mobility, changed)
+            landing_impulses[j] *= restitution[j // 3]
+        returned, jump = _jump(mobility, landing_impulses), _jump(mobility, changed)
         arrived = square = 0.0
         for j in range(3 * k):
-            arrived += blow[j] * (end[j] + jump[j])
-            square += blow[j] * returned[j]
+            arrived += landing_impulses[j] * (end[j] + jump[j])
+            square += landing_impulses[j] * returned[j]
         given_back = returned_share(taken, arrived, square)
         for j in range(3 * k):
-            changed[j] += given_back * blow[j]
+            changed[j] += given_back * landing_impulses[j]
     for j in range(k):
         for a in range(3):
             impulses[union[j], a] = changed[3 * j + a]
@@ -313,14 +315,21 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, counts)
         velocity[j] += jump[j]
     for j in range(k):
         approach = max(approach, -velocity[3 * j + 2])
-    blow, solved = all_impulses(mobility, velocity, friction, given, np.inf, pressed, counts)
-    return (-_work(blow, velocity, _jump(mobility, blow)), approach) if solved else (0.0, 0.0)
+    landing_impulses, solved = all_impulses(
+        mobility, velocity, friction, given, np.inf, pressed, counts
+    )
+    return (
+        (-_work(landing_impulses, velocity, _jump(mobility, landing_impulses)), approach)
+        if solved
+        else (0.0, 0.0)
+    )
 
 
 @njit
 def _restitutions(interfaces, points, union, landing):
     """Restitution of each of the points `union` (k,): that of its joint where a point of that lands
-    (mask), else the least of those that land, whose blow it only hands on.
+    (mask), else the least of those that land, for a point that was loaded before only transmits the
+    impact.
     """
     least, lands, found = np.inf, np.zeros(len(interfaces), np.bool_), np.zeros(len(union))
     for i in union:
@@ -359,7 +368,7 @@ def _work(impulses, velocity, jump):
 
 
 @njit
-def _harmless(first, second, contact_work):
+def _energy_limited_share(first, second, contact_work):
     """Largest share s, at most 1, of impulses that bring the energy first s + second s^2 [J] by
     which they and contact, `contact_work` [J], bring none in all; of contact that brings some
     itself, the share that takes most.

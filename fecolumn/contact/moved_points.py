@@ -127,7 +127,7 @@ def move_inwards(interface, rim, q, points, point, share, arms, way):
 
 
 @njit
-def leave_out(i, points, before):
+def deactivate_point(i, points, before):
     """Let point i take no part; whether it did in the step before."""
     changed, contact = not points[i].idle, before[i]
     points[i].idle = True
@@ -160,7 +160,7 @@ def bring(i, gone, interfaces, frames, poses, contact, points, before, size, lay
     elif gone >= 0 and contact[gone].present and contact[gone].force[2] > 0.0:
         _exchange(i, gone, interfaces, frames, poses, contact, points, before)
     elif not lay or point.count > 1:
-        begin_afresh(now)
+        activate_point(now)
         now.beyond = not lay
     now.present = True
     for a in range(3):
@@ -204,7 +204,7 @@ def _exchange(i, gone, interfaces, frames, poses, contact, points, before):
 
 
 @njit
-def begin_afresh(now):
+def activate_point(now):
     """Let a point, of CONTACT, take part that did not before: it must be above the surface to
     carry.
     """

@@ -136,7 +136,7 @@ def stance(
     )
 
 
-def never_alone(inertia: np.ndarray, weight: float, cap: float) -> Stance:
+def cap_only_stance(inertia: np.ndarray, weight: float, cap: float) -> Stance:
     """Stance of one of many bodies: it is lost by its cap alone; further arguments as of Stance,
     cap 0 for none.
     """
@@ -271,7 +271,7 @@ def fallen(stance, rotation, spin, force, top, steepest):
 
 
 @njit
-def gone(standing, corners, rotation, spins, b, force, steepest):
+def is_past_no_return(standing, corners, rotation, spins, b, force, steepest):
     """Whether body b of many is past its point of no return: by `fallen`, from what it stands on.
 
     Parameters

@@ -94,8 +94,8 @@ def pad_below(keys, areas: np.ndarray, mass: float) -> Pad:
 
 
 class Springs(NamedTuple):
-    """What points give alone in a step. own: (n, 3) [m/N] of contact law and pad; give: (n, 3)
-    [m/N] of the pad, kept: (n,) share of its indentation that is left without force, see
+    """Compliance of each point by itself in a step. own: (n, 3) [m/N] of contact law and pad; give:
+    (n, 3) [m/N] of the pad, kept: (n,) share of its indentation that is left without force, see
     `Pad.give`. flow: (n,) [m/N] by which the pad gives more once it yields, 0 where it never does;
     yields: (n,) whether it does in this step: then `own` has it, too.
     """

@@ -152,7 +152,7 @@ def present_points(problem):
 
 
 @njit
-def mark_close(problem, points, interfaces, positions, before, after):
+def list_near_points(problem, points, interfaces, positions, before, after):
     """List the points that are low or carry force: those of which more than the place matters."""
     count, everyone = 0, problem.flags[STICKS_STILL]
     for i in present_points(problem):
@@ -198,11 +198,11 @@ def find_residual(
 ):
     """Find relative positions in `after`, and how well its forces obey the laws.
 
-    Returns a way to end, and the largest violation over the allowed one: the problem is solved
-    where that is 1 at most. Two lengths bound the violation. One is short for the width of the
-    foot. The other is the indentation by a small share of the strongest force: a stiff contact
-    meets the first length under wrong forces, too. A point that carries although it is above the
-    base is never solved.
+    Returns OK or the code of what failed, and the largest violation over the allowed one: the
+    problem is solved where that is 1 at most. Two lengths bound the violation. One is short for the
+    width of the foot. The other is the indentation by a small share of the strongest force: a stiff
+    contact meets the first length under wrong forces, too. A point that carries although it is
+    above the base is never solved.
 
     Parameters
     ----------
@@ -296,12 +296,15 @@ def find_residual(
                 problem.rho[i],
                 points[i].friction,
             )
-            worst = max(worst, np.inf if _hangs(problem, after, i) else error / problem.allowed[i])
+            worst = max(
+                worst,
+                np.inf if _is_spurious_load(problem, after, i) else error / problem.allowed[i],
+            )
     return OK, worst
 
 
 @njit
-def _hangs(problem, after, i):
+def _is_spurious_load(problem, after, i):
     """Whether point i carries, above the base, a force that its place does not call for."""
     return (
         problem.slack[i, 2] > problem.allowed[i]
@@ -389,7 +392,9 @@ def _coupling(problem, stick):
 
 @njit
 def find_forces(problem, points, interfaces, stick, after, counts):
-    """Forces in `after` that obey the laws as far as the compliance tells: a way to end."""
+    """Forces in `after` that obey the laws as far as the compliance tells: OK, or the code of what
+    failed.
+    """
     usable, tight, listed, sticks = np.inf, np.inf, _active(problem), problem.flags[STICKS_STILL]
     for i in listed:
         usable, tight = (
@@ -416,7 +421,7 @@ def find_forces(problem, points, interfaces, stick, after, counts):
             q[j, a] = problem.slack[listed[j], a] - moved[j, a]
     for j in range(count):
         # so small that the length would let it stay
-        if _hangs(problem, after, listed[j]):
+        if _is_spurious_load(problem, after, listed[j]):
             for a in range(3):
                 old[j, a] = 0.0
     forces, residual, newtons, others = iterate(
@@ -471,8 +476,8 @@ def solve_linear(
     after,
     counts,
 ):
-    """Forces of bodies that answer a change of forces linearly: a way to end, largest violation of
-    the laws as of `find_residual`.
+    """Forces of bodies that answer a change of forces linearly: OK or the code of what failed,
+    largest violation of the laws as of `find_residual`.
 
     Parameters
     ----------
@@ -484,7 +489,7 @@ def solve_linear(
     most
         times that forces are found; 0 only looks how well they obey the laws.
     """
-    mark_close(problem, points, interfaces, positions, before, after)
+    list_near_points(problem, points, interfaces, positions, before, after)
     listed = near_points(problem)
     k, arms, old = len(listed), np.zeros((len(after), 3)), np.empty(3 * len(listed))
     # feet that stick still have it in their operator

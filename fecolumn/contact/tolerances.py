@@ -191,7 +191,7 @@ ROUND_NODES, ROUND = 12, 1e-6
 # --------------------------------------------------------------------------------------------------
 #: Inertia of the iteration to equilibrium over the rate of falling, squared: it only holds what
 #: contact and friction leave free. The contact's compliance leaves out that a tilt moves the
-#: weight; the iteration that mends this contracts by the inverse.
+#: weight; the iteration that corrects this converges with the inverse as its factor.
 FIRMNESS = 10.0
 #: Times that the inertia is made ten times as large where the iteration diverges. About the
 #: vertical it is a slender column's smallest, and horizontal forces on a wide flange, which the

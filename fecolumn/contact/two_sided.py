@@ -14,11 +14,11 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.moved_points import (
-    begin_afresh,
+    activate_point,
     bring,
     carry_by_node,
     carry_by_outline,
-    leave_out,
+    deactivate_point,
     move_inwards,
     on_face,
 )
@@ -116,9 +116,9 @@ def place_overlaps(
             for k in (joint.forward, joint.reverse):
                 changed |= _leave_rim(interfaces[k], rim, points, before)
             for slot in overlaps.slots[joint.slot : joint.slot + joint.slots]:
-                changed |= leave_out(slot.forward, points, before)
+                changed |= deactivate_point(slot.forward, points, before)
                 if slot.reverse >= 0:
-                    changed |= leave_out(slot.reverse, points, before)
+                    changed |= deactivate_point(slot.reverse, points, before)
             continue
         changed |= _place(
             overlaps,
@@ -155,7 +155,7 @@ def _leave_rim(interface, rim, points, before):
     """Let the points of a round rim take no part; whether any did in the step before."""
     changed = False
     for q in range(interface.rim_count):
-        changed |= leave_out(rim[interface.rim_first + q], points, before)
+        changed |= deactivate_point(rim[interface.rim_first + q], points, before)
     return changed
 
 
@@ -281,9 +281,9 @@ def _place(
             or slot.free
         )
         if role != FORWARD:
-            changed |= leave_out(slot.forward, points, before)
+            changed |= deactivate_point(slot.forward, points, before)
         if role != REVERSE and slot.reverse >= 0:
-            changed |= leave_out(slot.reverse, points, before)
+            changed |= deactivate_point(slot.reverse, points, before)
         if role == NONE:
             continue
         i, gone = (slot.forward, slot.reverse) if role == FORWARD else (slot.reverse, slot.forward)
@@ -561,7 +561,7 @@ def _place_rim(
         takes = out <= band if limit == OTHER else out < -band
         takes = takes and not _is_near(corners, place, SAME_POINT * joint.size)
         if not takes:
-            changed |= leave_out(i, points, before)
+            changed |= deactivate_point(i, points, before)
             continue
         changed |= point.idle
         point.idle = False
@@ -578,7 +578,7 @@ def _place_rim(
                 if a < 2:
                     now.anchor[a] += moved
         else:
-            begin_afresh(now)
+            activate_point(now)
         now.present = True
         for a in range(3):
             now.arm[a] = way[a]

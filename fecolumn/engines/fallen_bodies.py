@@ -17,7 +17,7 @@ _DROP = 0.5
 
 
 class FallenBodies:
-    """What of a structure whose contact is found lies still, and what has fallen.
+    """Which bodies of a structure whose contact is found are at rest, and which have fallen.
 
     still_j: kinetic energy at which all lies still [J], at most; turn_s: time for which it must
     [s], so that a body about to fall back is not taken for one at rest.

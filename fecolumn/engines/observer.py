@@ -7,7 +7,14 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from fecolumn.contact.overturning import CAPPED, FELL, NO_RETURN, STANDS, gone, never_alone
+from fecolumn.contact.overturning import (
+    CAPPED,
+    FELL,
+    NO_RETURN,
+    STANDS,
+    cap_only_stance,
+    is_past_no_return,
+)
 from fecolumn.contact.points import BASE, OVER
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.engines.structure_analysis import of_both_sides
@@ -38,7 +45,7 @@ class Observer:
         self.body, self._mark = structure.observed
         part = structure.parts[self.body]
         self.stance, self.top_arm = (
-            never_alone(part.model.inertia, system.weight, cap),
+            cap_only_stance(part.model.inertia, system.weight, cap),
             part.model.marks[self._mark][0],
         )
         self._centers, upright = (
@@ -176,7 +183,7 @@ class Observer:
         if 2 * max(tilts) > limits.standing["critical"].min():
             spins, force = self._spins(state), measures["contact_force"]
             for b in range(len(tilts)):
-                if interpreted(gone)(
+                if interpreted(is_past_no_return)(
                     limits.standing, limits.corners, R, spins, b, force, float(steepest)
                 ):
                     return NO_RETURN

@@ -113,7 +113,7 @@ class Pace:
         self._say(said)
 
     def _why(self, record, each: float) -> str:
-        """What steps do that take `each` so long [s]."""
+        """Why steps take `each` so long [s], in words."""
         analysis = self._analysis
         steps = analysis.step - self._judged[0]
         spent = {

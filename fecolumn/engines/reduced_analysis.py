@@ -55,7 +55,7 @@ class ReducedAnalysis(OfStructure, Analysis):
             time.perf_counter(),
             time.process_time(),
         )  # what was made and compiled so far was so for all analyses
-        self.stance, self.top_arm = self.engine.eye.stance, self.engine.eye.top_arm
+        self.stance, self.top_arm = self.engine.view.stance, self.engine.view.top_arm
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:

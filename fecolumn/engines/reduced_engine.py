@@ -61,11 +61,11 @@ def engine_of(case, model: StructureModel, file, stands: bool | None = None) -> 
         raise InputError(file, name, None, told) from None
     weight = float(structure.bodies.body["mass"].sum()) * GRAVITY
     limits = limits_of(standing, standing_of(case, standing))
-    eye = view_of(standing, structure, weight, limits, case.overturn.displacement_m)
+    view = view_of(standing, structure, weight, limits, case.overturn.displacement_m)
     return Engine(
         build,
         model.bases,
-        eye,
+        view,
         hht,
         lambda engine: of_parts(engine, model.parts, stands),
         plan.max_cuts,

@@ -22,7 +22,7 @@ class Corotated:
 
     The elastic energy is that of the co-rotated small strains. Its gradient has besides what takes
     away the moment of these forces, which is of second order in the strain: see
-    `dynamics.stage.Stage.untwisting`.
+    `dynamics.stage.Stage.twist_corrections_at`.
     """
 
     name = "corotated"

@@ -108,7 +108,7 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
     model = StructureModel(tuple(parts), tuple(joints), tuple(links), base, (observed, "top"))
     hht = HHT(dt, alpha)
     structure, _ = structure_of(model, hht, GRAVITY)
-    eye = view_of(
+    view = view_of(
         model,
         structure,
         structure.bodies.body["mass"].sum() * case.GRAVITY,
@@ -117,7 +117,7 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
     return Engine(
         lambda step: structure_of(model, step, GRAVITY),
         (base,),
-        eye,
+        view,
         hht,
         lambda made: of_parts(made, parts, stands),
         model=model,

@@ -107,8 +107,8 @@ def engine_on(
 
     weight = structure.parts[0].model.mass * float(np.linalg.norm(gravity))
     limits = limits_of(structure, _standing(structure))
-    eye = view_of(structure, build(hht)[0], weight, limits, cap)
-    return Engine(build, structure.bases, eye, hht, begin, model=structure, substeps=substeps)
+    view = view_of(structure, build(hht)[0], weight, limits, cap)
+    return Engine(build, structure.bases, view, hht, begin, model=structure, substeps=substeps)
 
 
 def _standing(structure: StructureModel) -> list[Standing]:

@@ -17,7 +17,7 @@ from fecolumn.contact.problem import (
     begin_problem,
     find_forces,
     find_residual,
-    mark_close,
+    list_near_points,
     room,
     solve_linear,
 )
@@ -151,7 +151,7 @@ class Foot:
         start, began = positions.copy(), after["force"].copy()
         for iteration in range(ITERATIONS):
             positions = start + (response @ (after["force"] - began).ravel()).reshape(-1, 3)
-            interpreted(mark_close)(
+            interpreted(list_near_points)(
                 self.problem, self.points, self.interface, positions, before, after
             )
             answer, residual = interpreted(find_residual)(

@@ -9,7 +9,7 @@ from two_blocks import Blocks
 
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.points import BEYOND, CONTACT, OVER, node_points
-from fecolumn.contact.problem import mark_close, room
+from fecolumn.contact.problem import list_near_points, room
 from fecolumn.contact.tolerances import CLOSE, NEAR, SHARE, SOLVED
 from fecolumn.foundation._compiled import interpreted
 
@@ -119,7 +119,7 @@ def test_a_point_beyond_an_outline_is_found_anew_where_it_comes_back():
     points, contact = node_points(places, 0.5), np.zeros(2, CONTACT)
     points["beyond"], contact["force"][:, 2] = [OVER, BEYOND], 1e3
     after = contact.copy()
-    interpreted(mark_close)(
+    interpreted(list_near_points)(
         room(points), points, interface_of(places), places[:, [1, 2, 0]], contact, after
     )
     assert after["located"].tolist() == [True, False]

@@ -184,7 +184,7 @@ class Structure:
     def reduced(self, dt=1e-3, alpha=-0.05, modes=ALL, stands=True):
         model, hht = self.model(modes), HHT(dt, alpha)
         structure, _ = structure_of(model, hht, GRAVITY)
-        eye = view_of(
+        view = view_of(
             model,
             structure,
             structure.bodies.body["mass"].sum() * 9.81,
@@ -193,7 +193,7 @@ class Structure:
         return Engine(
             lambda step: structure_of(model, step, GRAVITY),
             model.bases,
-            eye,
+            view,
             hht,
             lambda made: reduced_of_parts(made, model.parts, stands),
             model=model,

@@ -340,7 +340,8 @@ def test_forces_on_a_bent_body_are_the_gradients_of_its_energy_and_of_the_places
         interface.load(forces, R),
     )
     straight, led = (
-        column.momentum(one) for one in stage.untwisting(system, x, internal, R, R, forces, push)
+        column.momentum(one)
+        for one in stage.twist_corrections_at(system, x, internal, R, R, forces, push)
     )
     for way in random.normal(size=(3, *x.shape)):
         ends = [x + sign * 1e-6 * way for sign in (1, -1)]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fecolumn.contact.points import CONTACT, POINT
-from fecolumn.engines.reduced.secant import foresee, learn, no_secant
+from fecolumn.engines.reduced.secant import no_secant, predict_slips, update_secant
 
 N = 5
 SLACK = np.random.default_rng(0).standard_normal((N, 3))
@@ -16,14 +16,14 @@ def learnt(force=(1.0, 2.0, 10.0)):
     secant, points, contact = no_secant(N), np.zeros(N, POINT), np.zeros(N, CONTACT)
     points["friction"], contact["force"] = 0.3, (1.0, 2.0, 10.0)
     contact["force"][2] = force
-    foresee(secant, np.arange(N), SLACK.copy())
-    learn(secant, points, np.arange(N), LEFT, contact)
+    predict_slips(secant, np.arange(N), SLACK.copy())
+    update_secant(secant, points, np.arange(N), LEFT, contact)
     return secant, points, contact
 
 
 def foreseen(secant, slack):
     changed = slack.copy()
-    foresee(secant, np.arange(N), changed)
+    predict_slips(secant, np.arange(N), changed)
     return changed - slack
 
 
@@ -39,8 +39,8 @@ def test_what_is_left_is_foreseen_in_proportion(share):
 def test_what_was_foreseen_counts_as_left():
     """A step that met the laws at once teaches the same."""
     secant, points, contact = learnt()
-    foresee(secant, np.arange(N), 2 * SLACK)
-    learn(secant, points, np.arange(N), np.zeros((N, 3)), contact)
+    predict_slips(secant, np.arange(N), 2 * SLACK)
+    update_secant(secant, points, np.arange(N), np.zeros((N, 3)), contact)
     assert foreseen(secant, SLACK) == pytest.approx(LEFT, rel=1e-12)
 
 

@@ -12,7 +12,7 @@ from mpi4py import MPI
 from small_structures import STONE, structure
 
 from fecolumn.engines.dynamics.history import read_history
-from fecolumn.engines.dynamics.stay import Stay
+from fecolumn.engines.dynamics.stay import StickOperatorCache
 from fecolumn.engines.elements import structure_of_elements
 from fecolumn.foundation.schema import InputError, merge
 from fecolumn.simulation import read_folder_case, run
@@ -202,7 +202,7 @@ def test_standing_structure_keeps_its_stick_operator_through_an_interruption(tmp
         )
     again = rows("broken")
     # found anew in each step instead
-    monkeypatch.setattr(Stay, "note", lambda self, poses, rims: None)
+    monkeypatch.setattr(StickOperatorCache, "note", lambda self, poses, rims: None)
     without = rows("without")
     assert np.abs(whole["u_top"]).max() > 1e-6
     for name in ("u_top", "body/lower/displacement", "energy/strain"):

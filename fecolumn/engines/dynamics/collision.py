@@ -8,11 +8,11 @@ from fecolumn.contact.impact import (
     LANDS,
     NOTHING,
     find_impact,
+    impact_event,
     landing_moment,
     mark_landing,
     mark_turning,
     touched,
-    what_happens,
 )
 from fecolumn.contact.problem import N_IMPACT_CONTACT, OK
 from fecolumn.contact.work import book_impulses
@@ -59,7 +59,7 @@ def collide(system, made: StepMade, contact_work: float, booked: dict, ledger, r
         ),
         interface.velocities(after.v, R, poses),
     )
-    happens = what_happens(
+    happens = impact_event(
         interface.interfaces,
         interface.points,
         listed,

@@ -120,7 +120,7 @@ def standing(system, tolerance: float = 1e-9) -> State:
             static=outcome.static,
         )
         straight = sum(
-            stage.untwisting(
+            stage.twist_corrections_at(
                 system,
                 state.x,
                 state.internal,

@@ -32,7 +32,7 @@ from fecolumn.contact.tolerances import CLOSE, ITERATIONS
 from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.engines.dynamics.cuts import StepFailed, Stop
 from fecolumn.engines.dynamics.places import Nodal, Places
-from fecolumn.engines.dynamics.stay import Stay
+from fecolumn.engines.dynamics.stay import StickOperatorCache
 from fecolumn.foundation._compiled import compile_for, compiled, interpreted
 
 _STOPS = {CONTACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.CONTACT, OFF_BASE: Stop.OFF_BASE}
@@ -53,7 +53,7 @@ class ContactInterface(Places):
         self.surface, self.counts = grounds_for_steps(self.bases), np.zeros(N_COUNTS, np.int64)
         self._problem, self.overlaps = room(self.points), joints.overlaps
         #: Of bodies on one another; the problem of feet on the base is small.
-        self.stay = Stay(self.interfaces, self.size if self.moving else 0)
+        self.stay = StickOperatorCache(self.interfaces, self.size if self.moving else 0)
         # Length of the step, and what the points give alone in it
         self._springs = np.nan, None
 
@@ -275,7 +275,7 @@ class ContactInterface(Places):
         roll_points(roll, points, rim, self.arms, places, state.contact, self.points, before)
         return True
 
-    def ways_down(self, poses: np.ndarray) -> np.ndarray:
+    def lowest_directions(self, poses: np.ndarray) -> np.ndarray:
         """Ways down (k, 2) to the master's surface along the slave's axes x and y, of those with a
         round rim.
         """

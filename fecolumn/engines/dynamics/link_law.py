@@ -31,7 +31,7 @@ def strain_of(link, stretch, flowed):
 
 
 @njit
-def follow_way(link, tie, length):
+def follow_elongation(link, tie, length):
     """From the length of a tie [m] to another one: the elastic stretch at its end and the part of
     the way that yields [m]; energy [J] that yielding takes.
 
@@ -75,7 +75,7 @@ def _flow_at_once(link, flowed, over, trial):
 
 @njit
 def _follow_curve(link, tie, over):
-    """`follow_way` where the link yields along a curve."""
+    """`follow_elongation` where the link yields along a curve."""
     start = tie.length - link.length
     stretch = stretch_of(link, start - tie.flowed)
     flow = _flow_at_once(link, tie.flowed, start, stretch)

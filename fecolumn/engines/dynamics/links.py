@@ -9,7 +9,7 @@ from scipy.optimize import bisect
 
 from fecolumn.contact.points import BASE
 from fecolumn.contact.record import record
-from fecolumn.engines.dynamics.link_law import drag_of, follow_way, strain_of, stretch_of
+from fecolumn.engines.dynamics.link_law import drag_of, follow_elongation, strain_of, stretch_of
 from fecolumn.foundation._compiled import njit
 
 #: A link from body a to body b, -1 for a ground; ground: which one then; arm_a, arm_b: (3,) of its
@@ -195,7 +195,7 @@ def pull(link, tie, begin, way, length, dt, target):
     before, elastic, rate = tie.length, 0.0, (length - tie.length) / dt
     if not tie.broken:
         s0, change = stretch_of(link, before - link.length - tie.flowed), length - before
-        s1, flow, lost = follow_way(link, tie, length)
+        s1, flow, lost = follow_elongation(link, tie, length)
         first, last = link.stiffness * s0, link.stiffness * s1
         elastic = (first + last) / 2
         if (flow != 0.0 or s0 * s1 <= 0.0) and abs(change) > 1e-12 * link.length:
@@ -272,7 +272,7 @@ def end_links(links, grounds, frames, rotation, before, after, dt):
             continue
         trial = stretch_of(link, length - link.length - tie.flowed)
         viscous = drag_of(link, (length - tie.length) / dt)
-        stretch, flow, yielding = follow_way(link, tie, length)
+        stretch, flow, yielding = follow_elongation(link, tie, length)
         new.flowed += flow
         held = strain_of(link, stretch, new.flowed)
         lost = viscous * (length - tie.length) + yielding

@@ -80,7 +80,7 @@ class Stage:
             memory,
         )
 
-    def untwisting(
+    def twist_corrections_at(
         self,
         system,
         x: np.ndarray,
@@ -176,8 +176,8 @@ def turn_of(product: np.ndarray, moment: np.ndarray) -> np.ndarray:
 
 
 def carried(bodies, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
-    """Accelerations (n_owned, 3) that internal forces and gravity have brought to bodies, after
-    these turn by `turn` (nb, 3, 3).
+    """Accelerations (n_owned, 3) of bodies by internal forces and gravity, after they turn by
+    `turn` (nb, 3, 3).
 
     Internal forces turn with a body. They have no resultant: the mean is that of gravity and the
     ground, and stays.
@@ -192,7 +192,7 @@ class Outcome:
     CONTACT, the energy `static` [J] of base, foot's static rest, penalty springs and pad, and the
     record; surface_forces: (N, 3) of the contact forces, as of `ContactInterface.surface_forces`,
     push: (n_owned, 3) their nodal forces [N] and surface_a: (n_owned, 3) their acceleration [m/s2],
-    as of `ContactInterface.answer`; mends: of `Stage.untwisting`.
+    as of `ContactInterface.answer`; twist_corrections: of `Stage.twist_corrections_at`.
     """
 
     stop: Stop
@@ -208,7 +208,7 @@ class Outcome:
     surface_forces: np.ndarray
     push: np.ndarray
     surface_a: np.ndarray | None
-    mends: tuple
+    twist_corrections: tuple
     message: str = ""
 
 
@@ -228,7 +228,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     """
     interface, bodies, links, scale = system.interface, system.bodies, system.links, stage.scale
     x, contact, static = np.array(stage.start), stage.before.copy(), 0.0
-    surface_forces = push = surface_a = mends = None
+    surface_forces = push = surface_a = twist_corrections = None
     first = previous = size = np.inf
 
     def ended(stop, message=""):
@@ -253,7 +253,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
             surface_forces,
             push,
             surface_a,
-            mends,
+            twist_corrections,
             message,
         )
 
@@ -282,8 +282,10 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
                 interface.surface_forces(contact["force"], halfway),
             )
             push, surface_a = interface.answer(surface_forces, halfway)
-            mends = stage.untwisting(system, x, internal, rotation, halfway, contact["force"], push)
-            acceleration, total = acceleration + scale * sum(mends), scale * push
+            twist_corrections = stage.twist_corrections_at(
+                system, x, internal, rotation, halfway, contact["force"], push
+            )
+            acceleration, total = acceleration + scale * sum(twist_corrections), scale * push
         total = (
             total + bodies.momentum(acceleration) + middle.load - operators.stiffness_factor * inner
         )

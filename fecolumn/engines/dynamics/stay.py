@@ -13,7 +13,7 @@ from fecolumn.contact.tolerances import LEVEL
 from fecolumn.foundation._compiled import interpreted
 
 
-class Stay:
+class StickOperatorCache:
     """Stick operator (`contact.stick`) of a structure in full order.
 
     stick: Stick, rims: (ni,) of RIM of the present step, both as `contact.problem.solve_linear`

@@ -119,9 +119,9 @@ class Stepper:
             return done & -done or PARTS
         half = dt / 2
         later = state.x + half * state.v
-        downs = interface.ways_down(interface.poses(state.x, state.rotation))
+        downs = interface.lowest_directions(interface.poses(state.x, state.rotation))
         rates = (
-            interface.ways_down(interface.poses(later, kinematics.rotation(later))) - downs
+            interface.lowest_directions(interface.poses(later, kinematics.rotation(later))) - downs
         ) / half
         return min(
             interpreted(part_of_step)(*down, *rate, dt, done) for down, rate in zip(downs, rates)
@@ -214,15 +214,20 @@ class Stepper:
             ties=start.ties.copy(),
             grounds=grounds,
         )
-        push, (straight, led), w, untwists = outcome.push, outcome.mends, turned, 0.0
+        push, (moment_correction, transport_correction), w, untwists = (
+            outcome.push,
+            outcome.twist_corrections,
+            turned,
+            0.0,
+        )
         # what does work beside the accelerations that HHT remembers, and what does as part of them
         beside, within = resisted, 0.0
         # what grounds that move do
         carried_by = outcome.contact["force"]
         if self.plastic:
-            moved = outcome.surface_a + straight + led
-            w, untwists = w + moved, bodies.momentum(straight)
-            beside = beside + push + bodies.momentum(led)
+            moved = outcome.surface_a + moment_correction + transport_correction
+            w, untwists = w + moved, bodies.momentum(moment_correction)
+            beside = beside + push + bodies.momentum(transport_correction)
             after.surface_a, after.surface_forces = (
                 into_frames(moved, R, bodies.rows),
                 outcome.surface_forces,

@@ -36,7 +36,7 @@ from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.ledger import N_PLACES
 from fecolumn.engines.reduced.model import scheme
 from fecolumn.engines.reduced.observe import ENERGY, outcome_of_row
-from fecolumn.engines.reduced.run import LENGTHS, Chunk, Course, advance
+from fecolumn.engines.reduced.run import LENGTHS, StepBatch, StepState, advance
 from fecolumn.foundation._compiled import compile_for, interpreted
 
 # for the halves of a failed step: the point of no return and rest are looked for at its end only
@@ -61,7 +61,7 @@ class Engine:
     bases
         of each ground a BasePlate, or another holder of its compliance with `grid`, `slot`,
         `compliance` and `need`.
-    eye
+    view
         View.
     hht
         HHT.
@@ -77,17 +77,17 @@ class Engine:
         self,
         build,
         bases,
-        eye,
+        view,
         hht: HHT,
         start,
         max_cuts: int = 4,
         model=None,
         substeps: str = "rolling",
     ):
-        self.model, self.bases, self.eye, self.hht, self.max_cuts, self.substeps = (
+        self.model, self.bases, self.view, self.hht, self.max_cuts, self.substeps = (
             model,
             bases,
-            eye,
+            view,
             hht,
             max_cuts,
             SUBSTEPS.index(substeps),
@@ -101,8 +101,8 @@ class Engine:
         )
         self._schemes = {}
         self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
-        upright = np.tile(np.eye(3), (len(eye.center), 1, 1))
-        self._need_below(eye.center, upright, self.spare.grounds, 0)
+        upright = np.tile(np.eye(3), (len(view.center), 1, 1))
+        self._need_below(view.center, upright, self.spare.grounds, 0)
         self.surface = grounds_for_steps(self.bases)
         compile_for(advance, self._arguments(self._schemes_of(hht), self.spare, self.spare))
         self.motion = start(self)
@@ -117,7 +117,7 @@ class Engine:
             len(structure.squares),
             len(structure.interfaces),
             len(structure.links),
-            self.eye.levels,
+            self.view.levels,
             len(structure.interfaces) - structure.found.interface,
         )
 
@@ -139,7 +139,7 @@ class Engine:
         of mass (nb, 3) turned by (nb, 3, 3).
         """
         points, interfaces = self.points, self.structure.interfaces
-        each = poses_of(interfaces, centers, rotations, grounds_at(self.eye.levels))
+        each = poses_of(interfaces, centers, rotations, grounds_at(self.view.levels))
         offsets = np.zeros((len(interfaces), 3))
         for interface, pose, offset in zip(interfaces, each, offsets):
             interpreted(from_center)(interface, pose["turned"][SLAVE, 2], offset)
@@ -152,7 +152,7 @@ class Engine:
 
     def link_lengths(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Lengths (nl,) [m] of the links; arguments as of `places`."""
-        frames, grounds = frames_at(centers), grounds_at(self.eye.levels)
+        frames, grounds = frames_at(centers), grounds_at(self.view.levels)
         return np.array(
             [
                 interpreted(span)(link, grounds, frames, rotations, np.empty(3))
@@ -176,11 +176,11 @@ class Engine:
         rest=_NO_REST,
         rows=None,
     ) -> tuple:
-        rows = np.empty((0, self.eye.width)) if rows is None else rows
+        rows = np.empty((0, self.view.width)) if rows is None else rows
         grounds = np.empty((0, 3 * len(self.bases))) if grounds is None else grounds
-        course = Course(motion, spare, self.kept, self.ledger, self.counts)
-        chunk = Chunk(grounds, steepest, rest, self.substeps, rows)
-        return self.structure, self.surface, schemes, self.work, self.eye, course, chunk
+        course = StepState(motion, spare, self.kept, self.ledger, self.counts)
+        chunk = StepBatch(grounds, steepest, rest, self.substeps, rows)
+        return self.structure, self.surface, schemes, self.work, self.view, course, chunk
 
     @property
     def record(self) -> Record:
@@ -188,8 +188,8 @@ class Engine:
         return Record(*self.counts[:6].tolist())
 
     def row(self) -> np.ndarray:
-        """The present row (eye.width,) of the history."""
-        row = np.empty((1, self.eye.width))
+        """The present row (view.width,) of the history."""
+        row = np.empty((1, self.view.width))
         advance(*self._arguments(self._schemes_of(self.hht), self.motion, self.spare, rows=row))
         return row[0]
 
@@ -205,7 +205,7 @@ class Engine:
         """As `overturning.fallen`, now; steepest: tangent of the steepest inclination of apparent
         gravity to come.
         """
-        return interpreted(outcome_of_row)(self.eye, self.motion, self.row(), steepest)
+        return interpreted(outcome_of_row)(self.view, self.motion, self.row(), steepest)
 
     def advance(
         self,
@@ -214,7 +214,7 @@ class Engine:
         rest: tuple[float, float] = _NO_REST,
     ) -> tuple[np.ndarray, bool]:
         """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k',
-        eye.width) and whether the column is lost or at rest.
+        view.width) and whether the column is lost or at rest.
 
         Parameters
         ----------
@@ -244,7 +244,7 @@ class Engine:
             if steepest is None
             else np.asarray(steepest, float)
         )
-        rows = np.empty((len(grounds), self.eye.width))
+        rows = np.empty((len(grounds), self.view.width))
         self.made = rows[:0]
         while done < len(grounds):
             made, answer = self._steps(self.hht, grounds[done:], rows[done:], steepest[done:], rest)
@@ -303,7 +303,7 @@ class Engine:
         saved, booked, row = (
             self.motion_at_rest(),
             self.ledger.copy(),
-            np.empty((1, self.eye.width)),
+            np.empty((1, self.view.width)),
         )
         motions.copy(self.motion, saved)
 

@@ -25,7 +25,7 @@ from fecolumn.contact.problem import (
     begin_problem,
     find_forces,
     find_residual,
-    mark_close,
+    list_near_points,
     near_points,
     present_points,
     room,
@@ -46,7 +46,7 @@ from fecolumn.engines.reduced.elastic import (
     no_elastic,
 )
 from fecolumn.engines.reduced.motion import Action, begin_frames, follow, no_action
-from fecolumn.engines.reduced.secant import Secant, foresee, learn, no_secant
+from fecolumn.engines.reduced.secant import Secant, no_secant, predict_slips, update_secant
 from fecolumn.foundation._compiled import njit
 
 
@@ -266,7 +266,7 @@ def find_equilibrium(
     end
         gets center, rotation, modal coordinates, contact, static energy.
 
-    Returns: a way to end.
+    Returns: OK, or the code of what failed.
     """
     interfaces, points, before, problem, elastic, poses = (
         structure.interfaces,
@@ -354,7 +354,7 @@ def find_equilibrium(
         if not find_positions(structure, work, start, end):
             return OFF_PATCH
         if iteration == 0 or not problem.flags[STICKS_STILL]:
-            mark_close(problem, points, interfaces, work.positions, before, end.contact)
+            list_near_points(problem, points, interfaces, work.positions, before, end.contact)
         if find_yielding(points, scheme.springs, near_points(problem), end.contact):
             # the operator of feet that stick is that of pads that do not yield
             problem.flags[ASSEMBLED] = problem.flags[STICKS_STILL] = False
@@ -380,7 +380,7 @@ def find_equilibrium(
         if answer != OK:
             return answer
         if foreseen and iteration == 1:
-            learn(work.secant, points, near_points(problem), problem.slack, end.contact)
+            update_secant(work.secant, points, near_points(problem), problem.slack, end.contact)
         if residual <= 1.0:
             for i in present_points(problem):
                 end.contact[i].beyond = points[i].beyond != OVER
@@ -389,7 +389,7 @@ def find_equilibrium(
             )
             return OK
         if iteration == 0 and problem.flags[STICKS_STILL]:
-            foresee(work.secant, near_points(problem), problem.slack)
+            predict_slips(work.secant, near_points(problem), problem.slack)
             foreseen = True
         answer = find_forces(problem, points, interfaces, work.stick, end.contact, counts)
         if answer != OK:

@@ -67,7 +67,7 @@ def lay_found(structure, dt, work, start, end):
     if len(end.meetings.rows) == 0:
         return OK
     centers, margins = np.empty((bodies, 3)), np.empty(bodies)
-    most, thinnest = _ways(structure, dt, start, margins)
+    most, thinnest = _travel_bounds(structure, dt, start, margins)
     for b in range(bodies):
         for a in range(3):
             centers[b, a] = start.frames[b].center[a]
@@ -129,7 +129,7 @@ def has_pairs(meetings):
 
 
 @njit
-def _ways(structure, dt, start, margins):
+def _travel_bounds(structure, dt, start, margins):
     """Find how far each body may go in a step, margins (nb,) [m] with half of the distance at
     which places are found; the longest way and the least thickness [m].
     """
@@ -173,7 +173,9 @@ def _lay_row(structure, work, start, end, r):
             continue
         any_place = True
         changed |= _lay_point(structure, row, place, k, point)
-        _bring(start, end, r, s, structure.interfaces[k].width, start.contact[i], now)
+        _transfer_contact_state(
+            start, end, r, s, structure.interfaces[k].width, start.contact[i], now
+        )
         point.lift = place.lift
     end.rims[k].apart = not any_place
     return changed
@@ -299,7 +301,7 @@ def _share_face(found, b, face, place, nodes, shares):
 
 
 @njit
-def _bring(start, end, r, s, width, was, now):
+def _transfer_contact_state(start, end, r, s, width, was, now):
     """Bring to the place in slot s of row r what its point carried at the start, `was` of CONTACT:
     `now` has it in the frame that the row has now.
 

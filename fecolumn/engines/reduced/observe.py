@@ -13,7 +13,7 @@ from fecolumn.contact.overturning import (
     STANDS,
     Stance,
     fallen,
-    gone,
+    is_past_no_return,
 )
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import SLAVE, find_poses
@@ -153,15 +153,15 @@ def _displace(b, arm, shape, center, motion, axes, row, place):
 
 
 @njit
-def observe(structure, points, poses, eye, motion, ledger, iterations, row):
-    """Fill a row (eye.width,); points: (P,) of POINT, poses: room for (ni,) of POSE."""
-    R, contact = motion.rotation[eye.body], motion.contact
+def observe(structure, points, poses, view, motion, ledger, iterations, row):
+    """Fill a row (view.width,); points: (P,) of POINT, poses: room for (ni,) of POSE."""
+    R, contact = motion.rotation[view.body], motion.contact
     row[:] = 0.0
     row[0] = motion.whole[0].time
-    _displace(eye.body, eye.top_arm, eye.top_shape, eye.center, motion, 3, row, _TOP)
+    _displace(view.body, view.top_arm, view.top_shape, view.center, motion, 3, row, _TOP)
     row[_TILT] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
     row[_TWIST] = np.arctan2(R[1, 0] - R[0, 1], R[0, 0] + R[1, 1])
-    _displace(eye.body, eye.foot_arm, eye.foot_shape, eye.center, motion, 2, row, _SLIDE)
+    _displace(view.body, view.foot_arm, view.foot_shape, view.center, motion, 2, row, _SLIDE)
     for i in range(len(contact)):
         if contact[i].force[2] > 0:
             row[_ACTIVE] += 1
@@ -176,7 +176,7 @@ def observe(structure, points, poses, eye, motion, ledger, iterations, row):
     row[ENERGY], row[ENERGY + 1], row[ENERGY + 2] = (
         kinetic(structure, motion),
         strain(structure, motion),
-        weight_energy(structure, eye.center, motion),
+        weight_energy(structure, view.center, motion),
     )
     closure = row[ENERGY] + row[ENERGY + 1] + row[ENERGY + 2]
     for k in range(N_TERMS):
@@ -184,18 +184,18 @@ def observe(structure, points, poses, eye, motion, ledger, iterations, row):
         if k:
             row[ENERGY + 2 + k] = ledger[k]
     row[WIDTH - 1] = closure
-    if len(eye.limits):
-        _observe_all(structure, points, poses, eye, motion, row)
+    if len(view.limits):
+        _observe_all(structure, points, poses, view, motion, row)
 
 
 @njit
-def _observe_all(structure, points, poses, eye, motion, row):
+def _observe_all(structure, points, poses, view, motion, row):
     """Fill what a row has of bodies, interfaces, marks and links."""
     place = WIDTH
     for b in range(len(motion.frames)):
         R = motion.rotation[b]
         for a in range(3):
-            row[place + a] = motion.frames[b].center[a] - eye.center[b, a]
+            row[place + a] = motion.frames[b].center[a] - view.center[b, a]
         row[place + _BODY_TILT] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
         # sine and cosine of the angle of the rotation, along its axis the first
         x, y, z = (R[2, 1] - R[1, 2]) / 2, (R[0, 2] - R[2, 0]) / 2, (R[1, 0] - R[0, 1]) / 2
@@ -206,8 +206,8 @@ def _observe_all(structure, points, poses, eye, motion, row):
         place += PER_BODY
     find_poses(structure.interfaces, motion.grounds, motion.frames, motion.rotation, poses, None)
     first = place
-    for k in range(len(eye.feet)):
-        T, foot, normal = poses[k].turned[SLAVE], poses[k].foot, eye.normals[k]
+    for k in range(len(view.feet)):
+        T, foot, normal = poses[k].turned[SLAVE], poses[k].foot, view.normals[k]
         x, y, z = (
             T[2, 1] * normal[2] - T[2, 2] * normal[1],
             T[2, 2] * normal[0] - T[2, 0] * normal[2],
@@ -217,14 +217,21 @@ def _observe_all(structure, points, poses, eye, motion, row):
             np.hypot(np.hypot(x, y), z),
             T[2, 0] * normal[0] + T[2, 1] * normal[1] + T[2, 2] * normal[2],
         )
-        row[place + _RISE] = foot[2] - eye.feet[k, 2]
+        row[place + _RISE] = foot[2] - view.feet[k, 2]
         for a in range(2):
-            row[place + _SHIFT + a] = foot[a] - eye.feet[k, a]
+            row[place + _SHIFT + a] = foot[a] - view.feet[k, a]
         place += _N_INTERFACE
-    _observe_forces(structure, points, poses, motion, len(eye.feet), row[first:place])
-    for n in range(len(eye.marks)):
+    _observe_forces(structure, points, poses, motion, len(view.feet), row[first:place])
+    for n in range(len(view.marks)):
         _displace(
-            eye.marks[n].body, eye.marks[n].arm, eye.shapes[n], eye.center, motion, 3, row, place
+            view.marks[n].body,
+            view.marks[n].arm,
+            view.shapes[n],
+            view.center,
+            motion,
+            3,
+            row,
+            place,
         )
         place += _N_MARK
     for n in range(len(motion.ties)):
@@ -272,27 +279,27 @@ def _observe_forces(structure, points, poses, motion, joints, row):
 
 
 @njit
-def outcome_of_row(eye, motion, row, steepest):
+def outcome_of_row(view, motion, row, steepest):
     """As `overturning.fallen`, of a motion and its row; FELL where one of many bodies has fallen
     past the lowest ground.
     """
     top, force = np.hypot(row[_TOP], row[_TOP + 1]), row[_FORCE : _FORCE + 3]
-    if len(eye.limits):
-        spins = np.empty((len(eye.limits), 3))
-        for b in range(len(eye.limits)):
+    if len(view.limits):
+        spins = np.empty((len(view.limits), 3))
+        for b in range(len(view.limits)):
             for a in range(3):
                 spins[b, a] = motion.frames[b].spin[a]
-        for b in range(len(eye.limits)):
-            if eye.held[b] >= 0:
+        for b in range(len(view.limits)):
+            if view.held[b] >= 0:
                 continue
-            if motion.frames[b].center[2] < eye.levels.min():
+            if motion.frames[b].center[2] < view.levels.min():
                 return FELL
-            if row[WIDTH + PER_BODY * b + _BODY_TILT] > eye.limits[b] or gone(
-                eye.standing, eye.corners, motion.rotation, spins, b, force, steepest
+            if row[WIDTH + PER_BODY * b + _BODY_TILT] > view.limits[b] or is_past_no_return(
+                view.standing, view.corners, motion.rotation, spins, b, force, steepest
             ):
                 return NO_RETURN
-        return CAPPED if top >= eye.stance.cap else STANDS
+        return CAPPED if top >= view.stance.cap else STANDS
     # what is short of both its cap and its critical tilt stands: most steps, at no cost
-    if top < eye.stance.cap and row[_TILT] <= eye.stance.critical:
+    if top < view.stance.cap and row[_TILT] <= view.stance.critical:
         return STANDS
-    return fallen(eye.stance, motion.rotation[0], motion.frames[0].spin, force, top, steepest)
+    return fallen(view.stance, motion.rotation[0], motion.frames[0].spin, force, top, steepest)

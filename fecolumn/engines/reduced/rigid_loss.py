@@ -50,7 +50,7 @@ def loss_share(ledger: np.ndarray, interfaces: np.ndarray) -> float | None:
 @njit
 def rigid_energy(structure, motion, ledger):
     """Energy [J] of the rigid motion, and of weight and links, less what base, rolling and links
-    have brought: what it falls by has gone to contact, friction and vibration.
+    have brought: its decrease is what contact, friction and vibration have taken.
     """
     origin = np.zeros((len(motion.frames), 3))
     return (

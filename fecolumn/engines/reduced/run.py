@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.arrays import put, put_matrix
-from fecolumn.contact.ball import lay_down
+from fecolumn.contact.ball import remove_lift
 from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.points import BASE
 from fecolumn.contact.pose import find_poses
@@ -42,10 +42,10 @@ LENGTHS = PARTS.bit_length()
 
 
 @njit
-def ended(eye, motion, row, steepest, rest):
+def is_lost_or_at_rest(view, motion, row, steepest, rest):
     """Whether the column is lost or at rest after a step; rest: as of `Engine.advance`."""
     return (
-        outcome_of_row(eye, motion, row, steepest) != STANDS
+        outcome_of_row(view, motion, row, steepest) != STANDS
         or max(row[ENERGY], row[ENERGY] + row[ENERGY + 1] + row[ENERGY + 2] - rest[0]) <= rest[1]
     )
 
@@ -60,13 +60,13 @@ def to_make_at_once(structure, motion, dt, done, substeps):
         part //= 2
     for k in range(len(structure.interfaces) if substeps == ROLLING else 0):
         if structure.interfaces[k].rim_count > 0 and not motion.rims[k].unused:
-            x, y, u, v = way_down(structure.interfaces[k], motion)
+            x, y, u, v = lowest_direction(structure.interfaces[k], motion)
             part = min(part, part_of_step(x, y, u, v, dt, done))
     return part
 
 
 @njit
-def way_down(interface, motion):
+def lowest_direction(interface, motion):
     """Way down to the master's surface along the slave's axes x and y, and its rate [1/s]."""
     b, m, axes = interface.slave, interface.master, interface.axes
     R, spin, normal, rate = motion.rotation[b], motion.frames[b].spin, np.empty(3), np.empty(3)
@@ -90,7 +90,7 @@ def way_down(interface, motion):
 
 @njit
 def begin_anew(elastic):
-    """What is known of the END is known of the next START."""
+    """Copy what is known at the end of a step to the start of the next."""
     elastic.now[START] += 1
     for i in range(elastic.node.shape[1]):
         if elastic.stamp[END, i] == elastic.now[END]:
@@ -99,9 +99,9 @@ def begin_anew(elastic):
                 elastic.node[START, i, a] = elastic.node[END, i, a]
 
 
-class Course(NamedTuple):
-    """What steps carry on. motion: MotionState, after them; spare, kept: room for one; ledger:
-    (N_PLACES,); counts: (N_COUNTS,).
+class StepState(NamedTuple):
+    """State that steps go on from. motion: MotionState, after them; spare, kept: room for one;
+    ledger: (N_PLACES,); counts: (N_COUNTS,).
     """
 
     motion: motions.MotionState
@@ -111,7 +111,7 @@ class Course(NamedTuple):
     counts: np.ndarray
 
 
-class Chunk(NamedTuple):
+class StepBatch(NamedTuple):
     """The steps that are asked for. grounds: (k, 3) [m/s2] acceleration of the ground at their
     ends. steepest: (k,) as of `overturning.fallen` after each. rest: as of `Engine.advance`.
     substeps: for what a step is made in parts, a number of `cuts.SUBSTEPS`. rows: (k, width) of the
@@ -126,9 +126,9 @@ class Chunk(NamedTuple):
 
 
 @njit
-def advance(structure, base, schemes, work, eye, course, chunk):
-    """Make the steps of a Chunk: those made and why they ended; `motion` of the Course is the state
-    after them.
+def advance(structure, base, schemes, work, view, course, chunk):
+    """Make the steps of a StepBatch: those made and why they ended; `motion` of the StepState is
+    the state after them.
 
     schemes: of steps of 1, 1/2, ... 1/PARTS of a step; all the same where the shorter ones are
     still to be made, for which ROLLS_FAST asks. A part in which a point lands is halved down to the
@@ -139,8 +139,8 @@ def advance(structure, base, schemes, work, eye, course, chunk):
     `start.gravity_equilibrium`.
     They are here because each function that Python calls is compiled with all it calls.
     """
-    structure, base, schemes, work, eye, course, chunk = borrowed(
-        (structure, base, schemes, work, eye, course, chunk)
+    structure, base, schemes, work, view, course, chunk = borrowed(
+        (structure, base, schemes, work, view, course, chunk)
     )
     motion, spare, kept, ledger, counts = course
     grounds, steepest, rest, substeps, rows = chunk
@@ -153,7 +153,7 @@ def advance(structure, base, schemes, work, eye, course, chunk):
     elastic.now[START] += 1
     if len(grounds) == 0:
         if len(rows):
-            observe(structure, work.points, work.poses[END], eye, motion, ledger, 0, rows[0])
+            observe(structure, work.points, work.poses[END], view, motion, ledger, 0, rows[0])
             return 0, OK
         fall, still, bent = (
             np.empty((bodies, 3)),
@@ -166,7 +166,9 @@ def advance(structure, base, schemes, work, eye, course, chunk):
                 fall[b, a] = motion.frames[b].center[a]
                 if structure.bodies.body[b].held < 0 and not structure.bodies.body[b].airborne:
                     fall[b, a] += scheme.half * structure.gravity[a]
-        return 0, settled(structure, base, scheme, work, motion, fall, bent, still, spare, counts)
+        return 0, proximal_step(
+            structure, base, scheme, work, motion, fall, bent, still, spare, counts
+        )
     booked, held, now, then, swapped, made, answer, target = (
         ledger.copy(),
         ledger.copy(),
@@ -220,14 +222,14 @@ def advance(structure, base, schemes, work, eye, course, chunk):
             structure,
             work.points,
             work.poses[END],
-            eye,
+            view,
             now,
             ledger,
             counts[N_ITERATIONS] - before,
             rows[made],
         )
         made += 1
-        if ended(eye, now, rows[made - 1], steepest[k], rest):
+        if is_lost_or_at_rest(view, now, rows[made - 1], steepest[k], rest):
             answer = ENDED
             break
     if swapped:
@@ -246,8 +248,8 @@ def advance(structure, base, schemes, work, eye, course, chunk):
 
 
 @njit
-def settled(structure, base, scheme, work, motion, fall, bent, still, spare, counts):
-    """A proximal step towards equilibrium: a way to end.
+def proximal_step(structure, base, scheme, work, motion, fall, bent, still, spare, counts):
+    """A proximal step towards equilibrium: OK, or the code of what failed.
 
     The places of points on balls and the links are brought along, which a step does elsewhere.
     """
@@ -266,7 +268,7 @@ def settled(structure, base, scheme, work, motion, fall, bent, still, spare, cou
     for k in range(len(structure.interfaces)):
         spare.rims[k] = motion.rims[k]
         if structure.interfaces[k].ball > 0.0:
-            lay_down(work.points, k)
+            remove_lift(work.points, k)
             roll_balls(structure, k, work, motion, spare)
     # once, as those of joints below
     if has_pairs(motion.meetings):

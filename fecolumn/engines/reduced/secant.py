@@ -35,7 +35,7 @@ def no_secant(points: int) -> Secant:
 
 
 @njit
-def foresee(secant, listed, slack):
+def predict_slips(secant, listed, slack):
     """Add to the slips and gaps (P, 3) of the listed points (k,) at the beginning of a step those
     that its first forces are expected to leave.
     """
@@ -54,7 +54,7 @@ def foresee(secant, listed, slack):
 
 
 @njit
-def learn(secant, points, listed, slack, contact):
+def update_secant(secant, points, listed, slack, contact):
     """Note what the first forces of the step, those of `contact` (P,) at the listed points (k,),
     have left; nothing where points slip or open, whose slips and gaps are no error.
     """

@@ -32,7 +32,7 @@ def gravity_equilibrium(engine) -> motions.MotionState:
     NoEquilibrium
         no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
-    structure, centers = engine.structure, engine.eye.center
+    structure, centers = engine.structure, engine.view.center
     bodies = structure.bodies.body
     weight = bodies["mass"].sum() * np.linalg.norm(structure.gravity)
     # of a dome the place of contact moves by its radius times the tilt, as far as the centre of
@@ -81,7 +81,7 @@ class _Diverged(NoEquilibrium):
 
 def _settled(engine, firmness: float) -> motions.MotionState:
     """`standing` by proximal steps of a `firmness` [1/s2]."""
-    structure, work, centers = engine.structure, engine.work, engine.eye.center
+    structure, work, centers = engine.structure, engine.work, engine.view.center
     bodies, start, end = structure.bodies.body, engine.motion_at_rest(), engine.motion_at_rest()
     start.frames["center"] = centers
     start.contact["anchor"] = engine.places(centers, start.rotation)[:, :2]

@@ -7,16 +7,16 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.arrays import put
-from fecolumn.contact.ball import lay_down
+from fecolumn.contact.ball import remove_lift
 from fecolumn.contact.impact import (
     LANDS,
     NOTHING,
     find_impact,
+    impact_event,
     landing_moment,
     mark_landing,
     mark_turning,
     touched,
-    what_happens,
 )
 from fecolumn.contact.pad import without_pads
 from fecolumn.contact.points import BASE
@@ -59,7 +59,7 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
     """Carry `start` to `end`, one scheme.dt later, under the accelerations (3 G,) of the grounds;
     the steps of `dynamics.stepper`.
 
-    Returns: a way to end, OK or the reason why not; then `start` is unharmed and `ledger` is not to
+    Returns: OK, or the code of what failed; then `start` is unharmed and `ledger` is not to
     be used.
     """
     booked, interfaces, weight = ledger.copy(), structure.interfaces, 0.0
@@ -67,7 +67,9 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
     rolled = place_points_of_step(structure, scheme.dt, work, start, end, True)
     if lay_found(structure, scheme.dt, work, start, end) != OK:
         return NO_ROOM
-    answer, contact_work = _carry(structure, base, scheme, work, start, ground, end, ledger, counts)
+    answer, contact_work = _advance_without_impact(
+        structure, base, scheme, work, start, ground, end, ledger, counts
+    )
     for b in range(len(start.frames)):
         weight += structure.bodies.body[b].mass
     weight *= np.sqrt(
@@ -79,7 +81,7 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
         put(booked, ledger)
         place_points_of_step(structure, scheme.dt, work, start, end, False)
         lay_found(structure, scheme.dt, work, start, end)
-        answer, contact_work = _carry(
+        answer, contact_work = _advance_without_impact(
             structure, base, scheme, work, start, ground, end, ledger, counts
         )
     if answer == OK:
@@ -114,7 +116,7 @@ def place_points_of_step(structure, dt, work, start, end, allowed):
     for k in range(len(structure.interfaces)):
         n, first = structure.interfaces[k].rim_count, structure.interfaces[k].rim_first
         if structure.interfaces[k].ball > 0.0:
-            lay_down(work.points, k)
+            remove_lift(work.points, k)
         if n > 0 and not end.rims[k].unused:
             rolled |= _place_rim(
                 structure, k, structure.rim[first : first + n], work, start, end, allowed
@@ -190,9 +192,9 @@ def _place_rim(structure, k, rim, work, start, end, allowed):
 
 
 @njit
-def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
-    """`step` with the points where they are and without impact: a way to end, and the energy that
-    contact created.
+def _advance_without_impact(structure, base, scheme, work, start, ground, end, ledger, counts):
+    """`step` with the points where they are and without impact: OK or the code of what failed, and
+    the energy that contact created.
 
     The contact force r acts at the end of the step and is kept out of the accelerations that HHT
     remembers; the rotation is energy-momentum conserving whatever alpha is, since HHT does not damp
@@ -236,7 +238,7 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
             ] * q
             free_modal[b, k] = q + dt * rate + dt**2 * memory
             if structure.damping[b, k] > 0.0:
-                way, later = _foreseen(scheme, start, b, k)
+                way, later = _predictor(scheme, start, b, k)
                 free_modal[b, k] += (
                     structure.damping[b, k]
                     * dt
@@ -244,7 +246,7 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
                 )
     for k in range(len(structure.interfaces)):
         if structure.interfaces[k].rolling > 0.0:
-            _resist(structure, k, work, start, dt)
+            _add_rolling_resistance(structure, k, work, start, dt)
     answer = find_equilibrium(
         structure,
         base,
@@ -265,7 +267,7 @@ def _carry(structure, base, scheme, work, start, ground, end, ledger, counts):
 
 
 @njit
-def _resist(structure, k, work, start, dt):
+def _add_rolling_resistance(structure, k, work, start, dt):
     """Add to the action on slave and master what resists that the rim of interface k rolls."""
     interface, pose, resistance = (
         structure.interfaces[k],
@@ -305,7 +307,7 @@ def _resist(structure, k, work, start, dt):
 
 
 @njit
-def _foreseen(scheme, start, b, k):
+def _predictor(scheme, start, b, k):
     """Coordinate and rate of a mode at the end of the step without new accelerations: as
     Stage.target and Stage.velocity.
     """
@@ -360,7 +362,7 @@ def _finish(structure, scheme, work, start, ground, end):
                 al * start.modal[b, COORDINATE, k] - (1 + al) * end.modal[b, COORDINATE, k]
             )
             if structure.damping[b, k] > 0.0:
-                way, rate = _foreseen(scheme, start, b, k)
+                way, rate = _predictor(scheme, start, b, k)
                 rate += ga / (scheme.beta * dt) * (end.modal[b, COORDINATE, k] - way)
                 accelerated += structure.damping[b, k] * (
                     al * start.modal[b, RATE, k] - (1 + al) * rate
@@ -385,8 +387,8 @@ def _finish(structure, scheme, work, start, ground, end):
 
 @njit
 def _collide(structure, base, scheme, work, start, end, contact_work, booked, ledger, counts):
-    """Take the velocities of `end` anew where a point lands or slip ends: a way to end; booked: the
-    ledger at the start of the step.
+    """Take the velocities of `end` anew where a point lands or slip ends: OK, or the code of what
+    failed; booked: the ledger at the start of the step.
     """
     interfaces, points, before, elastic = (
         structure.interfaces,
@@ -402,7 +404,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
     for i in listed:
         if work.turning[i] or lands and (before[i].force[2] > 0 or end.contact[i].force[2] > 0):
             _find_velocities(structure, work, i, start, end)
-    happens = what_happens(
+    happens = impact_event(
         interfaces,
         points,
         listed,
@@ -453,7 +455,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
     energy, brought = kinetic(structure, end), 0.0
     push_bodies(structure, scheme, points, arms, work.poses[END], impulses, end)
     for i in listed:
-        brought += _brought_by_grounds(structure, points[i], work.poses[END], impulses[i], end)
+        brought += _work_of_moving_grounds(structure, points[i], work.poses[END], impulses[i], end)
     ledger[BASE_WORK] += brought
     own, other = (HIT, FRICTION) if happens == LANDS else (FRICTION, HIT)
     terms = book_impulses(
@@ -472,7 +474,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
 
 
 @njit
-def _brought_by_grounds(structure, point, poses, impulse, end):
+def _work_of_moving_grounds(structure, point, poses, impulse, end):
     """Energy [J] that an impulse (3,) at a point brings from grounds that move relative to the
     first one: those on which its slave stands, or which hold one of its bodies.
     """

@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.interface import INTERFACE
 from fecolumn.contact.joints import joints_of
-from fecolumn.contact.overturning import Limits, never_alone
+from fecolumn.contact.overturning import Limits, cap_only_stance
 from fecolumn.contact.points import BASE, POINT
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.tolerances import FOUND_ROWS, RIGID_GIVE
@@ -162,7 +162,7 @@ def view_of(model, structure, weight: float, limits: Limits, cap: float = 0.0) -
             foot += feet[0].ball.radius * surface.normal
     interfaces = structure.interfaces[: len(model.joints)]
     reference = poses_of(interfaces, centers, rotations, grounds_at(model.levels))
-    stance = never_alone(model.parts[body].model.inertia, weight, cap)
+    stance = cap_only_stance(model.parts[body].model.inertia, weight, cap)
     return View(
         centers,
         body,
