@@ -2,7 +2,7 @@
 impacts of the rocking podium; and what a step costs.
 
     ./containers/run python -m benchmarks.structures [forces planar rolled impacts rocking speed
-        shaken large] [-o DIR]
+        shaken apart walls large] [-o DIR]
     ./containers/run mpirun -n 2 python -m benchmarks.structures large
 
 Writes the rows of what was asked for into DIR as CSV, draws structures.png (and .pdf) from all that
@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from mpi4py import MPI
 
-from benchmarks.structures import frame, large, podium, shaken, speed
+from benchmarks.structures import apart, frame, large, podium, shaken, speed
 from benchmarks.structures.figure import draw
 from fecolumn.engines.rocking.podium_impact import LAWS
 from fecolumn.foundation.atomic import write_csv
@@ -210,6 +210,45 @@ def shaken_costs(folder: Path) -> None:
     write_csv(folder / "shaken.csv", [["structure", "number", "factor", *head], *table])
 
 
+def apart_costs(folder: Path) -> None:
+    """Of pairs that are apart: beside two standing blocks, and in rows of blocks."""
+    print("\n| engine | blocks | no pairs [us] | joints [us] | found [us] |\n|---|---|---|---|---|")
+    table = []
+    for engine in apart.ENGINES:
+        for number in (2, *apart.NUMBERS):
+            found = apart.in_turns(number, engine)
+            table.append([engine, number, *found.values()])
+            print(
+                f"| {engine} | {number} | "
+                + " | ".join(f"{us:.1f}" for us in found.values())
+                + " |",
+                flush=True,
+            )
+    head = ["engine", "blocks", "absent_us", "joint_us", "found_us"]
+    write_csv(folder / "apart.csv", [head, *table])
+
+
+def wall_costs(folder: Path) -> None:
+    """Of walls whose stones touch everywhere, and of one with open head joints."""
+    print(
+        "\n| engine | courses | stones of the lowest | gap [m] | start [s] | step at rest [ms] | "
+        "shaken [ms] |\n|---|---|---|---|---|---|---|"
+    )
+    table = []
+    for engine in apart.ENGINES:
+        for courses, stones, gap in apart.WALLS:
+            found = apart.wall_costs(courses, stones, gap, engine)
+            table.append([engine, courses, stones, gap, *found.values()])
+            print(
+                f"| {engine} | {courses} | {stones} | {gap:g} | "
+                + " | ".join(f"{value:.3g}" for value in found.values())
+                + " |",
+                flush=True,
+            )
+    head = ["engine", "courses", "stones", "gap_m", "start_s", "rest_ms", "shaken_ms"]
+    write_csv(folder / "walls.csv", [head, *table])
+
+
 def large_costs(folder: Path) -> None:
     """Of a large structure in full order, on all ranks."""
     found = large.costs(MPI.COMM_WORLD)
@@ -231,6 +270,8 @@ def large_costs(folder: Path) -> None:
 PARTS = dict(
     speed=speeds,
     shaken=shaken_costs,
+    apart=apart_costs,
+    walls=wall_costs,
     large=large_costs,
     forces=forces,
     planar=planar,

@@ -195,7 +195,10 @@ def _check_prism(key: str, body: Prism, refuse) -> None:
                 f"[{corner[0]:g}, {corner[1]:g}] m",
             )
     longest = max(math.dist(*sides) for sides in zip(outline, outline[1:] + outline[:1]))
-    if abs(signed_area(outline)) <= _FLAT * longest**2:
+    if all(
+        abs(signed_area([one, other, third])) <= _FLAT * longest**2
+        for one, other, third in zip(outline, outline[1:], outline[2:])
+    ):
         refuse(f"{key}.outline_m", told, "must enclose an area: its corners lie on a line")
     if sides := crossing(outline):
         one, other = (

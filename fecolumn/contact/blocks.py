@@ -100,21 +100,30 @@ def least_filling(start, coupled):
     coupled to the fewest points; adds to `coupled` (g, g) what it fills.
     """
     g = len(coupled)
-    ranks, gone = np.empty(g, np.int64), np.zeros(g, np.bool_)
+    ranks, gone, others = np.empty(g, np.int64), np.zeros(g, np.bool_), np.zeros(g, np.int64)
+    for k in range(g):
+        for l in range(g):
+            others[k] += start[l + 1] - start[l] if coupled[k, l] else 0
+    beside = np.empty(g, np.int64)
     for rank in range(g):
-        chosen, fewest = -1, 0
+        chosen, count = -1, 0
         for k in range(g):
-            others = 0
-            for l in range(g):
-                others += start[l + 1] - start[l] if coupled[k, l] and not gone[l] else 0
-            if not gone[k] and (chosen < 0 or others < fewest):
-                chosen, fewest = k, others
+            if not gone[k] and (chosen < 0 or others[k] < others[chosen]):
+                chosen = k
         ranks[rank], gone[chosen] = chosen, True
         for k in range(g):
-            for l in range(g):
-                coupled[k, l] |= (
-                    not gone[k] and not gone[l] and coupled[chosen, k] and coupled[chosen, l]
-                )
+            if not gone[k] and coupled[chosen, k]:
+                beside[count] = k
+                others[k] -= start[chosen + 1] - start[chosen]
+                count += 1
+        # only what is coupled to the chosen one is filled in
+        for i in range(count):
+            k = beside[i]
+            for j in range(count):
+                l = beside[j]
+                if not coupled[k, l]:
+                    coupled[k, l] = True
+                    others[k] += start[l + 1] - start[l]
     return ranks
 
 

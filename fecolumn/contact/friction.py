@@ -13,11 +13,13 @@ from fecolumn.contact.arrays import marked
 from fecolumn.contact.coulomb import in_cone, law_error, violation
 from fecolumn.contact.coupling import (
     coupling_of,
+    motion_by,
     part_of,
     slips_under,
     stiffnesses,
     whole_of,
 )
+from fecolumn.contact.frozen_slips import halve_way, solve_frozen
 from fecolumn.contact.interior_point import approach, in_cones
 from fecolumn.contact.newton import newton_steps, solve_in_place
 from fecolumn.foundation._compiled import compiled, njit
@@ -143,24 +145,31 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
                 iterations += made
                 if residual < least:
                     best, least = forces, residual
-    if least > tolerance and len(coupling.whole) == 0:
-        # cheap by levers: many small steps, each held by a compliance against change
-        forces, residual, made = newton_steps(
-            coupling,
-            q,
-            friction,
-            best,
-            tolerance,
-            rho,
-            rho,
-            tolerances.HELD_GIVE / rho.min(),
-            tolerances.HELD_STEPS,
-            tolerances.HELD_STALLED,
-        )
+    many = n > tolerances.MANY_POINTS and len(coupling.whole) == 0
+    # of few points the whole matrix follows
+    for way in range((2 if many else 1) if len(coupling.whole) == 0 else 0):
+        if least <= tolerance:
+            break
+        if many == (way == 0):
+            forces, residual, made = by_frozen_slips(coupling, q, friction, best, tolerance, rho)
+        else:
+            # cheap by levers: many small steps, each held by a compliance against change
+            forces, residual, made = newton_steps(
+                coupling,
+                q,
+                friction,
+                best,
+                tolerance,
+                rho,
+                rho,
+                tolerances.HELD_GIVE / rho.min(),
+                tolerances.HELD_STEPS,
+                tolerances.HELD_STALLED,
+            )
         iterations += made
         if residual < least:
             best, least = forces, residual
-    if least <= tolerance:
+    if least <= tolerance or many:
         return best, least, iterations, others
     # few of many points carry: those that do without friction, and those that sink where these do
     forces, taken, grown, pressed = (
@@ -216,6 +225,55 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
         if residual < least:
             best, least = forces, residual
     return best, least, iterations, others
+
+
+@njit
+def by_frozen_slips(coupling, q, friction, start, tolerance, rho):
+    """As `_with_frozen_slips`, by levers, where each convex problem costs what the points are: many
+    blocks of a wall that is shaken, whose head joints touch and hardly carry. Best forces,
+    residual, steps of Newton.
+    """
+    n, best, least, iterations, missed, give = len(q), start, np.inf, 0, np.inf, 0.0
+    slips, forces, slopes = np.empty(n), np.empty((n, 3)), np.empty((n, 3, 3))
+    relative, motion = slips_under(coupling, q, start), motion_by(coupling, start)
+    for i in range(n):
+        slips[i] = friction[i] * np.hypot(relative[i, 0], relative[i, 1])
+        give = max(give, tolerances.GIVE / rho[i])
+        if not coupling.own[i].min() > 0.0:
+            return best, least, 0
+    for turn in range(tolerances.FROZEN_ROUNDS + tolerances.FROZEN_MORE):
+        before = slips.copy()
+        made, missed = solve_frozen(
+            coupling,
+            q,
+            friction,
+            slips,
+            motion,
+            forces,
+            slopes,
+            max(tolerance, tolerances.FROZEN_SHARE * missed) if missed < np.inf else tolerance,
+        )
+        if turn >= tolerances.FROZEN_HALVED:
+            halve_way(before, slips)
+        iterations += made
+        found, residual, made = newton_steps(
+            coupling,
+            q,
+            friction,
+            forces,
+            tolerance,
+            rho,
+            rho,
+            give,
+            tolerances.NEWTON_STEPS,
+            tolerances.NEWTON_STALLED,
+        )
+        iterations += made
+        if residual < least:
+            best, least = found, residual
+        if least <= tolerance:
+            break
+    return best, least, iterations
 
 
 @njit

@@ -1,11 +1,12 @@
-"""Impulses of an impact by convex problems, one after the other: in each the slips are those that
-the one before left (Acary, Cadoux, Lemarechal and Malick 2011, ZAMM 91).
+"""Impulses of an impact, or forces of a step, by convex problems, one after the other: in each the
+slips are those that the one before left (Acary, Cadoux, Lemarechal and Malick 2011, ZAMM 91).
 
 With W = give + V V^T and the slips g = mu |s_t| frozen, the motion x = V^T r that impulses r give
 the bodies is the least of |x|^2 / 2 + sum give |r(x)|^2 / 2. There r(x) is, of each point alone,
 what lies in Coulomb's cone nearest to -(V x + q + g n) / give. The function is strictly convex with
 a continuous gradient, so that Newton with a search along its steps finds its least from anywhere
-(Castro, Permenter and Han 2023, IEEE Transactions on Robotics 39).
+(Castro, Permenter and Han 2023, IEEE Transactions on Robotics 39). A point may give otherwise along
+its face than across it: with r_t and mu times the root of that ratio, it gives evenly.
 
 Whatever the frozen slips are, each solution is an impact that physics allows: impulses lie in
 Coulomb's cone, momentum is exact, and r.s = -g r_n takes energy. Slips that are not yet their own
@@ -20,32 +21,34 @@ from fecolumn.contact.arrays import largest
 from fecolumn.contact.blocks import eliminate
 from fecolumn.contact.coupling import motion_by, moved_by, slips_under
 from fecolumn.contact.tolerances import (
+    FROZEN_MORE,
     FROZEN_ROUNDS,
     FROZEN_SEARCHES,
     FROZEN_SHARE,
     FROZEN_SLOPE,
     FROZEN_STEPS,
+    MANY_POINTS,
 )
 from fecolumn.foundation._compiled import njit
 
 
 @njit
-def find_impulses(coupling, q, friction, start, near, exact, allowed):
+def find_impulses(coupling, q, friction, start, near, exact, allowed, usable):
     """Impulses (n, 3) [N s] of points, how far they miss Coulomb's law [m/s], Newton steps made.
 
     Parameters
     ----------
     coupling
-        by levers, of points that give alone, the same along each axis [1/kg].
+        by levers, of points that give alone [1/kg], as much along both tangents.
     q
         (n, 3) velocities without the impulses [m/s].
     start
         (n, 3) first guess.
     near
         whether it is a good one, from whose slips to begin; else from none.
-    exact, allowed
-        velocities [m/s] to which a convex problem is solved at most, and by which the law may be
-        missed.
+    exact, allowed, usable
+        velocities [m/s] to which a convex problem is solved at most, by which the law may be
+        missed, and by which after FROZEN_ROUNDS.
     """
     n, made, missed = len(q), 0, np.inf
     slips, impulses, slopes = np.zeros(n), np.empty((n, 3)), np.empty((n, 3, 3))
@@ -54,19 +57,45 @@ def find_impulses(coupling, q, friction, start, near, exact, allowed):
         relative = slips_under(coupling, q, start)
         for i in range(n):
             slips[i] = friction[i] * np.hypot(relative[i, 0], relative[i, 1])
-    for _ in range(FROZEN_ROUNDS):
-        tolerance = max(exact, FROZEN_SHARE * min(missed, allowed))
-        made += _least(coupling, q, friction, slips, motion, impulses, slopes, tolerance)
-        relative, missed = moved_by(coupling, motion), 0.0
-        for i in range(n):
-            for a in range(3):
-                relative[i, a] += q[i, a] + coupling.own[i, a] * impulses[i, a]
-            slip = friction[i] * np.hypot(relative[i, 0], relative[i, 1])
-            wrong = abs(slip - slips[i]) if impulses[i, 2] > 0 else -relative[i, 2]
-            missed, slips[i] = max(missed, wrong), slip
-        if missed <= allowed:
+    for turn in range(FROZEN_ROUNDS + (FROZEN_MORE if n > MANY_POINTS else 0)):
+        before, tolerance = slips.copy(), max(exact, FROZEN_SHARE * min(missed, allowed))
+        more, missed = solve_frozen(
+            coupling, q, friction, slips, motion, impulses, slopes, tolerance
+        )
+        made += more
+        if missed <= (allowed if turn + 1 < FROZEN_ROUNDS else usable):
             break
+        if turn >= FROZEN_ROUNDS:
+            halve_way(before, slips)
     return impulses, missed, made
+
+
+@njit
+def solve_frozen(coupling, q, friction, slips, motion, impulses, slopes, tolerance):
+    """Solve the convex problem of frozen slips (n,), which become those that it leaves: Newton
+    steps made, and how far these are from the ones before, or points from the surface.
+
+    motion: (nb, w), the first guess; impulses: (n, 3), which are put; slopes: (n, 3, 3) room;
+    tolerance: of what moves the points, as q.
+    """
+    made = _least(coupling, q, friction, slips, motion, impulses, slopes, tolerance)
+    relative, missed = moved_by(coupling, motion), 0.0
+    for i in range(len(q)):
+        for a in range(3):
+            relative[i, a] += q[i, a] + coupling.own[i, a] * impulses[i, a]
+        slip = friction[i] * np.hypot(relative[i, 0], relative[i, 1])
+        wrong = abs(slip - slips[i]) if impulses[i, 2] > 0 else -relative[i, 2]
+        missed, slips[i] = max(missed, wrong), slip
+    return made, missed
+
+
+@njit
+def halve_way(before, slips):
+    """Let slips (n,) go half the way only from those before: where many stones hand on what they
+    slip, they else go to and fro.
+    """
+    for i in range(len(slips)):
+        slips[i] = (before[i] + slips[i]) / 2
 
 
 @njit
@@ -143,9 +172,19 @@ def _gradient(coupling, q, friction, slips, motion, impulses, slopes):
     velocity = moved_by(coupling, motion)
     for i in range(len(q)):
         give = coupling.own[i, 2]
-        x, y = -(velocity[i, 0] + q[i, 0]) / give, -(velocity[i, 1] + q[i, 1]) / give
+        even = np.sqrt(2 * give / (coupling.own[i, 0] + coupling.own[i, 1]))
+        x, y = (
+            -even * (velocity[i, 0] + q[i, 0]) / give,
+            -even * (velocity[i, 1] + q[i, 1]) / give,
+        )
         z = -(velocity[i, 2] + q[i, 2] + slips[i]) / give
-        _nearest(x, y, z, friction[i], give, impulses[i], slopes[i])
+        _nearest(x, y, z, friction[i] / even, give, impulses[i], slopes[i])
+        if even != 1.0:
+            for a in range(2):
+                impulses[i, a] *= even
+                for b in range(3):
+                    slopes[i, a, b] *= even
+                    slopes[i, b, a] *= even
     given = motion_by(coupling, impulses)
     rest = np.empty_like(motion)
     for b in range(len(motion)):

@@ -22,6 +22,8 @@ from fecolumn.contact.tolerances import (
     IMPACT_LEFT,
     IMPACT_MISSED,
     IMPACT_SOLVED,
+    MANY_MISSED,
+    MANY_POINTS,
     NEWTON_STALLED,
     NEWTON_STEPS,
     SHARP,
@@ -131,9 +133,19 @@ def _softened_impulses(compliance, velocity, friction, guess, allowed, usable, n
         )
         if residual > allowed:
             impulses, residual, more = find_impulses(
-                compliance, velocity, friction, guess, near, SHARP * allowed, FROZEN_ENDS * usable
+                compliance,
+                velocity,
+                friction,
+                guess,
+                near,
+                SHARP * allowed,
+                FROZEN_ENDS * usable,
+                usable,
             )
             made, residual = made + more, residual * allowed / usable
+            if len(guess) > MANY_POINTS:
+                # what else there is costs seconds, or fails as well; this takes energy all the same
+                residual /= MANY_MISSED
         counts[N_IMPACT_CONTACT] += made
         if residual <= allowed:
             return impulses, True

@@ -6,6 +6,7 @@ import contextlib
 import io
 import math
 import time
+import warnings
 
 import numpy as np
 
@@ -40,6 +41,7 @@ class ReducedAnalysis(OfStructure, Analysis):
 
     def __init__(self, case, folder, comm, file, quiet):
         super().__init__(case, folder, comm, file, quiet)
+        self._file = file
         self.structure = structure_model(case, file, self.say)
         self.fields, self.states = self._fields() if self.field_steps else None, self._states()
         self.bases = self.structure.bases
@@ -119,6 +121,8 @@ class ReducedAnalysis(OfStructure, Analysis):
                     if every:
                         count = min(count, every - self.step % every)
                 over = self._advance_while_quick(count, pace) and self._stays()
+                if told := passing.fast(engine.motion, self.case.integration.dt_s):
+                    warnings.warn(f"{self._file}: {told}", stacklevel=2)
                 if told := passing.told(engine.motion):
                     self._save()
                     raise AnalysisFailed(f"{told}; state saved in {self.folder / CHECKPOINT}")

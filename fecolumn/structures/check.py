@@ -127,7 +127,8 @@ def check_layout(case, layout, file) -> None:
                         None,
                         f'"{case.names_of(one[0])[one[1]]}" and '
                         f'"{case.names_of(other[0])[other[1]]}" overlap at the '
-                        f"start, by {depth:.3g} m or more",
+                        f"start, by {depth:.3g} m or more: move one by bodies.{one[0]}.at_m "
+                        "or copies_m, or make it smaller",
                     )
 
 

@@ -15,6 +15,8 @@ from fecolumn.structures.patches import plane_box
 _NEAR = 0.05
 # Over the area of a face: two faces are equal
 _SAME_AREA = 1e-6
+# Sine of the angle up to which faces were meant to look at one another
+_ALMOST = 0.2
 # Cosine from which faces look at one another
 _OPPOSITE = 1e-5
 # Shares of an element face's corners in a point of it that no regular grid has
@@ -122,7 +124,7 @@ def _of_interface(case, name: str, faces, file) -> list[Meeting]:
         found += across
     near = [one for one in gaps if abs(one.gap) <= _NEAR * one.width]
     if near or not found:
-        _refuse(case, name, interface, near or gaps, bool(near), file)
+        _refuse(case, name, interface, near or gaps, bool(near), faces, file)
     return found
 
 
@@ -141,21 +143,66 @@ def _across_gaps(gaps: list[_Gap]) -> list[Meeting]:
     ]
 
 
-def _refuse(case, name: str, interface, gaps: list[_Gap], near: bool, file) -> None:
+def _refuse(case, name: str, interface, gaps: list[_Gap], near: bool, faces, file) -> None:
     """Refuse a joint of whose faces none touch, or some nearly; gaps: between those that look at
     one another.
     """
-    told = "no faces of theirs look at one another"
-    if gaps:
-        one = min(gaps, key=lambda gap: abs(gap.gap))
+    slave, on = interface.slave, interface.on
+    way_out = f"move one by bodies.NAME.at_m, or leave out joints.{name}"
+    told = f"no faces of theirs look at one another; {way_out}"
+    one = min(gaps, key=lambda gap: abs(gap.gap), default=None)
+    if one:
         bodies = f'"{_name(case, one.meeting.slave)}" and {_quoted(case, one.meeting.master)}'
-        told = f"the nearest faces, of {bodies}, {_gap_text(one.gap)}"
-    if near:
+        told = f"the nearest faces, of {bodies}, {_gap_text(one.gap)}; {way_out}"
+        if one.gap > 0:
+            told += f"; joints.{name}.open = true lets them begin apart"
+    if one and near:
         told = f"{bodies} {_gap_text(one.gap)}: their faces must coincide at the start"
-        told += f"; joints.{name}.open = true lets them begin apart" if one.gap > 0 else ""
-    else:
-        told = f'"{interface.slave}" does not touch "{interface.on}" at the start: {told}'
-    raise InputError(file, f"joints.{name}", None, told)
+        told += (
+            f"; joints.{name}.open = true lets them begin apart"
+            if one.gap > 0
+            else f'; move "{_name(case, one.meeting.slave)}" by {_apart(one, faces)} m, '
+            f"bodies.{one.meeting.slave[0]}.at_m"
+        )
+    elif inclined := _inclined(case, name, faces):
+        told = f"{inclined}; a joint is between faces of one plane"
+    if not near:
+        told = f'"{slave}" does not touch "{on}" at the start: {told}'
+    raise InputError(file, f"joints.{name}", [slave, on], told)
+
+
+def _apart(one: _Gap, faces) -> str:
+    """The way [m] that takes the slave of an overlap out of its master, in words."""
+    body, _ = one.meeting.slave
+    way = faces[body][one.meeting.slave_face].normal * one.gap + 0.0
+    return "[" + ", ".join(f"{part:.4g}" for part in way) + "]"
+
+
+def _inclined(case, name: str, faces) -> str:
+    """Which two faces with a common edge or corner are inclined to one another by a few degrees, in
+    words; "" where none are.
+    """
+    interface, least, told = case.joints[name], _ALMOST, ""
+    if interface.on in case.grounds:
+        return ""
+    for one in _copies(case, interface.slave):
+        for other in _copies(case, interface.on):
+            offset = place_of(case, one) - place_of(case, other)
+            for face in faces[one[0]] if one != other else ():
+                mine = (face.corners + offset).reshape(-1, 3)
+                for facing in faces[other[0]]:
+                    sine = float(np.linalg.norm(np.cross(face.normal, facing.normal)))
+                    if face.normal @ facing.normal > 0 or not _OPPOSITE < sine < least:
+                        continue
+                    theirs = facing.corners.reshape(-1, 3)
+                    apart = np.linalg.norm(mine[:, None] - theirs, axis=2).min()
+                    if apart <= _NEAR * np.ptp(theirs, axis=0).max():
+                        least, angle = sine, np.degrees(np.arcsin(sine))
+                        told = (
+                            f'the faces of "{_name(case, one)}" and "{_name(case, other)}" that '
+                            f"are nearest are inclined to one another by {angle:.3g} degrees"
+                        )
+    return told
 
 
 def _gap_text(gap: float) -> str:

@@ -8,11 +8,23 @@ import numpy as np
 import pytest
 
 from fecolumn.contact import frozen_slips
-from fecolumn.contact.coupling import coupling_by_levers, moved_by, softened, stiffnesses, times
+from fecolumn.contact.coulomb import violation
+from fecolumn.contact.coupling import (
+    Coupling,
+    coupling_by_levers,
+    moved_by,
+    slips_under,
+    softened,
+    stiffnesses,
+    times,
+)
+from fecolumn.contact.friction import by_frozen_slips
 from fecolumn.contact.frozen_slips import find_impulses
 from fecolumn.foundation._compiled import interpreted
 
 FRICTION = 0.5
+# Velocities [m/s] to which impulses are found: exact, allowed, usable
+TO = (1e-12, 1e-4, 1e-4)
 
 
 def impact(blocks, seed):
@@ -45,7 +57,7 @@ def impact(blocks, seed):
 @pytest.mark.parametrize("seed", range(4))
 def test_coulombs_law_is_missed_by_no_more_than_is_said(blocks, seed):
     coupling, velocity, friction, start = impact(blocks, seed)
-    impulses, missed, _ = find_impulses(coupling, velocity, friction, start, False, 1e-12, 1e-4)
+    impulses, missed, _ = find_impulses(coupling, velocity, friction, start, False, *TO)
     after, presses = times(coupling, impulses) + velocity, impulses[:, 2] > 0
     assert missed < 2e-3 and presses.sum() >= 2
     assert (np.abs(after[presses, 2]) <= 1.2 * missed + 1e-10).all()
@@ -60,7 +72,7 @@ def test_an_impact_that_stops_too_early_takes_energy_too(monkeypatch):
     coupling, velocity, friction, start = impact(3, 1)
     monkeypatch.setattr(frozen_slips, "FROZEN_ROUNDS", 2)
     impulses, missed, _ = interpreted(find_impulses)(
-        coupling, velocity, friction, start, False, 1e-12, 1e-9
+        coupling, velocity, friction, start, False, 1e-12, 1e-9, 1e-9
     )
     assert missed > 1e-3
     assert (np.hypot(*impulses.T[:2]) <= FRICTION * impulses[:, 2] * (1 + 1e-12)).all()
@@ -71,8 +83,8 @@ def test_an_impact_that_stops_too_early_takes_energy_too(monkeypatch):
 
 def test_a_good_guess_needs_fewer_steps():
     coupling, velocity, friction, start = impact(3, 2)
-    impulses, missed, made = find_impulses(coupling, velocity, friction, start, False, 1e-12, 1e-4)
-    again, left, fewer = find_impulses(coupling, velocity, friction, impulses, True, 1e-12, 1e-4)
+    impulses, missed, made = find_impulses(coupling, velocity, friction, start, False, *TO)
+    again, left, fewer = find_impulses(coupling, velocity, friction, impulses, True, *TO)
     assert left <= max(missed, 1e-4) and missed < 2e-3 and fewer < made
     np.testing.assert_allclose(times(coupling, again), times(coupling, impulses), atol=1e-2)
 
@@ -94,3 +106,17 @@ def test_the_slope_of_the_nearest_impulse_of_the_cone_is_that_of_differences(mu)
         np.testing.assert_allclose(slope, differences, atol=1e-8)
         kinds.add((impulse[2] > 0, bool(np.hypot(*impulse[:2]) < mu * impulse[2] * 0.999)))
     assert len(kinds) >= 2
+
+
+@pytest.mark.parametrize("along", [0.3, 1.0, 3.0])
+@pytest.mark.parametrize("seed", range(4))
+def test_forces_of_a_step_are_found_where_newton_alone_may_find_none(seed, along):
+    """Points that give otherwise along their faces than across them, as joints with a law do."""
+    coupling, slips, friction, start = impact(6, seed)
+    own = coupling.own * [along, along, 1.0]
+    coupling = Coupling(coupling.whole, own, coupling.levers, coupling.bodies, coupling.blocks)
+    rho = stiffnesses(coupling, False)
+    forces, residual, _ = by_frozen_slips(coupling, slips, friction, start, 1e-11, rho)
+    after = slips_under(coupling, slips, forces)
+    assert violation(after, forces, friction, rho) == residual <= 1e-11
+    assert (forces[:, 2] > 0).sum() >= 2

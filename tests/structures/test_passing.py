@@ -34,6 +34,18 @@ def test_found_contact_that_fails_is_named():
     assert passing.told(engine.motion) == ""
 
 
+def test_a_needle_that_spins_is_named_once_with_the_step_that_follows_it():
+    pairs = dict(low=box(0.3, 0.3, 0.3), bar=box(0.5, 0.01, 0.01, at_m=[0.0, 0.0, 2.0]))
+    engine, _ = watched(falling(pairs), 0.002)
+    passing = Passing(engine.model)
+    assert passing.fast(engine.motion, 1e-3) == ""
+    engine.motion.frames["spin"][1] = [0.0, 0.0, 100.0]
+    # half its length at 100 rad/s goes by 25 mm in 1 ms
+    told = passing.fast(engine.motion, 1e-3)
+    assert '"bar" goes 2.5 times its thickness' in told and "0.0002 s" in told
+    assert passing.fast(engine.motion, 1e-3) == ""
+
+
 def test_bodies_that_come_through_each_other_are_named(tmp_path):
     with pytest.raises(AnalysisFailed, match='"left" and "right" came through each other'):
         _pushed(tmp_path / "through", {})

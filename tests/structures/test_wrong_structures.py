@@ -297,6 +297,26 @@ def test_wrong_structure_is_refused_in_one_line(tables, key, said):
     assert caught.value.key == key and said in str(caught.value) and "\n" not in str(caught.value)
 
 
+def test_bodies_that_do_not_meet_are_told_how_they_would():
+    """How far an overlap is to be moved; by how much faces are inclined to one another."""
+    with pytest.raises(InputError, match=r'move "upper" by \[0, 0, 0.003\] m, bodies.upper.at_m'):
+        structure_model(_case(stack(bodies=dict(upper=dict(at_m=[0, 0, 0.797])))), "small.toml")
+    wedge = dict(kind="prism", width_m=0.5, element_size_m=0.25) | RIGID
+    tables = dict(
+        bodies=dict(
+            left=wedge | dict(outline_m=[[0, 0], [0.5, 0], [0.4, 0.5], [0, 0.5]]),
+            right=wedge | dict(outline_m=[[0.5, 0], [1.0, 0], [1.0, 0.5], [0.42, 0.5]]),
+        ),
+        joints=dict(
+            one=dict(between=["left", "ground"]),
+            other=dict(between=["right", "ground"]),
+            side=dict(between=["left", "right"]),
+        ),
+    )
+    with pytest.raises(InputError, match="are inclined to one another by 2.22 degrees"):
+        structure_model(structure(**tables), "small.toml")
+
+
 def test_several_wrong_keys_are_told_together():
     with pytest.raises(InputError) as caught:
         structure(
