@@ -8,8 +8,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -104,6 +102,8 @@ def _with(name: str, read: Any, store: Any) -> Callable[[argparse.Namespace], in
 
 
 def _match(name: str, args: argparse.Namespace, read: Any, store: Any) -> int:
+    import numpy as np
+
     from fecolumn.motions.ensemble import Ensemble
     from fecolumn.motions.processing import scale
     from fecolumn.motions.spectra import horizontal_spectrum
@@ -184,6 +184,8 @@ def _summary(
     target: TargetSpectrum, spectra: NDArray[Any], factors: NDArray[Any], count: int
 ) -> str:
     """What fits how well, in a sentence."""
+    import numpy as np
+
     logs = np.log(spectra)
     off = np.exp(np.abs(logs.mean(axis=0) - np.log(target.sa)).max()) - 1
     text = (

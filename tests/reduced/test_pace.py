@@ -58,6 +58,8 @@ def _running(tmp_path, steps=10_000, motion_steps=0, until_rest=False):
         motion_steps=1 + motion_steps,
         until_rest=until_rest,
         stepping_s=0.0,
+        step_times=None,
+        made_in_s=lambda: 0.0,
     )
 
 

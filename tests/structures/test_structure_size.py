@@ -61,7 +61,7 @@ def test_estimate_counts_what_is_built(body):
     )
     shape = shape_of("bodies.body", case.bodies["body"], "small.toml")
     found = size_of(case, "small.toml")
-    assert found.elements == {"body": len(shape.mesh.cells)}
+    assert found.bricks == {"body": len(shape.mesh.cells)}
     assert found.dofs == {"body": 3 * body_of(shape, material_of(case.bodies["body"], {})).n_nodes}
 
 
@@ -79,9 +79,9 @@ def test_estimate_counts_plates_where_others_meet_them(places):
     )
     shape = shape_of("bodies.slab", case.bodies["slab"], "small.toml", spots["slab"])
     assert (
-        size_of(case, "small.toml", spots).elements["slab"]
+        size_of(case, "small.toml", spots).bricks["slab"]
         == len(shape.mesh.cells)
-        > size_of(case, "small.toml").elements["slab"]
+        > size_of(case, "small.toml").bricks["slab"]
     )
 
 
@@ -119,7 +119,7 @@ def test_elements_that_would_not_fit_are_refused_at_once_with_a_size_that_fits(k
     assert message.startswith(f"small.toml: {caught.value.key} = {size}: ") and "\n" not in message
     assert (
         f"{wanted.dofs['piece']:,} degrees of freedom" in message
-        and f"{wanted.elements['piece']:,} elements" in message
+        and f"{wanted.bricks['piece']:,} elements" in message
     )
     fits = float(message.split(" m would fit")[0].split()[-1])
     assert (
