@@ -160,8 +160,8 @@ class ReducedAnalysis(OfStructure, Analysis):
         )
 
     def time_steps(self) -> None:
-        """Note how long each step takes, without the call of compiled code that each then is."""
-        self.step_times = StepTimes(self.engine.record, self.engine.call_s())
+        """Note how long each step takes."""
+        self.step_times = StepTimes(self.engine.record)
 
     def made_in_s(self) -> float:
         """Processor time [s] of the compiled steps so far."""

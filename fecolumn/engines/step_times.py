@@ -26,13 +26,10 @@ _BANDS = (2, 8, 40, 95)
 
 
 class StepTimes:
-    """Times of steps, made one at a time, and what they did.
+    """Times of steps, made one at a time, and what they did."""
 
-    call_s: time [s] of a call without a step, which is taken off each.
-    """
-
-    def __init__(self, record: Record, call_s: float = 0.0):
-        self._call_s, self._record = call_s, dataclasses.replace(record)
+    def __init__(self, record: Record):
+        self._record = dataclasses.replace(record)
         self._rows: list[list[float]] = []
 
     def note(self, time_s: float, spent_s: float, points: int, record: Record) -> None:
@@ -42,8 +39,7 @@ class StepTimes:
         """
         counts = np.subtract(dataclasses.astuple(record), dataclasses.astuple(self._record))
         self._record = dataclasses.replace(record)
-        spent_us = 1e6 * max(spent_s - self._call_s, 0.0)
-        self._rows.append([time_s, spent_us, points, *counts.tolist()])
+        self._rows.append([time_s, 1e6 * spent_s, points, *counts.tolist()])
 
     def write(self, folder: Path) -> None:
         """Write the rows."""

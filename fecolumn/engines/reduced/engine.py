@@ -41,8 +41,6 @@ from fecolumn.engines.reduced.observe import ENERGY, outcome_of_row
 from fecolumn.engines.reduced.run import LENGTHS, StepBatch, StepState, advance
 from fecolumn.foundation._compiled import compile_for, interpreted
 
-# Calls without a step of which the median is taken
-_CALLS = 50
 # for the halves of a failed step: the point of no return and rest are looked for at its end only
 _NO_END, _NO_REST, _NO_STEPS = np.array([np.inf]), (0.0, -np.inf), np.empty(0)
 _STOPS = {
@@ -271,15 +269,6 @@ class Engine:
                 ):
                     return rows[:done], True
         return rows, False
-
-    def call_s(self) -> float:
-        """Processor time [s] of a call of compiled steps that makes none."""
-        nothing, spent = (np.empty((0, 3 * len(self.bases))), np.empty((0, self.view.width))), []
-        for _ in range(_CALLS):
-            before = self.spent_s
-            self._steps(self.hht, *nothing, _NO_STEPS, _NO_REST)
-            spent.append(self.spent_s - before)
-        return float(np.median(spent))
 
     def _steps(self, hht, grounds, rows, steepest, rest) -> tuple[int, int]:
         arguments = self._arguments(
