@@ -23,6 +23,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fecolumn.foundation.version import __version__
+
 if TYPE_CHECKING:
     from fecolumn.case.bodies import (
         Arch,
@@ -78,7 +80,6 @@ if TYPE_CHECKING:
     from fecolumn.study.results.study import StudyResult
     from fecolumn.study.run import StudyError
 
-__version__ = "0.11.0"
 __all__ = [
     "AnalysisFailed",
     "AnalysisResult",
@@ -121,6 +122,7 @@ __all__ = [
     "StudyResult",
     "Tendon",
     "Tube",
+    "__version__",
     "calibrate",
     "case_from_tables",
     "design",

@@ -8,7 +8,7 @@ import functools
 import hashlib
 from pathlib import Path
 
-from fecolumn import __version__
+from fecolumn.foundation.version import __version__
 
 #: Counts up whenever the same case gives another motion; measurements state it, so that those of an
 #: older one are known. See "When motions change" in the manual's contributing.md.

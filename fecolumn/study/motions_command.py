@@ -304,8 +304,8 @@ def _make_seeded(args: argparse.Namespace) -> int:
 def _fit(args: argparse.Namespace) -> int:
     import dataclasses
 
-    import fecolumn
     from fecolumn.foundation.schema import InputError
+    from fecolumn.foundation.version import __version__
     from fecolumn.motions.fit import components_of_record, fit
     from fecolumn.motions.seeded import MODEL_HEAD, write_model
     from fecolumn.motions.target import target_of_record
@@ -337,7 +337,7 @@ def _fit(args: argparse.Namespace) -> int:
     )
     made_by = (
         f"fecolumn motions fit {args.source} -n {args.n} --iterations {args.iterations}, "
-        f"version {fecolumn.__version__}"
+        f"version {__version__}"
     )
     write_model(dataclasses.replace(model, made_by=made_by), args.output)
     print(f"wrote {args.output}")
