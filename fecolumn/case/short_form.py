@@ -12,6 +12,8 @@ from __future__ import annotations
 
 import dataclasses
 
+from fecolumn.case import sizes
+from fecolumn.case.check_grounds import OF_KINDS
 from fecolumn.case.mesh_file_keys import cut_key, size_key, unit_key
 from fecolumn.case.model_keys import check_model, check_substeps
 from fecolumn.case.sections import (
@@ -34,6 +36,8 @@ from fecolumn.foundation.paths import OF_SECTIONS as FILES
 from fecolumn.foundation.schema import InputError, Section, build, merge, nested, parameter, stated
 from fecolumn.foundation.section_class import section_class
 from fecolumn.mesh.mesh_file import MeshFile
+from fecolumn.mesh.outline import is_solid
+from fecolumn.mesh.upright import Upright
 
 
 @section_class()
@@ -224,29 +228,8 @@ class Mesh(Section):
     )
 
 
-class Heights:
-    """Heights and radii of a built column, from its own sections."""
-
-    __slots__ = ()
-
-    @property
-    def mean_radius_m(self) -> float:
-        """Radius of the wall's middle surface."""
-        return (self.column.outer_diameter_m - self.column.wall_m) / 2
-
-    @property
-    def seat_m(self) -> float:
-        """Height at which the column begins: the flange's thickness."""
-        return self.flange.thickness_m if self.flange else 0.0
-
-    @property
-    def top_m(self) -> float:
-        """Height of the top of column and cap."""
-        return self.seat_m + self.column.height_m + (self.cap.thickness_m if self.cap else 0.0)
-
-
 @section_class()
-class ShortForm(Section, Heights):
+class ShortForm(Section, Upright):
     """A case of one column on its base, as a file with [column] states it.
 
     fecolumn.Case.of_column(
@@ -280,8 +263,6 @@ class ShortForm(Section, Heights):
         """The tables of its file; `opened`: without those sizes that it would be given anyway, so
         that another column gets its own.
         """
-        from fecolumn.case import sizes
-
         return stated(dataclasses.asdict(sizes.opened(self) if opened else self))
 
 
@@ -315,8 +296,6 @@ def finished(case: ShortForm, file) -> ShortForm:
     InputError
         as of `read_case`.
     """
-    from fecolumn.case import sizes
-
     sizes.check_shape(case, file)
     case = sizes.with_sizes(case, file)
     sizes.check_sizes(case, file)
@@ -459,9 +438,6 @@ def full_tables(form: ShortForm) -> dict:
     short = form.tables()
     column = short["column"]
     own = bool(column.get("mesh_file"))
-    from fecolumn.case.check_grounds import OF_KINDS
-    from fecolumn.mesh.outline import is_solid
-
     solid = not own and form.column.shape != "block" and is_solid(form.column)
     kind = "mesh" if own else "block" if form.column.shape == "block" else "tube"
     kind = "cylinder" if solid else kind

@@ -10,7 +10,7 @@ import numpy as np
 
 from fecolumn.case.bodies import Cone, Ground, Matrices, Meshed, Plate, Prism, Storeys
 from fecolumn.case.sections import Cap, Flange, Material
-from fecolumn.case.short_form import Column, Heights
+from fecolumn.case.short_form import Column
 from fecolumn.engines.reduced_engine import upright
 from fecolumn.engines.scene.structure_scene import structure_scene
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
@@ -22,6 +22,7 @@ from fecolumn.mesh.outline import is_solid
 from fecolumn.mesh.picture import picture
 from fecolumn.mesh.quality import QualityRow, quality_table
 from fecolumn.mesh.specimen import SpecimenMesh
+from fecolumn.mesh.upright import Upright
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.model import GROUND
@@ -42,7 +43,7 @@ _NOTHING = BrickMesh(np.zeros((0, 3)), np.zeros((0, 8), np.int64), np.zeros(0, n
 
 
 @dataclass(frozen=True, slots=True)
-class Made(Heights):
+class Made(Upright):
     """What a body is made of, as the closed forms of its mass and bending take it."""
 
     column: Column
