@@ -73,6 +73,7 @@ def run(
         )
     folder, file = Path(folder), file or "case"
     check(case, file)
+    check_analysis(case, file)
     chosen = kept_choice(folder)
     if case.integration.step_is_chosen:
         if chosen and chosen.get("case_id") == case.id:
@@ -144,7 +145,8 @@ def chosen_step(case: Case, file: str, comm=None, stop=lambda: False, say=print)
     from fecolumn.engines.step_choice import StepChoice
 
     comm = comm or MPI.COMM_WORLD
-    _analysis_class(case, comm, file)  # which refuses what cannot be analysed
+    check_analysis(case, file)
+    _analysis_class(case, comm, file)  # which refuses several processes
     choice = StepChoice(
         case, file, lambda one, folder: started_analysis(one, folder, comm, file, quiet=True), stop
     )
@@ -152,8 +154,24 @@ def chosen_step(case: Case, file: str, comm=None, stop=lambda: False, say=print)
     return case.replace({"integration.dt_s": chosen["dt_s"]}), chosen
 
 
-def _analysis_class(case, comm, file) -> type[Analysis]:
+def check_analysis(case: Case, file) -> None:
+    """Refuse a case that can be looked at and not analysed.
+
+    Raises
+    ------
+    InputError
+        it has neither motion nor duration, or its bodies are not those of the rocking model that
+        it asks for.
+    """
+    if case.integration.engine in MODEL_ENGINES:
+        from fecolumn.engines.rocking.of_bodies import model_of, start_of
+
+        model_of(case, file)
+        start_of(case, file)
     check_duration(case, file)
+
+
+def _analysis_class(case, comm, file) -> type[Analysis]:
     if case.integration.engine == "full":
         from fecolumn.engines.full_analysis import FullAnalysis
 

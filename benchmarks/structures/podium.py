@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from fecolumn.case.model_sections import CAV, CRV
 from fecolumn.engines.rocking.podium import Podium
-from fecolumn.engines.rocking.podium_impact import CAV, CRV, podium_restitution
+from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.engines.rocking.storeys import storeys
 from fecolumn.motions.record import GroundMotion
 from fecolumn.verification.podium_structure import (

@@ -33,7 +33,6 @@ from fecolumn.case.given import NUMBERED, as_of_file, by_two_bodies, check_name,
 from fecolumn.case.sections import (
     DEFAULT,
     FULL_ORDER_KEYS,
-    MODEL_ENGINES,
     MOST_STEPS,
     Contact,
     Initial,
@@ -398,15 +397,9 @@ def case_from_tables(tables: dict, file="case") -> Case:
         raise InputError(file, "", None, f"must be tables of keys, not {type(tables).__name__}")
     if model_engine_of(tables, file):
         return case_of_table(tables, file)
-    case = structure_from_tables(
+    return structure_from_tables(
         {key: table for key, table in tables.items() if key not in TABLES}, file
     )
-    if case.integration.engine in MODEL_ENGINES and not case.short:
-        from fecolumn.engines.rocking.of_bodies import model_of, start_of
-
-        model_of(case, file)
-        start_of(case, file)
-    return case
 
 
 def case_of_table(tables: dict, file, engine: str | None = None) -> Case:

@@ -105,6 +105,8 @@ def tables() -> list[Table]:
                     "case",
                 )
             )
+    from fecolumn.case.model_sections import SECTIONS
+
     return [
         *found,
         *_of_structures(),
@@ -112,16 +114,9 @@ def tables() -> list[Table]:
         Table("latin_hypercube", _sentence(LatinHypercube), _keys(LatinHypercube), "study"),
         *(
             Table(name, _sentence(section), _keys(section), "model")
-            for name, section in _model_sections().items()
+            for name, section in SECTIONS.items()
         ),
     ]
-
-
-def _model_sections() -> dict[str, type]:
-    """Sections of the rocking models by the names of their tables."""
-    from fecolumn.case.model_names import MODELS, model_class
-
-    return {cls.TABLE: cls.SECTION for cls in map(model_class, MODELS)}
 
 
 def _of_structures() -> list[Table]:

@@ -29,9 +29,10 @@ import math
 
 import numpy as np
 
-from fecolumn.engines.rocking.block import BlockSection, RockingBlock
+from fecolumn.case.model_sections import BlockSection, FrameSection
+from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.critical_input import critical_motion, least_impulse, tilt_velocities
-from fecolumn.engines.rocking.frame import FrameSection, RockingFrame
+from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.impact import (
     body_restitution,
     frame_restitution,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from benchmarks.structures import figure, podium
-from fecolumn.engines.rocking.podium_impact import CAV, CRV
+from fecolumn.case.model_sections import CAV, CRV
 from fecolumn.verification.podium_structure import ALPHA, HALF_DIAGONAL, kept_rate, tilt_of
 
 

@@ -9,12 +9,12 @@ import numpy as np
 
 from fecolumn.case import bodies as keys
 from fecolumn.case.check_bodies import material_of
-from fecolumn.case.model_names import model_class
 from fecolumn.case.model_table import Start
 from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.model import Model
+from fecolumn.engines.rocking.models import MODELS
 from fecolumn.engines.rocking.podium import Podium
 from fecolumn.engines.rocking.storeys import shear_building
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
@@ -35,7 +35,7 @@ def model_of(case, file) -> Model:
         the bodies are not those of the model; it says what they lack.
     """
     for section in case.own.values():
-        return model_class(case.integration.engine).of_section(section, file)
+        return MODELS[case.integration.engine].of_section(section, file)
     return _Reader(case, file).model()
 
 
