@@ -31,19 +31,18 @@ if TYPE_CHECKING:
         Block,
         Cone,
         Cylinder,
-        Ground,
         Matrices,
-        MeshLimits,
         Plate,
         Prism,
         Storeys,
         Tube,
     )
-    from fecolumn.case.bodies import Interface as Joint
-    from fecolumn.case.bodies import LinkKeys as Link
     from fecolumn.case.bodies import Meshed as MeshBody
     from fecolumn.case.case import Case, case_from_tables, read_case
     from fecolumn.case.case import read_case as load_case
+    from fecolumn.case.ground import Ground
+    from fecolumn.case.joint import Interface as Joint
+    from fecolumn.case.link import LinkKeys as Link
     from fecolumn.case.link_kinds import (
         Dashpot,
         FrictionDamper,
@@ -53,6 +52,7 @@ if TYPE_CHECKING:
         Strut,
         Tendon,
     )
+    from fecolumn.case.mesh_limits import MeshLimits
     from fecolumn.case.sections import (
         Cap,
         Contact,
@@ -146,12 +146,12 @@ _HOMES = {
     "Block": "case.bodies",
     "Cone": "case.bodies",
     "Cylinder": "case.bodies",
-    "Ground": "case.bodies",
-    "Joint": "case.bodies:Interface",
-    "Link": "case.bodies:LinkKeys",
+    "Ground": "case.ground",
+    "Joint": "case.joint:Interface",
+    "Link": "case.link:LinkKeys",
     "Matrices": "case.bodies",
     "MeshBody": "case.bodies:Meshed",
-    "MeshLimits": "case.bodies",
+    "MeshLimits": "case.mesh_limits",
     "Plate": "case.bodies",
     "Prism": "case.bodies",
     "Storeys": "case.bodies",

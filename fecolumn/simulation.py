@@ -8,7 +8,8 @@ import warnings
 from pathlib import Path
 from typing import Any
 
-from fecolumn.case.case import Case, check, check_duration, read_case
+from fecolumn.case.case import Case, read_case
+from fecolumn.case.check_case import check, check_duration
 from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.engines.analysis import Analysis, AnalysisFailed
 from fecolumn.engines.result_folder import held, kept_choice

@@ -13,7 +13,8 @@ import pytest
 
 import fecolumn
 from fecolumn.case.bodies import KINDS
-from fecolumn.case.case import COMMON, NAMED, case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case_tables import COMMON, NAMED
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.schema import InputError, Section, read_toml
 

@@ -18,6 +18,7 @@ _PACKAGE = Path(__file__).parents[1]
 # Folders and files of which results depend; what only reads, writes, waits or tells is left out
 DECIDING = (
     "case/bodies.py",
+    "case/body_keys.py",
     "case/case.py",
     "case/check_bodies.py",
     "case/check_bond.py",
@@ -27,7 +28,11 @@ DECIDING = (
     "case/check_link.py",
     "case/check_step.py",
     "case/given.py",
+    "case/ground.py",
+    "case/joint.py",
+    "case/link.py",
     "case/mesh_file_keys.py",
+    "case/mesh_limits.py",
     "case/model_keys.py",
     "case/model_names.py",
     "case/model_sections.py",

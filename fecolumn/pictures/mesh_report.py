@@ -8,7 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case.bodies import Cone, Ground, Matrices, Meshed, Plate, Prism, Storeys
+from fecolumn.case.bodies import Cone, Matrices, Meshed, Plate, Prism, Storeys
+from fecolumn.case.ground import Ground
 from fecolumn.case.sections import Cap, Flange, Material
 from fecolumn.case.short_form import Column
 from fecolumn.engines.reduced_engine import upright

@@ -9,9 +9,10 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from fecolumn.case.bodies import PULLING, PUSHING, Matrices, Storeys
+from fecolumn.case.bodies import Matrices, Storeys
 from fecolumn.case.case import identity
 from fecolumn.case.check_bodies import material_of
+from fecolumn.case.link import PULLING, PUSHING
 from fecolumn.case.sections import Initial
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.rim import Rim

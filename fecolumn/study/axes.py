@@ -28,7 +28,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fecolumn.case.case import type_of
+from fecolumn.case.case_tables import type_of
 from fecolumn.case.model_sections import SECTIONS
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.schema import InputError, build, meant

@@ -115,7 +115,7 @@ def _tell(words: str) -> None:
 
 def _duration(case: Case, file: str) -> float:
     """Time analysed [s], until rest the longest."""
-    from fecolumn.case.case import check
+    from fecolumn.case.check_case import check
     from fecolumn.motions.load import load_motion
     from fecolumn.simulation import check_analysis
 
@@ -144,7 +144,7 @@ def first_steps(case: Case, file: str, seconds: float) -> FirstSteps:
     import numpy as np
     from mpi4py import MPI
 
-    from fecolumn.case.case import check
+    from fecolumn.case.check_case import check
     from fecolumn.engines.trial_run import trial
     from fecolumn.simulation import started_analysis
 

@@ -121,17 +121,12 @@ def tables() -> list[Table]:
 
 def _of_structures() -> list[Table]:
     """Tables of a structure's case beside those that it has in common with a column's."""
-    from fecolumn.case.bodies import (
-        KINDS,
-        Footed,
-        Ground,
-        Interface,
-        LinkKeys,
-        MeshLimits,
-        Placed,
-        Solid,
-        Stuff,
-    )
+    from fecolumn.case.bodies import KINDS, Footed
+    from fecolumn.case.body_keys import Placed, Solid, Stuff
+    from fecolumn.case.ground import Ground
+    from fecolumn.case.joint import Interface
+    from fecolumn.case.link import LinkKeys
+    from fecolumn.case.mesh_limits import MeshLimits
     from fecolumn.case.sections import Cap, Flange, Initial, Material, Motion
 
     def own(kind):

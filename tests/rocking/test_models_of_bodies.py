@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from fecolumn.case.case import case_from_tables, case_of_table, read_case, structure_from_tables
+from fecolumn.case.case import case_from_tables, case_of_table, read_case
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
 from fecolumn.foundation.schema import InputError
 from fecolumn.simulation import check_analysis, run
@@ -24,7 +24,7 @@ FRAME = FOOT | dict(head=dict(between=["body", "slab"]))
 
 def case(engine, bodies, joints, **tables):
     plan = dict(engine=engine, dt_s=1e-3, duration_s=1.0)
-    return structure_from_tables(
+    return case_from_tables(
         dict(bodies=bodies, interfaces=joints, integration=plan) | tables, "case.toml"
     )
 

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case.case import case_from_tables, case_of_table, check_duration
+from fecolumn.case.case import case_from_tables, case_of_table
+from fecolumn.case.check_case import check_duration
 from fecolumn.case.model_table import Start
 from fecolumn.case.sections import REST, Motion, located
 from fecolumn.engines.rocking.model import Model, ModelResponse

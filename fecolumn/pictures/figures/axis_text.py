@@ -6,7 +6,7 @@ import dataclasses
 import typing
 
 from fecolumn.case.bodies import KINDS
-from fecolumn.case.case import NAMED
+from fecolumn.case.case_tables import NAMED
 from fecolumn.case.model_sections import SECTIONS
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.case.short_form import ShortForm
