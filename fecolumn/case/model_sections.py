@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from fecolumn.case.outline_keys import RectangleKeys, RockingKeys, RollingKeys
-from fecolumn.foundation.schema import Section, parameter
+from fecolumn.foundation.schema import parameter
 from fecolumn.foundation.section_class import section_class
 
 #: Impact laws of a podium: floors keep their velocity relative to the beam, or their absolute one.
@@ -158,7 +160,7 @@ class PodiumSection(RectangleKeys):
 
 
 #: Keys of each model's own table, by its name.
-SECTIONS: dict[str, type[Section]] = {
+SECTIONS: dict[str, Any] = {
     "block": BlockSection,
     "frame": FrameSection,
     "wobbling": WobblingSection,

@@ -63,11 +63,8 @@ def read_scene_history(case, folder, history: dict[str, np.ndarray], body: str) 
     mark = observed[1] if followed == observed[0] else "top"
     part = structure.parts[followed]
     column = f"mark/{part.name}.{mark}/displacement"
-    wanted = [
-        f"body/{one.name}/{what}"
-        for one in structure.parts
-        for what in ("displacement", "rotation")
-    ]
+    moved = "displacement", "rotation"
+    wanted = [f"body/{one.name}/{what}" for one in structure.parts for what in moved]
     for name in [*wanted, column]:
         if name not in history:
             raise InputError(
