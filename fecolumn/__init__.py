@@ -40,6 +40,8 @@ if TYPE_CHECKING:
     from fecolumn.case.bodies import Meshed as MeshBody
     from fecolumn.case.case import Case, case_from_tables, read_case
     from fecolumn.case.case import read_case as load_case
+    from fecolumn.case.column_keys import Base, Column
+    from fecolumn.case.column_keys import Mesh as MeshSizes
     from fecolumn.case.ground import Ground
     from fecolumn.case.joint import Interface as Joint
     from fecolumn.case.link import LinkKeys as Link
@@ -64,8 +66,7 @@ if TYPE_CHECKING:
         Output,
         Overturn,
     )
-    from fecolumn.case.short_form import Base, Column, ShortForm
-    from fecolumn.case.short_form import Mesh as MeshSizes
+    from fecolumn.case.short_form import ShortForm
     from fecolumn.engines.dynamics.history import read_history
     from fecolumn.foundation.schema import InputError
     from fecolumn.mesh.specimen import specimen_mesh
@@ -176,9 +177,9 @@ _HOMES = {
     "Motion": "case.sections",
     "Output": "case.sections",
     "Overturn": "case.sections",
-    "Base": "case.short_form",
-    "Column": "case.short_form",
-    "MeshSizes": "case.short_form:Mesh",
+    "Base": "case.column_keys",
+    "Column": "case.column_keys",
+    "MeshSizes": "case.column_keys:Mesh",
     "ShortForm": "case.short_form",
     "read_history": "engines.dynamics.history",
     "InputError": "foundation.schema",

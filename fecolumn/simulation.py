@@ -74,7 +74,6 @@ def run(
         )
     folder, file = Path(folder), file or "case"
     check(case, file)
-    check_analysis(case, file)
     chosen = kept_choice(folder)
     if case.integration.step_is_chosen:
         if chosen and chosen.get("case_id") == case.id:
@@ -146,8 +145,7 @@ def chosen_step(case: Case, file: str, comm=None, stop=lambda: False, say=print)
     from fecolumn.engines.step_choice import StepChoice
 
     comm = comm or MPI.COMM_WORLD
-    check_analysis(case, file)
-    _analysis_class(case, comm, file)  # which refuses several processes
+    _analysis_class(case, comm, file)  # which refuses what cannot be analysed
     choice = StepChoice(
         case, file, lambda one, folder: started_analysis(one, folder, comm, file, quiet=True), stop
     )
@@ -173,6 +171,7 @@ def check_analysis(case: Case, file) -> None:
 
 
 def _analysis_class(case, comm, file) -> type[Analysis]:
+    check_analysis(case, file)
     if case.integration.engine == "full":
         from fecolumn.engines.full_analysis import FullAnalysis
 

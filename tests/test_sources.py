@@ -31,6 +31,8 @@ _DECIDE_NOTHING = {
     "case/case_text.py",
     "foundation/sealed.py",
     "foundation/sources.py",
+    "foundation/toml_file.py",
+    "foundation/version.py",
     "simulation.py",
 }
 _BLOCK = dict(

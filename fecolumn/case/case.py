@@ -39,16 +39,8 @@ from fecolumn.case.sections import (
 from fecolumn.case.short_form import ALIKE, ShortForm
 from fecolumn.foundation.content import content
 from fecolumn.foundation.paths import OF_BODIES as FILES
-from fecolumn.foundation.schema import (
-    InputError,
-    Section,
-    a_section,
-    merge,
-    nested,
-    read_toml,
-    stated,
-    table_of,
-)
+from fecolumn.foundation.schema import InputError, Section, a_section, table_of
+from fecolumn.foundation.toml_file import merge, nested, read_toml, stated
 
 # of which no number depends
 _IDLE = ("output", "mesh")

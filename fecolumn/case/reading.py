@@ -15,12 +15,8 @@ from fecolumn.case.sections import (
     located,
 )
 from fecolumn.case.short_form import full_tables, in_short_form, short_form
-from fecolumn.foundation.schema import (
-    InputError,
-    build,
-    meant,
-    stated,
-)
+from fecolumn.foundation.schema import InputError, build, meant
+from fecolumn.foundation.toml_file import stated
 
 _Made = typing.TypeVar("_Made")
 

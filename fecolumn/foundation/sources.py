@@ -19,6 +19,9 @@ _PACKAGE = Path(__file__).parents[1]
 DECIDING = (
     "case/bodies.py",
     "case/body_keys.py",
+    "case/case_tables.py",
+    "case/check_case.py",
+    "case/column_keys.py",
     "case/case.py",
     "case/check_bodies.py",
     "case/check_bond.py",
@@ -38,6 +41,7 @@ DECIDING = (
     "case/model_sections.py",
     "case/model_table.py",
     "case/outline_keys.py",
+    "case/reading.py",
     "case/sections.py",
     "case/arch.py",
     "case/polygon.py",

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.foundation.atomic import write_bytes
-from fecolumn.foundation.schema import InputError, build, parameter, read_toml
+from fecolumn.foundation.schema import InputError, build, parameter
+from fecolumn.foundation.toml_file import read_toml
 from fecolumn.foundation.version import __version__
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.processing import scale_time

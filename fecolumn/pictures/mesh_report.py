@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.case.bodies import Cone, Matrices, Meshed, Plate, Prism, Storeys
+from fecolumn.case.column_keys import Column
 from fecolumn.case.ground import Ground
 from fecolumn.case.sections import Cap, Flange, Material
-from fecolumn.case.short_form import Column
 from fecolumn.engines.reduced_engine import upright
 from fecolumn.engines.scene.structure_scene import structure_scene
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency

@@ -7,8 +7,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fecolumn.case.bodies import Block, Cylinder, Meshed
+from fecolumn.case.column_keys import Base, Column, Mesh
 from fecolumn.case.sections import Cap, Flange
-from fecolumn.case.short_form import Base, Column, Mesh
 from fecolumn.case.sizes import sized
 from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError

@@ -345,7 +345,8 @@ def _fit(args: argparse.Namespace) -> int:
 
 
 def _read_target(source: str) -> tuple[Target, Components]:
-    from fecolumn.foundation.schema import InputError, build, read_toml
+    from fecolumn.foundation.schema import InputError, build
+    from fecolumn.foundation.toml_file import read_toml
     from fecolumn.motions.seeded import FOLDER, Components, check_components, check_target
     from fecolumn.motions.target import Target
 

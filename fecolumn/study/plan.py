@@ -27,7 +27,8 @@ from fecolumn.case.check_step import check_stated
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.paths import taken_over
-from fecolumn.foundation.schema import InputError, merge, nested, read_toml, shown
+from fecolumn.foundation.schema import InputError, shown
+from fecolumn.foundation.toml_file import merge, nested, read_toml
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.simulation import check_analysis
 from fecolumn.study.axes import AxisFactor, hint, read_factors

@@ -15,7 +15,8 @@ from fecolumn.cli import main
 from fecolumn.engines.rocking.case import read_model_case
 from fecolumn.engines.rocking.models import MODELS
 from fecolumn.foundation import _compiled
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import read_folder_case, run
 from fecolumn.study.plan import read_plan
 from fecolumn.verification import rocking_tables

@@ -13,7 +13,8 @@ from fecolumn.engines.dynamics.link_law import damage_of
 from fecolumn.engines.dynamics.links import LINK
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.pictures.figures.history_figures import history_figures
 from fecolumn.simulation import run
 from fecolumn.structures.structure import structure_model

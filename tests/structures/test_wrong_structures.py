@@ -5,7 +5,8 @@ import pytest
 from small_structures import RIGID, STONE, block, frame, stack, structure
 
 from fecolumn.case.case import case_from_tables, read_case
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.structures.structure import structure_model
 
 LINK = dict(

@@ -17,7 +17,8 @@ from fecolumn.case.sections import REST, Motion, located
 from fecolumn.engines.rocking.model import Model, ModelResponse
 from fecolumn.engines.rocking.models import MODELS
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
-from fecolumn.foundation.schema import InputError, build, merge, read_toml
+from fecolumn.foundation.schema import InputError, build
+from fecolumn.foundation.toml_file import merge, read_toml
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.motions.load import load_motion
 from fecolumn.motions.record import GroundMotion
