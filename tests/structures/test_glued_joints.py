@@ -18,7 +18,7 @@ from fecolumn.foundation.toml_file import merge
 from fecolumn.pictures.figures.history_figures import history_figures
 from fecolumn.simulation import run
 from fecolumn.structures.structure import structure_model
-from fecolumn.study.bond_peaks import BOND_COLUMNS, peaks_of_bonds
+from fecolumn.study.device_peaks import BOND_COLUMNS, peaks_of_bonds
 from fecolumn.verification.structures_feet import columns_and_rows
 
 WAX = dict(tension_pa=3e4, cohesion_pa=2.5e4, bond_stiffness_n_m3=5e7)
