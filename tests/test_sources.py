@@ -15,7 +15,6 @@ from fecolumn.simulation import run
 # Modules that an analysis imports and that decide nothing of its result: they read, write, wait,
 # compile and tell
 _DECIDE_NOTHING = {
-    "__init__.py",
     "foundation/_borrowed.py",
     "foundation/_compiled.py",
     "foundation/_form_compiler.py",

@@ -20,14 +20,13 @@ from fecolumn.mesh.export import write_meshes
 from fecolumn.mesh.jacobian import scaled_jacobian
 from fecolumn.mesh.mass import mass_properties
 from fecolumn.mesh.outline import is_solid
-from fecolumn.mesh.picture import picture
 from fecolumn.mesh.quality import QualityRow, quality_table
 from fecolumn.mesh.specimen import SpecimenMesh
 from fecolumn.mesh.upright import Upright
+from fecolumn.pictures.mesh_picture import mesh_picture
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.model import GROUND
-from fecolumn.structures.picture import structure_picture
 from fecolumn.structures.place import touching
 from fecolumn.structures.reduction import body_of
 from fecolumn.structures.shapes import shape_of
@@ -68,7 +67,7 @@ def mesh_report(case, file, folder, say=lambda text: None) -> str:
     scene = structure_scene(case, upright(case, structure), layout.drawings, file)
     folder.mkdir(parents=True, exist_ok=True)
     write_meshes(scene.meshes, folder)
-    _draw(scene, structure, folder / "mesh.png")
+    mesh_picture(scene, structure, folder / "mesh.png")
     found = made_of(case, models, scene)
     text = "\n".join(
         [
@@ -85,17 +84,6 @@ def mesh_report(case, file, folder, say=lambda text: None) -> str:
     )
     (folder / "table.txt").write_text(text + "\n")
     return text
-
-
-def _draw(scene, structure, path: Path) -> None:
-    """A body alone with its foot magnified, several with their names."""
-    meshes = scene.meshes
-    feet = [contact for contact in scene.contacts if contact.on_ground]
-    if len(scene.bodies) > 1 or len(feet) != 1 or not meshes[0].part.all():
-        structure_picture(scene, structure, path)
-        return
-    base = meshes[1] if len(meshes) > 1 else _NOTHING
-    picture(SpecimenMesh(meshes[0], base, (), feet[0].points), path)
 
 
 def _parts(scene) -> list[str]:
