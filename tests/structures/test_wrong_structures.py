@@ -160,11 +160,6 @@ WRONG = [
     ),
     (stack(column=dict(height_m=1.0)), "bodies", "beside [column]"),
     (
-        stack(integration=dict(engine="housner")),
-        "integration.engine",
-        "is of one body on the ground",
-    ),
-    (
         stack(
             bodies=dict(upper=STOREYS | dict(floor_masses_kg=[9.0], at_m=[0, 0, 0.8])),
             integration=dict(engine="rigid"),
