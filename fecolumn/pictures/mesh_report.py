@@ -26,13 +26,14 @@ from fecolumn.mesh.upright import Upright
 from fecolumn.pictures.mesh_picture import mesh_picture
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.layout import layout_of
+from fecolumn.structures.made_layout import keep_models
 from fecolumn.structures.model import GROUND
 from fecolumn.structures.place import touching
 from fecolumn.structures.reduction import body_of
 from fecolumn.structures.shapes import shape_of
 from fecolumn.structures.size import expected, made_of
 from fecolumn.structures.store import kept_body
-from fecolumn.structures.structure import assembled, keep_models, standing_of
+from fecolumn.structures.structure import assembled, standing_of
 from fecolumn.structures.tied import built_of
 
 #: Files that the report writes.

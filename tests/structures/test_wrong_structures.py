@@ -438,7 +438,7 @@ def test_block_alone_is_a_structure():
 
 
 def test_what_cannot_be_is_refused_before_models_are_made(monkeypatch):
-    from fecolumn.structures import structure as made
+    from fecolumn.structures import made_layout as made
 
     monkeypatch.setattr(made, "keep_body", lambda *_: pytest.fail("a reduced model was asked for"))
     tables = stack(
