@@ -17,10 +17,7 @@ from fecolumn.case.check_grounds import OF_KINDS
 from fecolumn.case.column_keys import Base, Column, Mesh
 from fecolumn.case.model_keys import check_model, check_substeps
 from fecolumn.case.sections import (
-    DEFAULT,
-    FULL_ORDER_KEYS,
     MODEL_ENGINES,
-    MOST_STEPS,
     Cap,
     Contact,
     Flange,
@@ -116,19 +113,14 @@ def finished(case: ShortForm, file) -> ShortForm:
 
 
 def check_short_form(case: ShortForm, file) -> None:
-    """What no single key can know, but for sizes (`fecolumn.case.sizes`)."""
+    """What keys of the short form alone say together, but for sizes (`fecolumn.case.sizes`); the
+    full form has the rest.
+    """
 
     def refuse(key, value, allowed):
         raise InputError(file, key, value, allowed)
 
     check_base(case, refuse)
-    for key in ("velocity_m_s", "spin_rad_s"):
-        if len(value := getattr(case.initial, key)) != 3:
-            refuse(f"initial.{key}", list(value), "must be three numbers: x, y, z")
-    if case.contact.impact == "none":
-        for key in ("restitution", "rolling_resistance"):
-            if value := getattr(case.contact, key):
-                refuse(f"contact.{key}", value, "must be 0 where contact.impact = 'none'")
     if (
         case.contact.rolling_resistance
         and case.column.shape == "block"
@@ -149,43 +141,8 @@ def check_short_form(case: ShortForm, file) -> None:
             case.material.damping_ratio,
             "must be 0 where integration.kinematics is not 'corotated'",
         )
-    if case.integration.engine != "full":
-        for section, key, needed in (
-            ("integration", "kinematics", "corotated"),
-            ("contact", "impact", "plastic"),
-        ):
-            if (value := getattr(getattr(case, section), key)) != needed:
-                refuse(
-                    f"{section}.{key}",
-                    value,
-                    f"must be {needed} where integration.engine = {case.integration.engine!r}",
-                )
-        for key in FULL_ORDER_KEYS:
-            if (value := getattr(case.integration, key)) != DEFAULT[key]:
-                refuse(
-                    f"integration.{key}",
-                    value,
-                    "has no effect where integration.engine = "
-                    f"{case.integration.engine!r}, which solves a step's "
-                    "contact to its own tolerance: leave it out, or choose "
-                    "integration.engine = 'full'",
-                )
     check_model(case, MODEL_ENGINES, refuse)
     check_substeps(case, MODEL_ENGINES, refuse)
-    time = case.integration.duration_s or (
-        case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0
-    )
-    if time / case.integration.shortest_s > MOST_STEPS:
-        refuse(
-            "integration.dt_s",
-            case.integration.dt_s,
-            f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} "
-            f"steps in {time:g} s",
-        )
-    if case.motion:
-        part = case.motion.strong_part
-        if len(part) != 2 or not part[0] < part[1]:
-            refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
 
 
 def check_base(case: ShortForm, refuse) -> None:
