@@ -16,7 +16,7 @@ from fecolumn.structures.store import (
 )
 
 
-def links_of(case, name: str, places, standing: list[Standing]):
+def links_at_copies(case, name: str, places, standing: list[Standing]):
     """The links of a name, one at each copy of its body; points as the bodies stand."""
     keys = case.links[name]
     body, numbers = case.meant_by(keys.body)

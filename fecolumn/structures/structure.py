@@ -13,7 +13,7 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.structures import model as models
 from fecolumn.structures.bonds import check_starts, with_bonds
 from fecolumn.structures.case_joints import joint_of, with_hertz
-from fecolumn.structures.case_links import links_of, with_shapes
+from fecolumn.structures.case_links import links_at_copies, with_shapes
 from fecolumn.structures.check import (
     check_joints,
     check_links,
@@ -96,7 +96,7 @@ def assembled(
     links = tuple(
         with_shapes(link, copies, standing, layout.get("models", {}))
         for name in case.links
-        for link in links_of(case, name, places, standing)
+        for link in links_at_copies(case, name, places, standing)
     )
     outlines = {
         name: one and one | {"points": np.array(one["points"]) - bodies[name].center}

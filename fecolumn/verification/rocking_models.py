@@ -41,7 +41,7 @@ from fecolumn.engines.rocking.impact import (
 from fecolumn.engines.rocking.swing import GRAVITY
 from fecolumn.motions.record import GroundMotion
 from fecolumn.verification.result import CaseRows, Row
-from fecolumn.verification.rocking_pulses import TEN, draw_overturning, pulse_rows
+from fecolumn.verification.rocking_pulses import TEN, draw_overturning, overturning_rows
 
 
 def run(engine: str, long: bool = False) -> CaseRows:
@@ -52,7 +52,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
             *_roof(),
             *_frames(),
             *_restrained_frame(),
-            *pulse_rows(),
+            *overturning_rows(),
         ],
         draw_overturning,
         (7.2, 3.1),

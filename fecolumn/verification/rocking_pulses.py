@@ -83,7 +83,7 @@ _BOUNDARY = 0.005
 MOST = 16
 
 
-def pulse_rows():
+def overturning_rows():
     """Rows of pulses that overturn a block, in the order of their table."""
     yield from _closed_forms()
     yield from _boundaries()
