@@ -20,7 +20,7 @@ from mpi4py import MPI
 from benchmarks.structures import apart, frame, large, podium
 from benchmarks.structures.figure import draw
 from benchmarks.structures.speed_tables import growths, speeds
-from fecolumn.engines.rocking.podium_impact import LAWS
+from fecolumn.case.model_sections import LAWS
 from fecolumn.foundation.atomic import write_csv
 
 TERMS = ("kinetic", "strain", "gravity", "friction", "impact", "contact", "algorithmic")
