@@ -9,6 +9,7 @@ import numpy as np
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import SAME_PLANE, Face, over, triangles_of
 from fecolumn.structures.feet import ball_of
+from fecolumn.structures.overlaps import common_ball, depth_along
 from fecolumn.structures.patches import plane_box
 
 # Over the slave's width: what faces a body across a smaller gap was meant to touch it
@@ -17,6 +18,8 @@ _NEAR = 0.05
 _SAME_AREA = 1e-6
 # Sine of the angle up to which faces were meant to look at one another
 _ALMOST = 0.2
+# Over the lesser depth of two bodies: faces farther behind one another look away
+_BEHIND = 0.5
 # Cosine from which faces look at one another
 _OPPOSITE = 1e-5
 # Shares of an element face's corners in a point of it that no regular grid has
@@ -156,6 +159,9 @@ def _refuse(case, name: str, interface, gaps: list[_Gap], near: bool, faces, fil
         told = f"the nearest faces, of {bodies}, {_gap_text(one.gap)}; {way_out}"
         if one.gap > 0:
             told += f"; joints.{name}.open = true lets them begin apart"
+    inclined, crossing = (
+        ("", ("", 0.0)) if near else (_inclined(case, name, faces), _crossing(case, name, faces))
+    )
     if one and near:
         told = f"{bodies} {_gap_text(one.gap)}: their faces must coincide at the start"
         told += (
@@ -164,11 +170,34 @@ def _refuse(case, name: str, interface, gaps: list[_Gap], near: bool, faces, fil
             else f'; move "{_name(case, one.meeting.slave)}" by {_apart(one, faces)} m, '
             f"bodies.{one.meeting.slave[0]}.at_m"
         )
-    elif inclined := _inclined(case, name, faces):
+    elif crossing[1]:
+        told = f"{crossing[0]} overlap at the start, by {crossing[1]:.3g} m or more: "
+        told += f"{inclined}; " if inclined else ""
+        told += "a joint is between faces of one plane; move one by bodies.NAME.at_m"
+    elif inclined:
         told = f"{inclined}; a joint is between faces of one plane"
-    if not near:
+    if not near and not crossing[1]:
         told = f'"{slave}" does not touch "{on}" at the start: {told}'
     raise InputError(file, f"joints.{name}", [slave, on], told)
+
+
+def _crossing(case, name: str, faces) -> tuple[str, float]:
+    """Names of the bodies of a joint that lie deepest in one another, and how deep [m]; 0 where
+    none do.
+    """
+    interface, found = case.joints[name], ("", 0.0)
+    if interface.on in case.grounds:
+        return found
+    for one in _copies(case, interface.slave):
+        for other in _copies(case, interface.on):
+            shift = place_of(case, other) - place_of(case, one)
+            way = common_ball(faces[one[0]], faces[other[0]], shift) if one != other else 0.0
+            found = max(
+                found,
+                (f'"{_name(case, one)}" and "{_name(case, other)}"', way),
+                key=lambda each: each[1],
+            )
+    return found
 
 
 def _apart(one: _Gap, faces) -> str:
@@ -283,6 +312,9 @@ def _of_pair(
             gap = -(face.offset + face.normal @ offset) - other.offset
             corners = (face.corners + offset) @ other.axes[:, :2]
             if not _overlap(face, corners, other):
+                continue
+            depths = [depth_along(faces[body], face.normal) for body in (slave[0], master[0])]
+            if -gap > _BEHIND * min(depths):
                 continue
             meeting = _meeting(case, name, (slave, number, face), (master, other_number, other))
             if abs(gap) <= SAME_PLANE * width:

@@ -4,6 +4,8 @@ computed.
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 
 from fecolumn.case.bodies import Matrices, Storeys
@@ -17,6 +19,10 @@ from fecolumn.structures.place import loads
 _STRAIN = 0.1
 # Over the height of a structure: way of its top that is no overturning; 0.1 mm of 1 m
 _WAY = 1e-4
+# [kg/m3]: densities of what is as stiff as stone or metal lie between
+_LIGHT, _HEAVY = 5.0, 25_000.0
+# [Pa]: Young's modulus from which on a body is as stiff as stone or metal
+_STIFF = 1e9
 # Over the weight of the lighter body: force of a link that cannot be told from none
 _FORCE = 1e-6
 
@@ -45,6 +51,38 @@ def check_sense(case, structure: StructureModel, standing, extents, file) -> Non
     _check_forces(case, structure, file)
     if case.integration.engine != "rigid":
         _check_strains(case, structure, standing, file)
+
+
+def tell_of_densities(case, bodies: dict, outlines: dict, file) -> None:
+    """Warn of stiff bodies whose density, mass over volume, is that of no stone or metal.
+
+    Parameters
+    ----------
+    bodies
+        by name, as of `BodyModel`.
+    outlines
+        by name, with the volume [m3]; None of a body without a shape.
+    """
+    told = set()
+    for name, outline in outlines.items():
+        body = case.bodies[name]
+        if not outline or isinstance(body, (Matrices, Storeys)):
+            continue
+        density = bodies[name].mass / outline["volume"]
+        stiff = material_of(body, case.materials).youngs_modulus_pa >= _STIFF
+        if not stiff or _LIGHT <= density <= _HEAVY:
+            continue
+        own = f"bodies.{name}.{'density_kg_m3' if body.mass_kg is None else 'mass_kg'}"
+        if body.mass_kg is None and body.density_kg_m3 is None:
+            own = f"materials.{body.material}.density_kg_m3"
+        if own not in told:
+            warnings.warn(
+                f'{file}: {own}: "{name}" has {density:.3g} kg/m3, and stone and metal '
+                f"{_LIGHT:g} to {_HEAVY:g}: densities are in kg/m3 and masses in kg, "
+                "1 g/cm3 = 1 t/m3 = 1000 kg/m3",
+                stacklevel=2,
+            )
+        told.add(own)
 
 
 def _check_forces(case, structure: StructureModel, file) -> None:

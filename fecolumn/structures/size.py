@@ -14,6 +14,10 @@ from fecolumn.mesh.imported import own_mesh
 from fecolumn.structures.ground import sized_ground
 from fecolumn.structures.shapes import counts_of, element_size
 
+# [m]: the largest element size that a key takes, and size of a body from which its lengths are
+# likely not in metres
+_MOST = 100.0
+
 
 def size_of(case, file, spots=None, bodies=None) -> Estimate:
     """Size of the meshes of bodies; those of copies count where each has its own, with engine =
@@ -172,6 +176,15 @@ def refuse_too_large(case, file, spots=None) -> None:
             body.mesh_file,
             f"{too_many}; take a coarser mesh, or a higher mesh.limit_dofs",
         )
+    if isinstance(body, Prism) and (size := largest_side(body)) > _MOST:
+        side = "width_m" if size == body.width_m else "outline_m"
+        raise InputError(
+            file,
+            f"{key}.{side}",
+            getattr(body, side),
+            f"makes a body of {size:g} m, which looks like millimetres: lengths are in metres; if "
+            f"they are metres, make {key}.element_size_m larger: {too_many}",
+        )
     coarse, high = getattr(body, "coarse_size_m", None), _largest(body)
     # of two that do as well the first is named
     sizes = ({f"{key}.coarse_size_m": (coarse, high)} if coarse else {}) | {
@@ -192,12 +205,17 @@ def refuse_too_large(case, file, spots=None) -> None:
     refuse_sizes(file, sizes, dofs_with, limit, too_many, "the elements of all bodies")
 
 
+def largest_side(body: Prism) -> float:
+    """The largest extent [m] of a prism, as drawn."""
+    return max(body.width_m, float(np.ptp(body.outline_m, axis=0).max()))
+
+
 def _largest(body) -> float:
     """The largest element size [m] that a body takes, as `check_keys.check_body` says."""
     if isinstance(body, Block):
         return min(body.length_m, body.width_m)
     if isinstance(body, Prism):
-        return max(body.width_m, float(np.ptp(body.outline_m, axis=0).max()))
+        return min(largest_side(body), _MOST)
     return (
         max(body.length_m, body.width_m)
         if isinstance(body, (Plate, Storeys))

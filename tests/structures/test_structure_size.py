@@ -129,6 +129,21 @@ def test_elements_that_would_not_fit_are_refused_at_once_with_a_size_that_fits(k
     )
 
 
+@pytest.mark.parametrize(
+    "outline, width, key",
+    [
+        ([[0, 0], [300, 0], [300, 900], [0, 900]], 300.0, "outline_m"),
+        ([[0, 0], [20, 0], [20, 20], [0, 20]], 900.0, "width_m"),
+    ],
+)
+def test_a_prism_drawn_in_millimetres_is_told_so(outline, width, key):
+    body = dict(kind="prism", outline_m=outline, width_m=width, element_size_m=1.0)
+    case = structure(bodies=dict(a=body), joints=dict(foot=dict(slave="a", on="ground")))
+    with pytest.raises(InputError, match="of 900 m, which looks like millimetres") as caught:
+        structure_model(case, "small.toml")
+    assert caught.value.key == f"bodies.a.{key}" and "\n" not in str(caught.value)
+
+
 def test_coarse_size_alone_is_named_where_it_is_the_cause():
     with pytest.raises(InputError, match="mesh.limit_dofs") as caught:
         structure_model(

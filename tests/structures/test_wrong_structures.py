@@ -1,8 +1,11 @@
 """Structures that cannot be are refused by name, in one line, before anything is computed."""
 
+import math
+import warnings
+
 import numpy as np
 import pytest
-from small_structures import RIGID, STONE, block, frame, stack, structure
+from small_structures import BLOCK, FOOT, RIGID, STONE, block, frame, stack, structure
 
 from fecolumn.case.case import case_from_tables, read_case
 from fecolumn.foundation.schema import InputError
@@ -311,6 +314,63 @@ def test_bodies_that_do_not_meet_are_told_how_they_would():
     )
     with pytest.raises(InputError, match="are inclined to one another by 2.22 degrees"):
         structure_model(structure(**tables), "small.toml")
+
+
+def _prisms(**outlines):
+    """Case of rigid prisms 0.5 m wide, each on the ground, the first two joined."""
+    wedge = dict(kind="prism", width_m=0.5, element_size_m=5.0) | RIGID | STONE
+    one, other, *_ = outlines
+    return structure(
+        bodies={name: wedge | dict(outline_m=outline) for name, outline in outlines.items()},
+        joints={name: dict(between=[name, "ground"]) for name in outlines}
+        | dict(side=dict(between=[one, other])),
+    )
+
+
+def test_faces_that_look_away_from_one_another_do_not_overlap():
+    square, beyond = [[0, 0], [1, 0], [1, 1], [0, 1]], [[2, 0], [3, 0], [3, 1]]
+    with pytest.raises(InputError, match="no faces of theirs look at one another") as caught:
+        structure_model(_prisms(left=square, right=beyond), "small.toml")
+    assert "overlap" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "outline, way, inclined",
+    [
+        # the largest ball in both: in a triangle, area over half its circumference; in a wedge
+        ([[0.1, 0], [0.9, 0], [0.5, 0.6]], 0.48 / (0.4 + math.hypot(0.4, 0.6)), ""),
+        ([[1, 0], [2, 0], [2, 1], [0.96, 1]], 0.0392, "inclined to one another by 2.29 degrees"),
+    ],
+)
+def test_bodies_of_a_joint_that_lie_in_one_another_are_told_so(outline, way, inclined):
+    square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    with pytest.raises(InputError, match='"left" and "right" overlap at the start') as caught:
+        structure_model(_prisms(left=square, right=outline), "small.toml")
+    told = str(caught.value)
+    assert float(told.split("by ")[1].split(" m or more")[0]) == pytest.approx(way, rel=0.01)
+    assert inclined in told
+
+
+@pytest.mark.parametrize(
+    "keys, key",
+    [
+        (dict(density_kg_m3=2.4), "density_kg_m3"),
+        (dict(density_kg_m3=26e3), "density_kg_m3"),
+        (dict(density_kg_m3=None, mass_kg=0.26), "mass_kg"),
+    ],
+)
+def test_densities_of_no_stone_or_metal_are_warned_of(keys, key):
+    body = {name: value for name, value in (BLOCK | keys).items() if value is not None}
+    tables = dict(bodies=dict(block=body), joints=dict(foot=FOOT))
+    with pytest.warns(UserWarning, match=rf"small.toml: bodies.block.{key}: .* kg/m3"):
+        structure_model(structure(**tables), "small.toml")
+
+
+@pytest.mark.parametrize("keys", [{}, dict(density_kg_m3=2.4, youngs_modulus_pa=1e7)])
+def test_densities_of_stone_and_of_what_is_soft_are_not(keys):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        structure_model(structure(**block(**keys)), "small.toml")
 
 
 def test_several_wrong_keys_are_told_together():
