@@ -8,13 +8,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.motions.processing import integrate
+from fecolumn.motions.load import higher_between_rows
+from fecolumn.motions.processing import integrate, resample
 from fecolumn.motions.record import METRES_PER_S2, GroundMotion, Recording
 
 # [g]: peaks of ground motions that are worth an analysis lie between; none was recorded beyond
 _LIKELY, _RECORDED = (0.005, 3.0), 5.0
 # Of the peak velocity: what may be left at the end of a record without drift
 _LEFT = 0.1
+# Of a record's step: a step at which its peak between its rows is looked for
+_FINER = 10
 # Seconds of one value without change that are a gap, and of the peak that are a clipped record
 _GAP_S, _CLIPPED = 0.5, 4
 
@@ -84,7 +87,8 @@ def oddities(motion: GroundMotion) -> list[str]:
             found.append(f"a{name}: {peak / GRAVITY:.3g} g is hardly felt: another unit?")
         found += _drift(name, v, u)
         found += _stillness(name, a, motion.dt)
-    return found
+    fine = min(motion.dt / _FINER, motion.duration)
+    return found + [one for one in [higher_between_rows(motion, resample(motion, fine))] if one]
 
 
 def _drift(name: str, v: NDArray[Any], u: NDArray[Any]) -> list[str]:

@@ -51,6 +51,8 @@ FORMATS = (
 # [m/s2], 5 g: more was recorded nowhere, and a unit may be wrong
 _UNLIKELY = 50.0
 _SOURCES = f"a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or {PREFIX}SET/INDEX"
+# Over a file's peak: sampled band-limited, a motion of few rows may peak higher between them
+_HIGHER = 0.02
 _LARGEST_RATIO = 20_000  # of steps: the filter between them has 128 times as many terms
 
 
@@ -74,7 +76,8 @@ def load_motion(motion: Motion, dt: float, file: Path | str) -> GroundMotion:
 
     Warns
     -----
-        AliasingWarning: dt is too coarse for the motion.
+        AliasingWarning: dt is too coarse for the motion. UserWarning: sampled, its peak is 2 %
+        above that of the file.
     """
     ground = unsampled(motion, file)
     if motion.resample_s and dt > motion.resample_s * (1 + _DT_TOLERANCE):
@@ -110,9 +113,29 @@ def load_motion(motion: Motion, dt: float, file: Path | str) -> GroundMotion:
             f"at {ground.dt:g} s",
         )
     try:
-        return delay(join(resample(ground, step), dt), motion.delay_s)
+        sampled = resample(ground, step)
+        if told := higher_between_rows(ground, sampled):
+            warnings.warn(f"{file}: motion: {told}", stacklevel=2)
+        return delay(join(sampled, dt), motion.delay_s)
     except ValueError as error:
         raise InputError(file, key, step, str(error)) from None
+
+
+def higher_between_rows(ground: GroundMotion, sampled: GroundMotion) -> str:
+    """What is to be said of a motion whose peak, sampled anew, is more than 2 % above that of its
+    rows, with the way out; "" of others.
+    """
+    peaks = ground.pga, sampled.pga
+    axis = int(np.argmax(peaks[1] - (1 + _HIGHER) * peaks[0]))
+    own, found = (float(one[axis]) / GRAVITY for one in peaks)
+    if found <= (1 + _HIGHER) * own:
+        return ""
+    return (
+        f"{ground.name}: a{AXES[axis]} peaks at {found:.4g} g between its rows, {ground.dt:g} s "
+        f"apart, where these peak at {own:.4g} g: it is sampled band-limited; "
+        f"motion.resample_s = {ground.dt:g} joins the rows by straight lines, and so do rows as "
+        "close as the lines bend"
+    )
 
 
 def unsampled(motion: Motion, file: Path | str) -> GroundMotion:

@@ -3,6 +3,7 @@ together.
 """
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -174,6 +175,22 @@ def test_input_of_a_coarse_step_is_kept_at_a_fine_one_on_straight_lines(tmp_path
     assert motion_hash(load_motion(Motion(source, resample_s=0.02), 0.02, "")) == motion_hash(
         coarse
     )
+
+
+def test_a_motion_of_few_rows_that_peaks_between_them_is_warned_of_with_the_way_out(tmp_path):
+    rows = np.column_stack([[0.0, 3.0, 6.0], [0.0, 0.2935, 0.2935]])
+    source = str(tmp_path / "ramp.csv")
+    np.savetxt(source, rows, delimiter=",", header="time [s],ax [g]", comments="")
+    told = r"ax peaks at 0.31\d\d g between its rows, 3 s apart, .* 0.2935 g.*resample_s = 3 joins"
+    with pytest.warns(UserWarning, match=f"case.toml: motion: ramp.csv: {told}"):
+        sampled = load_motion(Motion(source), 1e-2, "case.toml")
+    assert sampled.pga[0] > 1.02 * 0.2935 * GRAVITY
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ramp = load_motion(Motion(source, resample_s=3.0), 1e-2, "case.toml")
+    times = 1e-2 * np.arange(len(ramp.acceleration))
+    wanted = 0.2935 * GRAVITY * np.minimum(times / 3.0, 1.0)
+    assert ramp.acceleration[:, 0] == pytest.approx(wanted, abs=1e-12)
 
 
 def test_input_coarser_than_its_samples_is_refused(tmp_path):

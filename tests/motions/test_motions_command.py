@@ -146,3 +146,9 @@ def one_component(tmp_path):
         "t [s],ax [g]\n" + "".join(f"{i / 100},{i % 7}\n" for i in range(50))
     )
     return tmp_path / "one.csv"
+
+
+def test_info_tells_of_a_peak_between_few_rows(tmp_path, capsys):
+    (tmp_path / "ramp.csv").write_text("time [s],ax [g]\n0,0\n3,0.2935\n6,0.2935\n")
+    assert main(["motions", "info", str(tmp_path / "ramp.csv")]) == 0
+    assert "g between its rows, 3 s apart, where these peak at 0.2935 g" in capsys.readouterr().out

@@ -34,13 +34,16 @@ class Thrust:
     lines
         (n, 2, 2, 3) [m] parts of the thrust line from each centre into slave and master.
     hinges
-        (n,) whether the joint is a hinge.
+        (n,) whether the joint is a hinge, which has opened.
+    at_edges
+        (n,) whether it is none, but its centre of pressure is on an edge.
     """
 
     centers: np.ndarray
     resultants: np.ndarray
     lines: np.ndarray
     hinges: np.ndarray
+    at_edges: np.ndarray
 
 
 @dataclass(frozen=True, slots=True)

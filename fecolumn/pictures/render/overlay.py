@@ -20,7 +20,7 @@ THRUST, ARROW = {"stress": BLUE, "displacement": VERMILION, "none": VERMILION}, 
 # Over the size of the scene [-]: length and half width of an arrow's head, half width of its shaft
 # and of the thrust line, width of the white rim of either, radius of a hinge
 _HEAD, _WIDE, _SHAFT, _LINE, _RIM, _HINGE = 0.045, 0.0165, 0.0060, 0.0040, 0.0022, 0.017
-# Share of a hinge's radius that is white, and corners of its circle
+# Share of a circle's radius that is white where no hinge has opened, and corners of a circle
 _HOLE, _CORNERS = 0.58, 24
 # Arrow of the legend, at most [in]; first digits of its force
 _LEGEND_IN, _DIGITS = 0.5, (1, 2, 5)
@@ -59,7 +59,8 @@ class Overlay:
         necks = tips - along * head[:, None]
         wing = across * (head * _WIDE / _HEAD)[:, None]
         shaft = np.stack([tails, necks], axis=1)
-        radius = np.where(thrust.hinges, _HINGE * size, 0.0)
+        radius = np.where(thrust.hinges | thrust.at_edges, _HINGE * size, 0.0)
+        hole = np.where(thrust.at_edges, _HOLE * radius, 0.0)
         parts = (
             ("white", self._strip(half, (_LINE + _RIM) * size)),
             ("white", self._strip(shaft, (_SHAFT + _RIM) * size)),
@@ -67,7 +68,7 @@ class Overlay:
             (self._thrust, self._strip(half, _LINE * size)),
             (ARROW, np.stack([tips, necks + wing, necks - wing], axis=1)),
             (BLACK, self._circles(tips, radius)),
-            ("white", self._circles(tips, _HOLE * radius)),
+            ("white", self._circles(tips, hole)),
         )
         for k, (colour, points) in enumerate(parts):
             shift = self._camera.toward * self._nearer * (1 + 0.02 * k)
@@ -111,6 +112,7 @@ def alike(one: Thrust, other: Thrust, length: float, far: float) -> bool:
     """Whether nothing of them differs by more than `far` [m]; length: of the arrow of a newton."""
     return bool(
         np.array_equal(one.hinges, other.hinges)
+        and np.array_equal(one.at_edges, other.at_edges)
         and np.abs(one.lines - other.lines).max(initial=0.0) < far
         and length * np.abs(one.resultants - other.resultants).max(initial=0.0) < far
     )
@@ -138,7 +140,9 @@ def draw_legend(axes, frames: Frames, newton_per_inch: float) -> None:
     axes.plot([place, place + 0.28], [0, 0], color=THRUST[frames.colour], linewidth=1.8)
     axes.text(place + 0.34, 0, "thrust line", **text)
     place += 1.06
-    axes.plot(
-        place, 0, "o", color="white", markeredgecolor=BLACK, markersize=4.5, markeredgewidth=1.3
-    )
-    axes.text(place + 0.09, 0, "hinge", **text)
+    for colour, told, step in ((BLACK, "hinge", 0.5), ("white", "thrust at edge", 0.0)):
+        axes.plot(
+            place, 0, "o", color=colour, markeredgecolor=BLACK, markersize=4.5, markeredgewidth=1.3
+        )
+        axes.text(place + 0.09, 0, told, **text)
+        place += step

@@ -14,9 +14,11 @@ _COLUMNS = ("force", "resultant", "center", "tilt")
 #: Share of the largest force [-] from which on a joint carries
 CARRIES = 1e-3
 #: A joint that carries is a hinge where its slave has turned from its master by this share [-] of
-#: the largest such turn of any joint in the analysis, and by so much [rad],
+#: the largest such turn of any joint in the analysis, and by so much [rad], which alone is enough
+#: where the thrust is at an edge
 TURNED, LEAST_TURN = 0.05, 1e-4
-#: or where the centre of pressure is this near an edge of a face, over the face's least extent [-]
+#: The thrust is at an edge where the centre of pressure is this near one of a face, over the face's
+#: least extent [-]
 ON_EDGE = 0.004
 # The forces of a joint go through a body along the straight line from its one joint to its other
 # where both are within this cosine of it
@@ -47,7 +49,7 @@ class JointForces:
     scale
         length of an arrow [m] of one newton.
     turn
-        of slave from master [rad] from which on a joint is a hinge.
+        of slave from master [rad] from which on a joint is a hinge wherever its thrust is.
     """
 
     def __init__(self, result: Result, interval: float):
@@ -129,13 +131,14 @@ class JointForces:
             for (joint, side), end in zip(own, ends):
                 lines[joint, side, 1] = end
         tilts = self._tilt[int(np.abs(self._time - time).argmin())]
-        hinges = [
-            bool(carries[joint])
-            and not one.domed
-            and (tilts[joint] > self.turn or self._on_edge(joint, centers[joint], poses, k))
-            for joint, one in enumerate(self._contacts)
+        flat = carries & ~np.array([one.domed for one in self._contacts], bool)
+        on_edges = [
+            flat[joint] and self._on_edge(joint, center, poses, k)
+            for joint, center in enumerate(centers)
         ]
-        return Thrust(centers, resultants, lines, np.array(hinges, bool))
+        at_edges = np.array(on_edges, bool)
+        hinges = flat & (tilts > np.where(at_edges, LEAST_TURN, self.turn))
+        return Thrust(centers, resultants, lines, hinges, at_edges & ~hinges)
 
     def _on_edge(self, joint: int, center: np.ndarray, poses, k: int) -> bool:
         """Whether a centre of pressure (3,) [m] is on an edge of either face of a joint."""
