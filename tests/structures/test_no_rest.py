@@ -57,4 +57,4 @@ def test_bodies_that_are_far_apart_are_named_and_survey_coordinates_are_no_matte
     assert "slide" not in told and 'integration.start = "drawn"' in told
     assert "apart" not in no_rest(of(5000.0, 5002.0), error)
     near = run(of(5000.123, 5002.123), tmp_path / "near", file="small.toml", quiet=True)
-    assert near.summary["outcome"] == "at rest"
+    assert near["outcome"] == "at rest"
