@@ -25,7 +25,7 @@ from fecolumn.case.short_form import short_form
 from fecolumn.fem.modes import free_modes
 from fecolumn.fem.tied_body import column_body
 from fecolumn.foundation._mpi import launch_environment
-from fecolumn.foundation.schema import merge, read_toml
+from fecolumn.foundation.toml_file import merge, read_toml
 from fecolumn.mesh.bending import free_free_bending_frequency
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.motions.load import load_motion

@@ -23,25 +23,28 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from fecolumn.foundation.version import __version__
+
 if TYPE_CHECKING:
     from fecolumn.case.bodies import (
         Arch,
         Block,
         Cone,
         Cylinder,
-        Ground,
         Matrices,
-        MeshLimits,
         Plate,
         Prism,
         Storeys,
         Tube,
     )
-    from fecolumn.case.bodies import Interface as Joint
-    from fecolumn.case.bodies import LinkKeys as Link
     from fecolumn.case.bodies import Meshed as MeshBody
     from fecolumn.case.case import Case, case_from_tables, read_case
     from fecolumn.case.case import read_case as load_case
+    from fecolumn.case.column_keys import Base, Column
+    from fecolumn.case.column_keys import Mesh as MeshSizes
+    from fecolumn.case.ground import Ground
+    from fecolumn.case.joint import Interface as Joint
+    from fecolumn.case.link import LinkKeys as Link
     from fecolumn.case.link_kinds import (
         Dashpot,
         FrictionDamper,
@@ -51,6 +54,7 @@ if TYPE_CHECKING:
         Strut,
         Tendon,
     )
+    from fecolumn.case.mesh_limits import MeshLimits
     from fecolumn.case.sections import (
         Cap,
         Contact,
@@ -62,8 +66,7 @@ if TYPE_CHECKING:
         Output,
         Overturn,
     )
-    from fecolumn.case.short_form import Base, Column, ShortForm
-    from fecolumn.case.short_form import Mesh as MeshSizes
+    from fecolumn.case.short_form import ShortForm
     from fecolumn.engines.dynamics.history import read_history
     from fecolumn.foundation.schema import InputError
     from fecolumn.mesh.specimen import specimen_mesh
@@ -78,7 +81,6 @@ if TYPE_CHECKING:
     from fecolumn.study.results.study import StudyResult
     from fecolumn.study.run import StudyError
 
-__version__ = "0.11.0"
 __all__ = [
     "AnalysisFailed",
     "AnalysisResult",
@@ -121,6 +123,7 @@ __all__ = [
     "StudyResult",
     "Tendon",
     "Tube",
+    "__version__",
     "calibrate",
     "case_from_tables",
     "design",
@@ -144,12 +147,12 @@ _HOMES = {
     "Block": "case.bodies",
     "Cone": "case.bodies",
     "Cylinder": "case.bodies",
-    "Ground": "case.bodies",
-    "Joint": "case.bodies:Interface",
-    "Link": "case.bodies:LinkKeys",
+    "Ground": "case.ground",
+    "Joint": "case.joint:Interface",
+    "Link": "case.link:LinkKeys",
     "Matrices": "case.bodies",
     "MeshBody": "case.bodies:Meshed",
-    "MeshLimits": "case.bodies",
+    "MeshLimits": "case.mesh_limits",
     "Plate": "case.bodies",
     "Prism": "case.bodies",
     "Storeys": "case.bodies",
@@ -174,9 +177,9 @@ _HOMES = {
     "Motion": "case.sections",
     "Output": "case.sections",
     "Overturn": "case.sections",
-    "Base": "case.short_form",
-    "Column": "case.short_form",
-    "MeshSizes": "case.short_form:Mesh",
+    "Base": "case.column_keys",
+    "Column": "case.column_keys",
+    "MeshSizes": "case.column_keys:Mesh",
     "ShortForm": "case.short_form",
     "read_history": "engines.dynamics.history",
     "InputError": "foundation.schema",

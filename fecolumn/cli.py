@@ -91,8 +91,8 @@ def _refuse(message, code: int) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     """Of all commands; nothing here may load a library, so that --help is quick."""
-    from fecolumn import __version__
     from fecolumn.case import completion, manual, show, templates
+    from fecolumn.foundation.version import __version__
     from fecolumn.pictures.render import command as render
     from fecolumn.study import command as study
     from fecolumn.study import compare_command as compare

@@ -8,7 +8,8 @@ import warnings
 from pathlib import Path
 from typing import Any
 
-from fecolumn.case.case import Case, check, check_duration, read_case
+from fecolumn.case.case import Case, read_case
+from fecolumn.case.check_case import check, check_duration
 from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.engines.analysis import Analysis, AnalysisFailed
 from fecolumn.engines.result_folder import held, kept_choice
@@ -152,8 +153,25 @@ def chosen_step(case: Case, file: str, comm=None, stop=lambda: False, say=print)
     return case.replace({"integration.dt_s": chosen["dt_s"]}), chosen
 
 
-def _analysis_class(case, comm, file) -> type[Analysis]:
+def check_analysis(case: Case, file) -> None:
+    """Refuse a case that can be looked at and not analysed.
+
+    Raises
+    ------
+    InputError
+        it has neither motion nor duration, or its bodies are not those of the rocking model that
+        it asks for.
+    """
+    if case.integration.engine in MODEL_ENGINES:
+        from fecolumn.engines.rocking.of_bodies import model_of, start_of
+
+        model_of(case, file)
+        start_of(case, file)
     check_duration(case, file)
+
+
+def _analysis_class(case, comm, file) -> type[Analysis]:
+    check_analysis(case, file)
     if case.integration.engine == "full":
         from fecolumn.engines.full_analysis import FullAnalysis
 

@@ -21,10 +21,10 @@ def _for_types_alone(node: ast.stmt) -> bool:
     return isinstance(node, ast.If) and "TYPE_CHECKING" in ast.unparse(node.test)
 
 
-def imports(file: Path, functions: bool = True) -> Iterable[Path]:
-    """Sources of the package's modules that a file imports."""
+def imports(file: Path, functions: bool = True, types: bool = False) -> Iterable[Path]:
+    """Sources of the package's modules that a file imports; `types`: and for types alone."""
     tree = ast.parse(file.read_text())
-    tree.body = [node for node in tree.body if not _for_types_alone(node)]
+    tree.body = [node for node in tree.body if types or not _for_types_alone(node)]
     for node in ast.walk(tree) if functions else tree.body:
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]

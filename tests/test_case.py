@@ -165,7 +165,10 @@ def test_a_key_younger_than_the_first_studies_makes_another_case_where_it_is_set
         ("[contact]\nrolling_resistance = 0.5", "contact.rolling_resistance"),
         ("[initial]\nspin_rad_s = [0, 1]", "initial.spin_rad_s"),
         ("[initial]\nvelocity_m_s = 1", "initial.velocity_m_s"),
-        ('[contact]\nimpact = "none"\nrestitution = 0.5', "contact.restitution"),
+        (
+            '[contact]\nimpact = "none"\nrestitution = 0.5\n[integration]\nengine = "full"',
+            "contact.restitution",
+        ),
         (
             '[integration]\nengine = "full"\nkinematics = '
             '"total_lagrangian"\n[material]\ndamping_ratio = 0.02',

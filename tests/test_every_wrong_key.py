@@ -13,7 +13,8 @@ import pytest
 
 from fecolumn.case.case import read_case
 from fecolumn.case.sections import Contact
-from fecolumn.foundation.schema import InputError, read_toml
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import read_toml
 from fecolumn.simulation import run
 from fecolumn.study.plan import read_plan
 

@@ -2,12 +2,14 @@
 
 import ast
 import collections
+import graphlib
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from imported_modules import imports
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "fecolumn"
@@ -18,6 +20,18 @@ LONG_CALLS = 0
 NAMES_TWICE = 0
 #: Arguments of a function, self and cls left out
 ARGUMENTS = 8
+#: What stands beside the hidden files at the top
+TOP = {
+    "CITATION.cff",
+    "LICENSE",
+    "README.md",
+    "benchmarks",
+    "containers",
+    "fecolumn",
+    "meshes",
+    "pyproject.toml",
+    "tests",
+}
 # Each command has these two functions, each verification case the third
 OF_EVERY_COMMAND_OR_CASE = {"add_arguments", "main", "run"}
 
@@ -102,6 +116,36 @@ def test_there_are_few_rooms():
     modules = [one.name for one in PACKAGE.glob("*.py") if one.name != "__init__.py"]
     assert len(folders) <= FOLDERS, sorted(folders)
     assert len(modules) <= MODULES, sorted(modules)
+
+
+def test_files_import_one_another_in_no_circle():
+    """Imports in functions and those of types alone count, too."""
+    graph = {PACKAGE / file: set(imports(PACKAGE / file, types=True)) for file, _ in _modules()}
+    try:
+        graphlib.TopologicalSorter(graph).prepare()
+    except graphlib.CycleError as error:
+        circle = " imports ".join(str(file.relative_to(PACKAGE)) for file in error.args[1][::-1])
+        pytest.fail(circle, pytrace=False)
+
+
+def test_imports_name_the_package():
+    """Of relative ones the test of circles would not know."""
+    relative = [
+        f"{file}:{node.lineno}"
+        for file, tree in _modules()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and node.level
+    ]
+    assert relative == []
+
+
+def test_the_top_level_is_fixed():
+    """Of what is in version control."""
+    listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True)
+    if listed.returncode:
+        pytest.skip("no checkout")
+    names = {line.partition("/")[0] for line in listed.stdout.splitlines()}
+    assert {name for name in names if not name.startswith(".")} == TOP
 
 
 def test_no_two_test_files_have_one_name():

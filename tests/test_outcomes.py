@@ -16,7 +16,8 @@ from fecolumn.case.case import case_from_tables, read_case
 from fecolumn.cli import main
 from fecolumn.engines.analysis import energy_closure
 from fecolumn.engines.ending import ending_text
-from fecolumn.foundation.schema import InputError, merge, read_toml
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge, read_toml
 
 DRUM = {
     "column": {"outer_diameter_m": 0.5, "height_m": 1.6, "wall_m": 0.25, "fine_height_m": 0.1},

@@ -13,9 +13,11 @@ import pytest
 
 import fecolumn
 from fecolumn.case.bodies import KINDS
-from fecolumn.case.case import COMMON, NAMED, case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case_tables import COMMON, NAMED
 from fecolumn.case.short_form import ShortForm
-from fecolumn.foundation.schema import InputError, Section, read_toml
+from fecolumn.foundation.schema import InputError, Section
+from fecolumn.foundation.toml_file import read_toml
 
 ROOT = Path(__file__).parents[1]
 FILES = sorted((ROOT / "meshes").glob("*.toml"))

@@ -15,7 +15,6 @@ from fecolumn.simulation import run
 # Modules that an analysis imports and that decide nothing of its result: they read, write, wait,
 # compile and tell
 _DECIDE_NOTHING = {
-    "__init__.py",
     "foundation/_borrowed.py",
     "foundation/_compiled.py",
     "foundation/_form_compiler.py",
@@ -31,6 +30,8 @@ _DECIDE_NOTHING = {
     "case/case_text.py",
     "foundation/sealed.py",
     "foundation/sources.py",
+    "foundation/toml_file.py",
+    "foundation/version.py",
     "simulation.py",
 }
 _BLOCK = dict(

@@ -12,7 +12,7 @@ from fecolumn.case.case import Case, case_from_tables
 from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.observe import COLUMNS
 from fecolumn.engines.reduced_engine import engine_of
-from fecolumn.foundation.schema import merge, read_toml
+from fecolumn.foundation.toml_file import merge, read_toml
 from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.one_column import build_system

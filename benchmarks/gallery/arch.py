@@ -12,7 +12,7 @@ import numpy as np
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.history import read_history
-from fecolumn.foundation.schema import read_toml
+from fecolumn.foundation.toml_file import read_toml
 from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.simulation import run

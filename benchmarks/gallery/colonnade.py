@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 from fecolumn.case.case import case_from_tables
-from fecolumn.foundation.schema import read_toml
+from fecolumn.foundation.toml_file import read_toml
 from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.simulation import run

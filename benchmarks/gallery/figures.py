@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.gallery.rolling import rolling
-from fecolumn.foundation.schema import read_toml
+from fecolumn.foundation.toml_file import read_toml
 
 ROOT = Path(__file__).parents[2]
 # The stout column in motion 3 of the Lick ensemble, half again as strong, on a mesh coarser than

@@ -11,7 +11,7 @@ from benchmarks.peers.theory import Housner, housner
 from fecolumn.case.sections import GRAVITY
 from fecolumn.case.short_form import ShortForm, short_form
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.foundation.schema import merge, read_toml
+from fecolumn.foundation.toml_file import merge, read_toml
 from fecolumn.mesh.mass import MassProperties, mass_properties
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmarks.planar.advance import History
 from benchmarks.planar.bodies import LEFT, RIGHT
-from benchmarks.planar.ensembles import Response
+from benchmarks.planar.shaken import Response
 from fecolumn.statistics.ecdf import censored
 from fecolumn.statistics.flips import contingency, flips, mcnemar
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov

@@ -9,19 +9,17 @@ from __future__ import annotations
 
 import hashlib
 import io
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from benchmarks.planar import structures, theory
+from benchmarks.planar import package, peer, structures, theory
 from benchmarks.planar.advance import advance
-from benchmarks.planar.bodies import GRAVITY, Structure
+from benchmarks.planar.bodies import GRAVITY
+from benchmarks.planar.shaken import EVERY, Response, Shaken
 from fecolumn.foundation.atomic import write_bytes
 
 PLANAR, PACKAGE, SICONOS, BLOCK = "planar", "fecolumn", "Siconos", "equivalent block"
-#: Between rows of the histories that are kept [s]
-EVERY = 1e-3
 _REST = 2.0  # [s]
 _MOTION = dict(strong_part=(0.05, 0.95), time_scale=3.0, resample_s=0.01)
 _OWN = (
@@ -31,36 +29,9 @@ _OWN = (
     "advance.py",
     "structures.py",
     "theory.py",
+    "shaken.py",
     "ensembles.py",
 )
-
-
-@dataclass(frozen=True)
-class Shaken:
-    """A structure and how strongly it is shaken.
-
-    Attributes
-    ----------
-    structure
-        planar.
-    uplift
-        acceleration of the ground at which it begins to rock [m/s2].
-    factor
-        peak of a motion over that.
-    motions
-        their number.
-    observed
-        number of the body whose top is watched.
-    closed
-        the block of the same motion, if there is one.
-    """
-
-    structure: Structure
-    uplift: float
-    factor: float
-    observed: int
-    motions: int = 100
-    closed: theory.Rocker | None = None
 
 
 def _slope(width: float, height: float) -> float:
@@ -94,39 +65,6 @@ def shaken() -> dict[str, Shaken]:
         ),
         "four blocks": Shaken(structures.courses(), _slope(course, 4 * thick), 2.0, 4, motions=20),
     }
-
-
-@dataclass(frozen=True)
-class Response:
-    """What a program says of a structure in a motion.
-
-    Attributes
-    ----------
-    time
-        (n,) [s], each EVERY.
-    top
-        (n,) [m] displacement of the observed body's top along x.
-    tilt
-        (n, nb) [rad] of the bodies, without sign.
-    fallen
-        whether it overturned.
-    failed
-        why the program stopped before the end, if it did.
-    unsolved
-        steps whose friction problem was not solved to the program's tolerance.
-    """
-
-    time: np.ndarray
-    top: np.ndarray
-    tilt: np.ndarray
-    fallen: bool
-    failed: str = ""
-    unsolved: int = 0
-
-    @property
-    def peak(self) -> float:
-        """Largest displacement of the top [m]."""
-        return float(np.abs(self.top).max())
 
 
 def motion(case: Shaken, number: int, dt: float) -> np.ndarray:
@@ -184,7 +122,6 @@ def response(
     until
         time [s] after which it need not go on.
     """
-    from benchmarks.planar import package, peer
     from fecolumn.foundation.sources import DECIDING, digest_of, files_of
 
     further = {PACKAGE: [*files_of(DECIDING), Path(package.__file__)], SICONOS: peer.SOURCES}

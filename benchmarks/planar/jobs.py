@@ -14,7 +14,8 @@ import numpy as np
 from benchmarks.planar import column
 from benchmarks.planar.advance import advance
 from benchmarks.planar.compare import apart, impacts
-from benchmarks.planar.ensembles import EVERY, PACKAGE, PLANAR, motion, response, shaken
+from benchmarks.planar.ensembles import PACKAGE, PLANAR, motion, response, shaken
+from benchmarks.planar.shaken import EVERY
 
 FINE = 1e-4  # step [s] of the planar program
 _AFTER = 0.01  # of the third impact [s]

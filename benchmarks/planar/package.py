@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.planar.bodies import BOTTOM, LEFT, RIGHT, TOP, Structure
-from benchmarks.planar.ensembles import EVERY, Response, Shaken
+from benchmarks.planar.shaken import EVERY, Response, Shaken
 
 # Young's modulus by which contact points give [Pa]: nothing
 _STIFF = 1e14

@@ -12,7 +12,7 @@ from benchmarks.peers.child import run_child
 from benchmarks.peers.install import SYSTEM_PYTHON
 from benchmarks.planar.advance import FALLEN, History
 from benchmarks.planar.bodies import GRAVITY, Structure
-from benchmarks.planar.ensembles import EVERY, Response, Shaken
+from benchmarks.planar.shaken import EVERY, Response, Shaken
 
 _SCRIPT = Path(__file__).with_name("siconos.py")
 #: What a motion depends on, besides the structure

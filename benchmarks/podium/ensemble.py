@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.case.model_sections import LAWS
 from fecolumn.engines.rocking.podium import study_podium
-from fecolumn.engines.rocking.podium_impact import LAWS
 from fecolumn.engines.rocking.storeys import PROFILES
 from fecolumn.foundation.atomic import write_bytes, write_csv
 from fecolumn.motions.ensemble_file import write_ensemble

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.case.case import case_from_tables
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.verification.podium_structure import let_go
 from fecolumn.verification.structures import (
     energy_at,

@@ -14,7 +14,7 @@ import numpy as np
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.engines.full_analysis import FullAnalysis
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 
 CASE = Path(__file__).parents[2] / "meshes" / "temple_column.toml"
 #: Height of a drum [m]; element size [m] that makes 225,000 degrees of freedom; how far points may

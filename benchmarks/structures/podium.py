@@ -6,15 +6,15 @@ import math
 
 import numpy as np
 
+from fecolumn.case.model_sections import CAV, CRV
 from fecolumn.engines.rocking.podium import Podium
-from fecolumn.engines.rocking.podium_impact import CAV, CRV, podium_restitution
+from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.engines.rocking.storeys import storeys
 from fecolumn.motions.record import GroundMotion
 from fecolumn.verification.podium_structure import (
     ALPHA,
     GAMMA,
     HALF_DIAGONAL,
-    kept_rate,
     let_go,
     podium_case,
     tilt_of,
@@ -33,6 +33,23 @@ _DT = 5e-4
 def laws(floors: int) -> tuple[float, float]:
     """Rate of the tilt after over before an impact, by CRV and CAV."""
     return tuple(podium_restitution(law, ALPHA, GAMMA, floors) for law in (CRV, CAV))
+
+
+def kept_rate(rows: dict, skip: float = 2e-3, width: float = 8e-3) -> float:
+    """Rate of the tilt after over before the first impact: by straight and curved fits over `width`
+    [s], `skip` [s] from it.
+    """
+    time, tilt = rows["time"], tilt_of(rows)
+    passed = int(np.argmax(tilt < 0))
+    at = float(np.interp(0.0, -tilt[passed - 1 : passed + 1], time[passed - 1 : passed + 1]))
+    before, after = (
+        ((time > at - skip - width) & (time < at - skip)),
+        ((time > at + skip) & (time < at + skip + width)),
+    )
+    return float(
+        np.polyfit(time[after] - at, tilt[after], 2)[1]
+        / np.polyfit(time[before] - at, tilt[before], 2)[1]
+    )
 
 
 def impacts(floors: int = 3, concrete: bool = False, periods=PERIODS) -> list[tuple]:

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fecolumn.case.model_sections import WobblingFrameSection
 from fecolumn.case.sections import GRAVITY
-from fecolumn.engines.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
+from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
 
 #: Four columns of 2R = 1.463 m, alpha = 0.1359 and 1.22 kN, slab 94.35 kN, 1720 kN/m a tendon with
 #: its springs (Reggiani Manzo and Vassiliou)

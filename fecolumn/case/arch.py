@@ -5,7 +5,8 @@ from __future__ import annotations
 import dataclasses
 import math
 
-from fecolumn.case.bodies import Arch, Placed, Prism, Solid
+from fecolumn.case.bodies import Arch, Prism
+from fecolumn.case.body_keys import Placed, Solid
 from fecolumn.case.check_bodies import check_arch
 from fecolumn.foundation.schema import InputError, build
 

@@ -11,30 +11,22 @@ import hashlib
 import html
 import json
 import typing
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from fecolumn.case.arch import own_keys, voussoirs, with_voussoirs, without_voussoirs
-from fecolumn.case.bodies import (
-    GROUND,
-    KINDS,
-    Arch,
-    Ground,
-    Interface,
-    LinkKeys,
-    MeshLimits,
-    Placed,
-    Storeys,
-)
+from fecolumn.case.arch import own_keys, voussoirs
+from fecolumn.case.bodies import Arch
+from fecolumn.case.body_keys import Placed
+from fecolumn.case.case_tables import COMMON, NAMED, of_this_version
 from fecolumn.case.case_text import case_text, toml_of
-from fecolumn.case.check_found import check_found
-from fecolumn.case.check_grounds import check_grounds
-from fecolumn.case.given import NUMBERED, as_of_file, by_two_bodies, check_name, with_files
+from fecolumn.case.check_case import check
+from fecolumn.case.given import NUMBERED, as_of_file
+from fecolumn.case.ground import GROUND, Ground
+from fecolumn.case.joint import Interface
+from fecolumn.case.link import LinkKeys
+from fecolumn.case.mesh_limits import MeshLimits
+from fecolumn.case.reading import fields_of_tables, told_of
 from fecolumn.case.sections import (
-    DEFAULT,
-    FULL_ORDER_KEYS,
-    MODEL_ENGINES,
-    MOST_STEPS,
     Contact,
     Initial,
     Integration,
@@ -42,47 +34,16 @@ from fecolumn.case.sections import (
     Motion,
     Output,
     Overturn,
-    located,
     section_table,
 )
-from fecolumn.case.short_form import ALIKE, ShortForm, full_tables, in_short_form, short_form
+from fecolumn.case.short_form import ALIKE, ShortForm
 from fecolumn.foundation.content import content
 from fecolumn.foundation.paths import OF_BODIES as FILES
-from fecolumn.foundation.schema import (
-    InputError,
-    Section,
-    a_section,
-    build,
-    meant,
-    merge,
-    nested,
-    read_toml,
-    stated,
-    table_of,
-)
+from fecolumn.foundation.schema import InputError, Section, a_section, table_of
+from fecolumn.foundation.toml_file import merge, nested, read_toml, stated
 
-#: Tables of tables by name, and the class of each.
-NAMED = {
-    "bodies": Placed,
-    "materials": Material,
-    "grounds": Ground,
-    "joints": Interface,
-    "links": LinkKeys,
-    "initial": Initial,
-}
-#: Sections that a structure's case has in common with a column's.
-COMMON = {
-    "contact": Contact,
-    "integration": Integration,
-    "motion": Motion,
-    "overturn": Overturn,
-    "output": Output,
-    "mesh": MeshLimits,
-}
 # of which no number depends
 _IDLE = ("output", "mesh")
-# Displacement [m] that no body has overturned at: any moves by more
-_LEAST_WAY = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -285,7 +246,7 @@ class Case:
             unknown key, value out of range, parts that do not fit.
         """
         changes = {
-            _of_this_version(key): one for key, one in {**(changes or {}), **sections}.items()
+            of_this_version(key): one for key, one in {**(changes or {}), **sections}.items()
         }
         full = self.short is None or any(_is_full(key, value) for key, value in changes.items())
         tables = self.tables() if full else self.short.tables(opened=True)
@@ -368,12 +329,6 @@ class Case:
         return self.short.tables() if self.short else self.tables()
 
 
-def _of_this_version(key: str) -> str:
-    """A dotted key of earlier versions by its name in this one."""
-    first, dot, rest = key.partition(".")
-    return f"joints{dot}{rest}" if first == "interfaces" else key
-
-
 def _is_full(key: str, value) -> bool:
     """Whether a dotted key, or a table of this name, is of the full form alone."""
     first, _, rest = key.partition(".")
@@ -398,15 +353,10 @@ def case_from_tables(tables: dict, file="case") -> Case:
         raise InputError(file, "", None, f"must be tables of keys, not {type(tables).__name__}")
     if model_engine_of(tables, file):
         return case_of_table(tables, file)
-    case = structure_from_tables(
+    found, named = fields_of_tables(
         {key: table for key, table in tables.items() if key not in TABLES}, file
     )
-    if case.integration.engine in MODEL_ENGINES and not case.short:
-        from fecolumn.engines.rocking.of_bodies import model_of, start_of
-
-        model_of(case, file)
-        start_of(case, file)
-    return case
+    return told_of(file, lambda: Case(**found), named)
 
 
 def case_of_table(tables: dict, file, engine: str | None = None) -> Case:
@@ -434,17 +384,6 @@ def read_case(path) -> Case:
     return case_from_tables(read_toml(path), path)
 
 
-def check_duration(case: Case, file) -> None:
-    """Refuse to analyse a case that does not say for how long; its mesh may still be looked at."""
-    if case.motion is None and case.integration.duration_s == 0:
-        raise InputError(
-            file,
-            "integration.duration_s",
-            0,
-            "must be greater than 0 s where the case has no motion",
-        )
-
-
 def identity(section) -> dict:
     """What of a section tells one analysis from another, files by content."""
     table = section_table("", section)
@@ -452,329 +391,3 @@ def identity(section) -> dict:
         table[key] = content(table[key])
     table.pop("between", None)  # a joint is told by slave and on, whichever way it was written
     return table
-
-
-def structure_from_tables(tables: dict, file) -> Case:
-    """Case of a structure from TOML tables; relative paths are taken from the folder of `file`.
-
-    Raises
-    ------
-    InputError
-        every unknown or missing key, wrong type and value out of range, told at once; or parts that
-        do not fit.
-    """
-    if "column" in tables and "bodies" in tables:
-        raise InputError(
-            file,
-            "bodies",
-            None,
-            "stands beside [column], the short form of a case of one body; describe the column in "
-            "[bodies], too: fecolumn show writes it so",
-        )
-    if "column" in tables:
-        return _of_short_form(tables, file)
-    if "interfaces" in tables:
-        return _of_interfaces(tables, file)
-    tables, errors, found = stated(tables), [], {}
-    if not tables.get("grounds"):
-        tables = tables | {"grounds": {GROUND: {}}}
-    grounds = set(tables["grounds"]) if isinstance(tables["grounds"], dict) else {GROUND}
-    for key in tables:
-        if key not in NAMED and key not in COMMON and key not in ("title", "observed"):
-            errors.append(
-                InputError(
-                    file,
-                    key,
-                    None,
-                    f"says nothing of a structure of [bodies]{meant(key, [*NAMED, *COMMON])}; "
-                    f"its tables: {', '.join([*NAMED, *COMMON])}",
-                )
-            )
-    bodies, own = without_voussoirs(tables.get("bodies", {}))
-    tables = tables | {"bodies": bodies}
-    for name, kind in NAMED.items():
-        found[name] = _named(name, kind, tables.get(name, {}), grounds, file, errors)
-    for name, kind in COMMON.items():
-        table = tables.get(name, False)
-        try:
-            if name != "motion" or table is not False:
-                found[name] = located(
-                    name, build(kind, {} if table is False else table, file, f"{name}."), file
-                )
-        except InputError as error:
-            errors.append(error)
-    for key in ("title", "observed"):
-        found[key] = tables.get(key, "")
-        if not isinstance(found[key], str):
-            errors.append(InputError(file, key, found[key], "must be text in quotes"))
-    try:
-        found["bodies"], found["arches"] = with_voussoirs(found["bodies"], own, file)
-    except InputError as error:
-        errors.append(error)
-    if errors:
-        raise InputError.of_several(errors)
-    return _told_of(file, lambda: Case(**found))
-
-
-def _told_of(file, made: Callable[[], Case], named: Callable[[str], str] = str) -> Case:
-    """What `made` returns; its errors are told of `file`, with keys and ranges as `named` says."""
-    try:
-        return made()
-    except InputError as error:
-        raise InputError.of_several(
-            [InputError(file, named(one.key), one.value, named(one.allowed)) for one in error.all]
-        ) from None
-
-
-def _of_short_form(tables: dict, file) -> Case:
-    """Case of TOML tables with [column]; messages name the keys of the short form."""
-    form = short_form(tables, file)
-    case = _told_of(file, lambda: structure_from_tables(full_tables(form), file), in_short_form)
-    return dataclasses.replace(case, short=form)
-
-
-def _of_interfaces(tables: dict, file) -> Case:
-    """Case of TOML tables with [interfaces], the name of [joints] in earlier versions, by which
-    messages call them.
-    """
-    older, joints = tables["interfaces"], tables.get("joints", {})
-    if not isinstance(older, dict) or not isinstance(joints, dict):
-        raise InputError(file, "joints", joints or older, "must hold tables by name")
-    if twice := set(joints) & set(older):
-        key = f"joints.{min(twice)}"
-        raise InputError(file, key, None, "stands in [interfaces], too: give it once")
-    others = {name: table for name, table in tables.items() if name != "interfaces"}
-
-    def named(text: str) -> str:
-        for name in older:
-            text = text.replace(f"joints.{name}", f"interfaces.{name}")
-        return text
-
-    return _told_of(
-        file, lambda: structure_from_tables(others | {"joints": older | joints}, file), named
-    )
-
-
-def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
-    """Sections by name of one table of tables; grounds: names that no body can have."""
-    if not isinstance(tables, dict):
-        errors.append(
-            InputError(file, name, tables, f"must hold tables by name, such as [{name}.NAME]")
-        )
-        return {}
-    found = {}
-    for key, table in tables.items():
-        if table is False:
-            continue
-        try:
-            if not isinstance(table, dict):
-                raise InputError(
-                    file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys"
-                )
-            check_name(name, key, tables, grounds, file)
-            found[key] = _built(
-                _kind_of(name, key, table, kind, file), table, file, f"{name}.{key}."
-            )
-            if name == "joints":
-                found[key] = by_two_bodies(found[key], grounds, file, f"{name}.{key}.")
-        except InputError as error:
-            errors.append(error)
-    return found
-
-
-def _kind_of(name: str, key: str, table: dict, kind, file):
-    """Class of a section: of a body that of its kind."""
-    if name != "bodies":
-        return kind
-    word = table.get("kind")
-    if not isinstance(word, str) or word not in KINDS:
-        raise InputError(
-            file,
-            f"{name}.{key}.kind",
-            word,
-            f"{'missing; ' if word is None else ''}must be one of {', '.join(KINDS)}",
-        )
-    return KINDS[word]
-
-
-def _built(kind, table, file, prefix):
-    """A section with its relative paths taken from the folder of `file`."""
-    section = build(kind, table, file, prefix)
-    if kind is Ground and section.motion:
-        return dataclasses.replace(section, motion=located("motion", section.motion, file))
-    return with_files(section, file, prefix)
-
-
-def check(case: Case, file) -> None:
-    """What no single key can know: names that tables use of one another, and keys of which only one
-    may stand.
-    """
-    from fecolumn.case.check_bodies import check_body
-    from fecolumn.case.check_bond import check_bond
-    from fecolumn.case.check_link import check_link
-    from fecolumn.case.check_step import check_step
-
-    def refuse(key, value, allowed):
-        raise InputError(file, key, value, allowed)
-
-    if 0 < (cap := case.overturn.displacement_m) < _LEAST_WAY:
-        told = f"must be 0 for none, or at least {_LEAST_WAY:g} m: less is no overturning"
-        refuse("overturn.displacement_m", cap, told)
-    if case.own:  # checked by the model
-        return
-    check_step(case.integration, refuse)
-    if not case.bodies:
-        refuse("bodies", None, "missing; a structure needs a table [bodies.NAME] at least")
-    for name, body in case.bodies.items():
-        check_body(f"bodies.{name}", body, case.materials, refuse)
-        ground = getattr(body, "moves_with", "")
-        if ground and ground not in case.grounds:
-            known = ", ".join(case.grounds)
-            refuse(f"bodies.{name}.moves_with", ground, f"no such ground; known: {known}")
-    if case.bodies and all(getattr(body, "fixed", False) for body in case.bodies.values()):
-        refuse(f"bodies.{name}.fixed", True, "must be false of one body at least: nothing moves")
-    if not case.joints and not case.contact.between:
-        refuse(
-            "joints",
-            None,
-            "missing; a structure needs a table [joints.NAME] at least, for what "
-            "stands on the ground",
-        )
-    for name, interface in case.joints.items():
-        _check_name(case, f"joints.{name}", interface.slave, refuse, ground=False)
-        _check_name(case, f"joints.{name}", interface.on, refuse)
-        if all(case.is_held(one) for one in (interface.slave, interface.on)):
-            told = f'"{interface.slave}" and "{interface.on}" are both fixed'
-            refuse(f"joints.{name}", None, f"must name a body that moves: {told}")
-        own = interface.friction_coefficient
-        friction = case.contact.friction_coefficient if own is None else own
-        check_bond(f"joints.{name}", interface, friction, refuse)
-    for name, link in case.links.items():
-        _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
-        _check_name(case, f"links.{name}.to", link.to, refuse)
-        check_link(f"links.{name}", link, refuse)
-        if case.is_held(link.body) and case.is_held(link.to):
-            told = f'"{link.body}" and "{link.to}" are both fixed'
-            refuse(f"links.{name}", None, f"must hold a body that moves: {told}")
-        if len({body for body, _ in case.copies_of(link.body)}) > 1:
-            refuse(
-                f"links.{name}.body",
-                link.body,
-                f'must be one body, such as "{case.names_of(link.body)[0]}"',
-            )
-        if link.to not in case.grounds and len(case.copies_of(link.to)) > 1:
-            refuse(
-                f"links.{name}.to",
-                link.to,
-                f'must be one of its copies, such as "{case.names_of(link.to)[0]}"',
-            )
-        if link.to not in case.grounds and case.copies_of(link.to)[0] in case.copies_of(link.body):
-            refuse(
-                f"links.{name}.to",
-                link.to,
-                f'must be another body than links.{name}.body = "{link.body}": a link '
-                "from a body to itself does nothing",
-            )
-    for name, start in case.initial.items():
-        _check_name(case, f"initial.{name}", name, refuse, ground=False)
-        if case.is_held(name):
-            refuse(f"initial.{name}", None, f'must be left out: "{name}" is fixed')
-        for key in ("velocity_m_s", "spin_rad_s"):
-            if len(value := getattr(start, key)) != 3:
-                refuse(f"initial.{name}.{key}", list(value), "must be three numbers: x, y, z")
-    if case.observed:
-        body = case.observed.partition(".")[0]
-        _check_name(case, "observed", body, refuse, ground=False)
-        if getattr(case.bodies[case.copies_of(body)[0][0]], "fixed", False):
-            refuse("observed", case.observed, "must be a body that moves: this one is fixed")
-        if len(case.copies_of(body)) > 1:
-            refuse(
-                "observed",
-                case.observed,
-                f'must be one of its copies, such as "{case.names_of(body)[0]}"',
-            )
-    for name, body in case.bodies.items():
-        if isinstance(body, Storeys) and not case.modes_of(name):
-            key, value = (
-                ("integration.engine", "rigid")
-                if case.integration.engine == "rigid"
-                else (f"bodies.{name}.modes", 0)
-            )
-            refuse(
-                key,
-                value,
-                f'leaves the storeys of "{name}" their springs and no inertia: choose '
-                f'integration.engine = "reduced" with modes, of which {2 * body.floors} '
-                "are all",
-            )
-    check_grounds(case, refuse)
-    check_found(case, refuse, lambda key, name: _check_name(case, key, name, refuse, ground=False))
-    _check_integration(case, refuse)
-
-
-def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
-    if ground and name in case.grounds:
-        return
-    try:
-        case.copies_of(name)
-    except KeyError:
-        known = (
-            list(case.grounds) * ground
-            + list(case.arches)
-            + list(case.bodies)
-            + [copy for body in case.bodies for copy in case.names_of(body) if copy != body]
-        )
-        what = "body or ground" if ground else "body"
-        refuse(key, name, f"no such {what}{meant(name, known)}; known: {', '.join(known)}")
-
-
-def _check_integration(case, refuse) -> None:
-    from fecolumn.case.check_full import check_full
-
-    plan = case.integration
-    if plan.engine == "full":
-        check_full(case, refuse)
-    for section, key, needed in (
-        ("integration", "kinematics", "corotated"),
-        ("contact", "impact", "plastic"),
-    ):
-        value = getattr(getattr(case, section), key)
-        if plan.engine != "full" and value != needed:
-            refuse(
-                f"{section}.{key}",
-                value,
-                f"must be {needed} where integration.engine = {plan.engine!r}",
-            )
-    for key in FULL_ORDER_KEYS if plan.engine != "full" else ():
-        if (value := getattr(plan, key)) != DEFAULT[key]:
-            refuse(
-                f"integration.{key}",
-                value,
-                f"has no effect where integration.engine = {plan.engine!r}: leave it out",
-            )
-    time = plan.duration_s or (
-        case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0
-    )
-    if time / plan.shortest_s > MOST_STEPS:
-        refuse(
-            "integration.dt_s",
-            plan.dt_s,
-            f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} "
-            f"steps in {time:g} s",
-        )
-    if case.motion and (len(part := case.motion.strong_part) != 2 or not part[0] < part[1]):
-        refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
-
-
-def type_of(key: str):
-    """Type of a dotted key of a structure's case, whatever its bodies are called, or None:
-    "bodies.slab.length_m" is a float.
-    """
-    head, _, last = _of_this_version(key).rpartition(".")
-    name = head.partition(".")[0]
-    classes = set(KINDS.values()) if name == "bodies" else {NAMED[name]} if name in NAMED else set()
-    hints = {
-        field: kind for section in classes for field, kind in typing.get_type_hints(section).items()
-    }
-    kind = hints.get(last) if head.count(".") == 1 else None
-    return next((one for one in (kind, *typing.get_args(kind)) if one in (int, float)), kind)

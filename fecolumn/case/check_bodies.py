@@ -12,13 +12,12 @@ from fecolumn.case.bodies import (
     Meshed,
     Plate,
     Prism,
-    Solid,
     Storeys,
-    Stuff,
     Tube,
     half_sides,
     rise,
 )
+from fecolumn.case.body_keys import Solid, Stuff
 from fecolumn.case.polygon import crossing, signed_area
 from fecolumn.case.sections import Material
 

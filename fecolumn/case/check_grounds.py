@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fecolumn.case.bodies import Ground
+from fecolumn.case.ground import Ground
 
 #: Keys that say something of some kinds of ground alone, and these.
 OF_KINDS = {

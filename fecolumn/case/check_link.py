@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 
-from fecolumn.case.bodies import LinkKeys
+from fecolumn.case.link import LinkKeys
 
 # What a kind of links cannot do without, stiffness_n_m unless told, with its unit
 _NEEDED = {"dashpot": "damping_n_s_m", "friction": "slip_n"}

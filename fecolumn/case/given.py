@@ -8,7 +8,9 @@ from dataclasses import fields
 from pathlib import Path
 
 from fecolumn.case.arch import with_voussoirs
-from fecolumn.case.bodies import Arch, Interface, LinkKeys
+from fecolumn.case.bodies import Arch
+from fecolumn.case.joint import Interface
+from fecolumn.case.link import LinkKeys
 from fecolumn.case.sections import located
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.paths import OF_BODIES

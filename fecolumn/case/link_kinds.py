@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fecolumn.case.bodies import LinkKeys
+from fecolumn.case.link import LinkKeys
 from fecolumn.foundation.schema import parameter
 from fecolumn.foundation.section_class import section_class
 

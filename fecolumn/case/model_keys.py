@@ -50,7 +50,7 @@ def check_model(case, models, refuse) -> None:
 
 def check_substeps(case, models, refuse) -> None:
     """integration.substeps where it would say nothing: of a rocking model, an engine of `models`,
-    and of contact without impacts.
+    and of a pad.
     """
     value, engine = case.integration.substeps, case.integration.engine
     if value != "rolling" and engine in models:
@@ -58,13 +58,6 @@ def check_substeps(case, models, refuse) -> None:
             "integration.substeps",
             value,
             f"has no effect where integration.engine = {engine!r}: leave it out",
-        )
-    if value == "impacts" and case.contact.impact == "none":
-        refuse(
-            "integration.substeps",
-            value,
-            "must be rolling or none where contact.impact = 'none': there are no "
-            "impacts to find in a step",
         )
     if value == "impacts" and case.base.kind == "pad":
         refuse(

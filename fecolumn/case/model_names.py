@@ -1,20 +1,9 @@
-"""Names of the rocking models, of their tables in a case file, and of the modules they are in."""
+"""Names of the rocking models, and of their tables in a case file."""
 
 from __future__ import annotations
 
-import importlib
-from typing import Any
-
 from fecolumn.foundation.schema import InputError
 
-#: Name of each model: "module:class" in this package. The modules are imported only when asked for.
-MODELS = {
-    "housner": "block:RockingBlock",
-    "rocking_frame": "frame:RockingFrame",
-    "wobbling": "wobbling:Wobbling",
-    "wobbling_frame": "wobbling_frame:WobblingFrame",
-    "podium": "podium:Podium",
-}
 #: Name of a model's own table in a case file: name of the model.
 TABLES = {
     "block": "housner",
@@ -23,12 +12,6 @@ TABLES = {
     "wobbling_frame": "wobbling_frame",
     "podium": "podium",
 }
-
-
-def model_class(name: str) -> Any:
-    """Class of a model of MODELS."""
-    module, _, attribute = MODELS[name].partition(":")
-    return getattr(importlib.import_module(f"fecolumn.engines.rocking.{module}"), attribute)
 
 
 def model_engine_of(tables: dict, file) -> str | None:

@@ -14,7 +14,8 @@ from __future__ import annotations
 import functools
 
 from fecolumn.case.check_step import check_step
-from fecolumn.case.model_names import TABLES, model_class, model_engine_of
+from fecolumn.case.model_names import TABLES, model_engine_of
+from fecolumn.case.model_sections import SECTIONS
 from fecolumn.case.sections import Contact, Initial, Integration, Motion, Output, Overturn, located
 from fecolumn.foundation.schema import InputError, Section, build, parameter
 from fecolumn.foundation.section_class import section_class
@@ -78,7 +79,6 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
             for key, value in tables["initial"].items()
             if value is not False and not isinstance(value, dict)
         }
-    section = model_class(engine).SECTION
     for key in tables:
         if key not in COMMON and key not in (table, "title"):
             raise InputError(
@@ -106,8 +106,6 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
             f"must be 0 where integration.engine = {engine!r}: a rigid model has no fields",
         )
     start = found.pop("initial")
-    own = build(section, tables[table], file, f"{table}.")
-    model_class(engine).of_section(own, file)
     return dict(
         **found,
         bodies={},
@@ -118,7 +116,7 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
         initial={table: Initial(start.tilt_rad, start.direction_deg)},
         contact=Contact(),
         title=tables.get("title", ""),
-        own={table: own},
+        own={table: build(SECTIONS[table], tables[table], file, f"{table}.")},
     )
 
 
@@ -131,9 +129,5 @@ def model_key_type(key: str):
     import typing
 
     table, _, name = key.partition(".")
-    kind = (
-        typing.get_type_hints(model_class(TABLES[table]).SECTION).get(name)
-        if table in TABLES
-        else None
-    )
+    kind = typing.get_type_hints(SECTIONS[table]).get(name) if table in SECTIONS else None
     return next((one for one in (kind, *typing.get_args(kind)) if one in (int, float)), kind)

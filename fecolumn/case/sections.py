@@ -34,7 +34,7 @@ MODEL_ENGINES = (
     "rocking_frame",
     "wobbling_frame",
     "podium",
-)  # words of integration.engine that are rocking models, of fecolumn.engines.rocking.model.MODELS
+)  # words of integration.engine that are rocking models, of fecolumn.engines.rocking.models
 
 
 @section_class()

@@ -12,13 +12,12 @@ from __future__ import annotations
 
 import dataclasses
 
-from fecolumn.case.mesh_file_keys import cut_key, size_key, unit_key
+from fecolumn.case import sizes
+from fecolumn.case.check_grounds import OF_KINDS
+from fecolumn.case.column_keys import Base, Column, Mesh
 from fecolumn.case.model_keys import check_model, check_substeps
 from fecolumn.case.sections import (
-    DEFAULT,
-    FULL_ORDER_KEYS,
     MODEL_ENGINES,
-    MOST_STEPS,
     Cap,
     Contact,
     Flange,
@@ -31,222 +30,15 @@ from fecolumn.case.sections import (
     located,
 )
 from fecolumn.foundation.paths import OF_SECTIONS as FILES
-from fecolumn.foundation.schema import InputError, Section, build, merge, nested, parameter, stated
+from fecolumn.foundation.schema import InputError, Section, build, parameter
 from fecolumn.foundation.section_class import section_class
-from fecolumn.mesh.mesh_file import MeshFile
+from fecolumn.foundation.toml_file import merge, nested, stated
+from fecolumn.mesh.outline import is_solid
+from fecolumn.mesh.upright import Upright
 
 
 @section_class()
-class Column(Section):
-    """Upright column, its axis along z, its foot at z = 0: tube, solid cylinder, block, or the
-    user's own mesh.
-    """
-
-    outer_diameter_m: float | None = parameter(
-        None, doc="outer diameter; a tube and a solid cylinder need it", unit="m", above=0, high=100
-    )
-    height_m: float | None = parameter(
-        None,
-        doc="height of the column without cap and flange; every built column needs it",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    wall_m: float | None = parameter(
-        None,
-        doc="wall thickness, which a tube needs; half the diameter makes a solid cylinder",
-        unit="m",
-        above=0,
-        high=50,
-    )
-    fine_height_m: float | None = parameter(
-        None,
-        doc="height of the finely meshed lower part; left out: half the width of the foot",
-        unit="m",
-        low=0,
-        high=1000,
-    )
-    mesh_file: str = parameter(
-        "",
-        doc="shape of the body, z up: elements, 8-node bricks or tetrahedra, in any format meshio "
-        "reads; a closed surface (.stl, .obj, .ply), a CAD body (.step, .iges) or a script of Gmsh "
-        "(.geo), in which elements are made; replaces the built column",
-    )
-    mesh_unit: str | None = unit_key()
-    mesh_size_m: float | None = size_key()
-    cut_foot_m: float | None = cut_key()
-    shape: str = parameter(
-        "tube",
-        doc="built column: tube, solid cylinder or rectangular block",
-        choices=("tube", "solid", "block"),
-        since="0.2",
-    )
-    length_m: float | None = parameter(
-        None, doc="length along x, which a block needs", unit="m", above=0, high=100, since="0.2"
-    )
-    width_m: float | None = parameter(
-        None, doc="width along y, which a block needs", unit="m", above=0, high=100, since="0.2"
-    )
-
-    @property
-    def drawn(self) -> MeshFile:
-        """What mesh_file is, and how it is made into elements."""
-        return MeshFile(self.mesh_file, self.mesh_unit or "", self.mesh_size_m, self.cut_foot_m)
-
-
-@section_class()
-class Base(Section):
-    """What the column stands on: an elastic plate held at its bottom, a flat of the same layer
-    without edges, or a pad of springs and dashpots.
-    """
-
-    length_m: float | None = parameter(
-        None,
-        doc="length along x; left out: the foot's and three times the larger side of the foot",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    width_m: float | None = parameter(
-        None,
-        doc="length along y; left out: the foot's and three times the larger side of the foot",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    thickness_m: float | None = parameter(
-        None,
-        doc="thickness along z; left out: a quarter of the foot's smaller side",
-        unit="m",
-        above=0,
-        high=100,
-    )
-    slide_allowance_m: float | None = parameter(
-        None,
-        doc="finely meshed margin around the footprint; left out: a quarter of the foot's "
-        "smaller side",
-        unit="m",
-        low=0,
-        high=1000,
-    )
-    youngs_modulus_pa: float = parameter(
-        200e9, doc="Young's modulus of the base", unit="Pa", above=0, high=1e15
-    )
-    poissons_ratio: float = parameter(0.3, doc="Poisson's ratio of the base", low=0, high=0.49)
-    density_kg_m3: float = parameter(
-        7850.0, doc="density of the base", unit="kg/m3", above=0, high=1e5
-    )
-    kind: str = parameter(
-        "plate",
-        doc="plate: elastic plate with edges; unbounded: the same layer without edges; "
-        "pad: springs and dashpots per area, without edges",
-        choices=("plate", "unbounded", "pad"),
-        since="0.2",
-    )
-    stiffness_n_m3: float = parameter(
-        0.0,
-        doc="springs across a pad per area (subgrade modulus); needed for a pad",
-        unit="N/m3",
-        low=0,
-        high=1e15,
-        since="0.2",
-    )
-    shear_stiffness_n_m3: float = parameter(
-        0.0,
-        doc="springs along a pad per area; 0 takes 0.8 of stiffness_n_m3",
-        unit="N/m3",
-        low=0,
-        high=1e15,
-        since="0.2",
-    )
-    damping_ratio: float = parameter(
-        0.0,
-        doc="of the dashpots of a pad: that of the standing column's vertical mode",
-        low=0,
-        high=10,
-        since="0.2",
-    )
-
-
-@section_class()
-class Mesh(Section):
-    """Element sizes."""
-
-    @classmethod
-    def public_name(cls) -> str:
-        """Of a script, where MeshBody is another thing."""
-        return "MeshSizes"
-
-    fine_size_m: float | None = parameter(
-        None,
-        doc="brick size of the column's lower part, of the flange and of the base below; "
-        "left out: see fecolumn.case.sizes",
-        unit="m",
-        above=0,
-        high=10,
-    )
-    coarse_size_m: float | None = parameter(
-        None,
-        doc="brick size along height and circumference of the column's upper part; left "
-        "out: three fine bricks of a tube, two of a solid column",
-        unit="m",
-        above=0,
-        high=10,
-    )
-    cap_size_m: float | None = parameter(
-        None,
-        doc="brick size of the cap plate; left out: a coarse brick, but 16 of the cap's "
-        "longer side at most",
-        unit="m",
-        above=0,
-        high=10,
-    )
-    base_size_m: float | None = parameter(
-        None,
-        doc="largest brick size of the base, away from the footprint; left out: six fine bricks",
-        unit="m",
-        above=0,
-        high=10,
-    )
-    element_order: int | None = parameter(
-        None,
-        doc="polynomial order of the column's and cap's elements; left out: 1 for bricks, "
-        "2 for tetrahedra",
-        low=1,
-        high=2,
-    )
-    limit_dofs: int = parameter(
-        500_000,
-        doc="degrees of freedom above which a mesh is refused before it is built",
-        low=100,
-        high=10**9,
-        counts=False,
-    )
-
-
-class Heights:
-    """Heights and radii of a built column, from its own sections."""
-
-    __slots__ = ()
-
-    @property
-    def mean_radius_m(self) -> float:
-        """Radius of the wall's middle surface."""
-        return (self.column.outer_diameter_m - self.column.wall_m) / 2
-
-    @property
-    def seat_m(self) -> float:
-        """Height at which the column begins: the flange's thickness."""
-        return self.flange.thickness_m if self.flange else 0.0
-
-    @property
-    def top_m(self) -> float:
-        """Height of the top of column and cap."""
-        return self.seat_m + self.column.height_m + (self.cap.thickness_m if self.cap else 0.0)
-
-
-@section_class()
-class ShortForm(Section, Heights):
+class ShortForm(Section, Upright):
     """A case of one column on its base, as a file with [column] states it.
 
     fecolumn.Case.of_column(
@@ -280,8 +72,6 @@ class ShortForm(Section, Heights):
         """The tables of its file; `opened`: without those sizes that it would be given anyway, so
         that another column gets its own.
         """
-        from fecolumn.case import sizes
-
         return stated(dataclasses.asdict(sizes.opened(self) if opened else self))
 
 
@@ -315,8 +105,6 @@ def finished(case: ShortForm, file) -> ShortForm:
     InputError
         as of `read_case`.
     """
-    from fecolumn.case import sizes
-
     sizes.check_shape(case, file)
     case = sizes.with_sizes(case, file)
     sizes.check_sizes(case, file)
@@ -325,19 +113,14 @@ def finished(case: ShortForm, file) -> ShortForm:
 
 
 def check_short_form(case: ShortForm, file) -> None:
-    """What no single key can know, but for sizes (`fecolumn.case.sizes`)."""
+    """What keys of the short form alone say together, but for sizes (`fecolumn.case.sizes`); the
+    full form has the rest.
+    """
 
     def refuse(key, value, allowed):
         raise InputError(file, key, value, allowed)
 
     check_base(case, refuse)
-    for key in ("velocity_m_s", "spin_rad_s"):
-        if len(value := getattr(case.initial, key)) != 3:
-            refuse(f"initial.{key}", list(value), "must be three numbers: x, y, z")
-    if case.contact.impact == "none":
-        for key in ("restitution", "rolling_resistance"):
-            if value := getattr(case.contact, key):
-                refuse(f"contact.{key}", value, "must be 0 where contact.impact = 'none'")
     if (
         case.contact.rolling_resistance
         and case.column.shape == "block"
@@ -358,43 +141,8 @@ def check_short_form(case: ShortForm, file) -> None:
             case.material.damping_ratio,
             "must be 0 where integration.kinematics is not 'corotated'",
         )
-    if case.integration.engine != "full":
-        for section, key, needed in (
-            ("integration", "kinematics", "corotated"),
-            ("contact", "impact", "plastic"),
-        ):
-            if (value := getattr(getattr(case, section), key)) != needed:
-                refuse(
-                    f"{section}.{key}",
-                    value,
-                    f"must be {needed} where integration.engine = {case.integration.engine!r}",
-                )
-        for key in FULL_ORDER_KEYS:
-            if (value := getattr(case.integration, key)) != DEFAULT[key]:
-                refuse(
-                    f"integration.{key}",
-                    value,
-                    "has no effect where integration.engine = "
-                    f"{case.integration.engine!r}, which solves a step's "
-                    "contact to its own tolerance: leave it out, or choose "
-                    "integration.engine = 'full'",
-                )
     check_model(case, MODEL_ENGINES, refuse)
     check_substeps(case, MODEL_ENGINES, refuse)
-    time = case.integration.duration_s or (
-        case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0
-    )
-    if time / case.integration.shortest_s > MOST_STEPS:
-        refuse(
-            "integration.dt_s",
-            case.integration.dt_s,
-            f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} "
-            f"steps in {time:g} s",
-        )
-    if case.motion:
-        part = case.motion.strong_part
-        if len(part) != 2 or not part[0] < part[1]:
-            refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
 
 
 def check_base(case: ShortForm, refuse) -> None:
@@ -459,9 +207,6 @@ def full_tables(form: ShortForm) -> dict:
     short = form.tables()
     column = short["column"]
     own = bool(column.get("mesh_file"))
-    from fecolumn.case.check_grounds import OF_KINDS
-    from fecolumn.mesh.outline import is_solid
-
     solid = not own and form.column.shape != "block" and is_solid(form.column)
     kind = "mesh" if own else "block" if form.column.shape == "block" else "tube"
     kind = "cylinder" if solid else kind

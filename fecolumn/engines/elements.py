@@ -12,11 +12,12 @@ from fecolumn.case.bodies import Matrices, Storeys
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.layout import Layout, layout_of
+from fecolumn.structures.made_layout import check_drawings, said_of
 from fecolumn.structures.model import BodyModel, StructureModel
 from fecolumn.structures.patches import Patch, face_weights
 from fecolumn.structures.reduction import body_of, top_face
 from fecolumn.structures.shapes import Shape
-from fecolumn.structures.structure import assembled, check_drawings, said_of
+from fecolumn.structures.structure import assembled
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,18 +9,9 @@ import math
 import numbers
 import re
 import reprlib
-import tomllib
 import types
 import typing
-from pathlib import Path
 
-from fecolumn.foundation.files import Unreadable, read_bytes
-from fecolumn.foundation.paths import taken_over
-
-# A case has three levels; a file with more than these is damaged, and would exhaust the stack
-_DEEPEST = 20
-_LONGEST_CHAIN = 50
-_LONGEST_FILE = 20_000_000  # [bytes]
 _LONGEST_WORDS = 800  # of a message, in one of its parts
 # Magnitude of a number that is not 0: its fifth power, an inertia of a length, is still a number
 _LEAST = 1e-60
@@ -39,15 +30,15 @@ class InputError(ValueError):
 
     def __init__(self, file, key: str, value, allowed: str):
         self.file, self.key, self.value, self.allowed = (
-            _in_text(str(file)),
+            in_text(str(file)),
             key,
             value,
-            _in_text(allowed),
+            in_text(allowed),
         )
         equals = f" = {shown(value)}" if value is not None else ""
         self.all: tuple[InputError, ...] = (self,)
         super().__init__(
-            f"{self.file}: {_in_text(key)}{equals}: {self.allowed}"
+            f"{self.file}: {in_text(key)}{equals}: {self.allowed}"
             if key
             else f"{self.file}: {self.allowed}"
         )
@@ -83,7 +74,7 @@ class _Shown(reprlib.Repr):
 shown = _Shown().repr
 
 
-def _in_text(words: str) -> str:
+def in_text(words: str) -> str:
     """Words without line breaks and other control characters, so that a message stays one line;
     shortened where very long.
     """
@@ -391,111 +382,6 @@ def build(section, table, file, prefix: str = ""):
     return section(**values)
 
 
-def read_toml(path, _heirs: tuple[Path, ...] = ()) -> dict:
-    """Tables of a TOML file; `extends = "other.toml"` is read first and overridden key by key, or
-    by `section = false` as a whole.
-
-    Paths are relative to the file that states them: of a file in another folder they come absolute.
-    """
-    path = Path(path)
-    tables = _tables(path)
-    parent = tables.pop("extends", None)
-    if parent is None:
-        return tables
-    if not isinstance(parent, str) or not parent:
-        raise InputError(
-            path, "extends", parent, "must be the path of a TOML file, relative to this one"
-        )
-    heirs = (*_heirs, path)
-    if any(_same(path.parent / parent, heir) for heir in heirs):
-        circle = " -> ".join(heir.name for heir in (*heirs, path.parent / parent))
-        raise InputError(
-            path,
-            "extends",
-            parent,
-            f"goes in a circle: {circle}" if len(heirs) > 1 else "a file may not extend itself",
-        )
-    if len(heirs) >= _LONGEST_CHAIN:
-        raise InputError(
-            path, "extends", parent, f"at most {_LONGEST_CHAIN} files may extend one another"
-        )
-    other = path.parent / parent
-    if not other.exists():
-        raise InputError(path, "extends", parent, f"no such file: {other}")
-    inherited = read_toml(other, heirs)
-    return merge(
-        inherited if _same(other.parent, path.parent) else taken_over(inherited, other), tables
-    )
-
-
-def _same(one: Path, other: Path) -> bool:
-    try:
-        return one.resolve() == other.resolve()
-    except (
-        OSError,
-        ValueError,
-        RuntimeError,
-    ):  # a name that cannot be, or links in a circle: reading it says so
-        return False
-
-
-def _tables(path: Path) -> dict:
-    """Tables of one TOML file as they stand."""
-    try:
-        text = read_bytes(path, _LONGEST_FILE).decode("utf-8-sig")
-    except Unreadable as error:
-        raise InputError(
-            path, "", None, str(error).replace("a file is needed", "a TOML file is needed")
-        ) from None
-    except UnicodeDecodeError as error:
-        raise InputError(path, "", None, f"not a text file in UTF-8 ({error.reason})") from None
-    try:
-        tables = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(path, "", None, _in_text(f"not valid TOML: {error}")) from None
-    except RecursionError:
-        raise InputError(path, "", None, "not valid TOML: nested too deeply") from None
-    except (
-        ValueError
-    ) as error:  # Python reads no number of more than 4300 digits, and no 30 February
-        long = next(
-            (
-                row
-                for row, line in enumerate(text.splitlines(), 1)
-                if re.search(r"[\d_]{4300,}", line)
-            ),
-            None,
-        )
-        said = f"line {long}: a whole number of more than 4300 digits" if long else str(error)
-        raise InputError(path, "", None, _in_text(f"not valid TOML: {said}")) from None
-    if (deep := _depth(tables)) > _DEEPEST:
-        raise InputError(path, "", None, f"tables and lists {deep} deep; at most {_DEEPEST}")
-    return tables
-
-
-def _depth(tables) -> int:
-    """Levels of tables and lists within one another."""
-    depth, level = 0, [tables]
-    while level:
-        depth += 1
-        level = [
-            item
-            for holder in level
-            for item in (holder.values() if isinstance(holder, dict) else holder)
-            if isinstance(item, (dict, list))
-        ]
-    return depth
-
-
-def stated(tables: dict) -> dict:
-    """Tables without the keys that are left open."""
-    return {
-        key: stated(value) if isinstance(value, dict) else value
-        for key, value in tables.items()
-        if value is not None
-    }
-
-
 def table_of(section, defaults: bool) -> dict:
     """The table of a section: without keys that are left open, or that are not stated as they
     stand at their `defaults`.
@@ -518,22 +404,3 @@ def meant(name: str, known, prefix: str = "") -> str:
     begun = [one for one in known if one.startswith(f"{name}_")]
     near = difflib.get_close_matches(name, begun or known, 1, 0.0 if begun else 0.6)
     return f"; did you mean {prefix}{near[0]}?" if near else ""
-
-
-def nested(key: str, value) -> dict:
-    """Tables in which the dotted key has this value."""
-    for part in reversed(key.split(".")):
-        value = {part: value}
-    return value
-
-
-def merge(base: dict, over: dict) -> dict:
-    """Tables of `base` overridden by those of `over`, key by key."""
-    merged = dict(base)
-    for key, value in over.items():
-        merged[key] = (
-            merge(merged[key], value)
-            if isinstance(value, dict) and isinstance(merged.get(key), dict)
-            else value
-        )
-    return merged

@@ -8,7 +8,7 @@ import functools
 import hashlib
 from pathlib import Path
 
-from fecolumn import __version__
+from fecolumn.foundation.version import __version__
 
 #: Counts up whenever the same case gives another motion; measurements state it, so that those of an
 #: older one are known. See "When motions change" in the manual's contributing.md.
@@ -18,6 +18,10 @@ _PACKAGE = Path(__file__).parents[1]
 # Folders and files of which results depend; what only reads, writes, waits or tells is left out
 DECIDING = (
     "case/bodies.py",
+    "case/body_keys.py",
+    "case/case_tables.py",
+    "case/check_case.py",
+    "case/column_keys.py",
     "case/case.py",
     "case/check_bodies.py",
     "case/check_bond.py",
@@ -27,10 +31,17 @@ DECIDING = (
     "case/check_link.py",
     "case/check_step.py",
     "case/given.py",
+    "case/ground.py",
+    "case/joint.py",
+    "case/link.py",
     "case/mesh_file_keys.py",
+    "case/mesh_limits.py",
     "case/model_keys.py",
     "case/model_names.py",
+    "case/model_sections.py",
     "case/model_table.py",
+    "case/outline_keys.py",
+    "case/reading.py",
     "case/sections.py",
     "case/arch.py",
     "case/polygon.py",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import brentq
@@ -12,14 +11,12 @@ from fecolumn.mesh.bricks import BASE, BrickMesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.outline import foot_sides
-
-if TYPE_CHECKING:
-    from fecolumn.case.short_form import ShortForm
+from fecolumn.mesh.upright import Upright
 
 GROWTH = 1.5  # largest ratio of neighbouring bricks
 
 
-def base_mesh(case: ShortForm) -> BrickMesh:
+def base_mesh(case: Upright) -> BrickMesh:
     """Rectangular plate centred on the axis, its top at z = 0.
 
     Squares of `fine_size_m` cover the footprint and the slide allowance; outside and downwards the
@@ -37,7 +34,7 @@ def base_mesh(case: ShortForm) -> BrickMesh:
     return swept_grid(x, y, levels(case)[::-1], BASE)
 
 
-def levels(case: ShortForm) -> np.ndarray:
+def levels(case: Upright) -> np.ndarray:
     """Levels (n,) of the base's nodes from 0 at the top, falling [m]."""
     return depths(case.base.thickness_m, case.mesh.fine_size_m, case.mesh.base_size_m)
 
@@ -73,7 +70,7 @@ def plate_line(spans, low: float, high: float, fine: float, largest: float) -> n
     return np.concatenate(pieces)
 
 
-def base_counts(case: ShortForm) -> tuple[int, int, int] | None:
+def base_counts(case: Upright) -> tuple[int, int, int] | None:
     """Bricks of the base along x, y and z, told without making it; None of a base without edges."""
     if case.base.kind != "plate":
         return None

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from fecolumn.mesh.bricks import CAP, BrickMesh
 from fecolumn.mesh.column import divisions
 from fecolumn.mesh.gmsh_section import swept_grid
-
-if TYPE_CHECKING:
-    from fecolumn.case.short_form import ShortForm
+from fecolumn.mesh.upright import Upright
 
 
-def cap_mesh(case: ShortForm) -> BrickMesh | None:
+def cap_mesh(case: Upright) -> BrickMesh | None:
     """Rectangular plate of equal bricks, centred on the axis, its bottom at the column's top; None
     without a cap.
     """

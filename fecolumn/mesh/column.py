@@ -5,7 +5,6 @@ to each other.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,12 +12,10 @@ from fecolumn.mesh.bricks import FLANGE, LOWER, UPPER, BrickMesh, merged_mesh
 from fecolumn.mesh.gmsh_section import extruded
 from fecolumn.mesh.outline import is_solid
 from fecolumn.mesh.section import Annulus, Disc, Rectangle
-
-if TYPE_CHECKING:
-    from fecolumn.case.short_form import ShortForm
+from fecolumn.mesh.upright import Upright
 
 
-def column_mesh(case: ShortForm) -> BrickMesh:
+def column_mesh(case: Upright) -> BrickMesh:
     """Tube, solid cylinder or block, on its flange if it has one; its foot at z = 0 and its axis on
     z.
 
@@ -52,7 +49,7 @@ def column_mesh(case: ShortForm) -> BrickMesh:
     return merged_mesh(parts)
 
 
-def part_layers(case: ShortForm) -> list[tuple[int, float, float, int]]:
+def part_layers(case: Upright) -> list[tuple[int, float, float, int]]:
     """Part, bottom [m], height [m] and layers of bricks of the built parts, from the foot
     upwards.
     """
@@ -88,7 +85,7 @@ def _spread(equal_area: float, layers: int, top: float | None) -> float:
     return (-b + math.sqrt(b * b - 4 * a * c)) / (2 * a)
 
 
-def section(case: ShortForm, part: int) -> Annulus | Disc | Rectangle:
+def section(case: Upright, part: int) -> Annulus | Disc | Rectangle:
     """Section of the flange, the lower or the upper part, its circles the true ones."""
     column, fine, coarse = case.column, case.mesh.fine_size_m, case.mesh.coarse_size_m
     if part == FLANGE:

@@ -5,16 +5,14 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.base_plate import base_counts
 from fecolumn.mesh.bricks import BASE, CAP, FLANGE, LOWER, PART_NAMES, UPPER
 from fecolumn.mesh.column import divisions, part_layers, section
 from fecolumn.mesh.imported import own_mesh
-
-if TYPE_CHECKING:
-    from fecolumn.case.short_form import ShortForm
+from fecolumn.mesh.upright import Upright
 
 # Rough. MUMPS' factors of the reference specimen (13,302 degrees of freedom without base) and of a
 # marble drum (5,031) have 6 and 16 n^(4/3) numbers, and the full-order engine then took 0.64 and
@@ -146,7 +144,7 @@ def _span(seconds: float) -> str:
     )
 
 
-def estimate(case: ShortForm) -> Estimate:
+def estimate(case: Upright) -> Estimate:
     """Estimate of a case whose sizes are all known."""
     bricks, nodes, foot = body_counts(case)
     if counts := base_counts(case):
@@ -157,7 +155,7 @@ def estimate(case: ShortForm) -> Estimate:
     return Estimate(bricks, dofs, loads, case.integration.engine)
 
 
-def body_counts(case) -> tuple[dict[int, int], dict[int, int], int]:
+def body_counts(case: Upright) -> tuple[dict[int, int], dict[int, int], int]:
     """Elements and nodes of the parts of a column with flange and cap, and nodes of its foot, told
     without making them.
     """
@@ -181,14 +179,14 @@ def body_counts(case) -> tuple[dict[int, int], dict[int, int], int]:
     return bricks, nodes, foot
 
 
-def _cap_counts(case: ShortForm):
+def _cap_counts(case: Upright):
     cap, size = case.cap, case.mesh.cap_size_m
     return cap and tuple(
         divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m)
     )
 
 
-def refuse_large_column(case: ShortForm, file) -> None:
+def refuse_large_column(case: Upright, file) -> None:
     """Refuse a case of more degrees of freedom than `mesh.limit_dofs`, naming the size that makes
     it so and one that would fit.
     """
@@ -257,7 +255,7 @@ def refuse_sizes(
     )
 
 
-def _with(case: ShortForm, key: str, value: float) -> Estimate:
+def _with(case: Upright, key: str, value: float) -> Estimate:
     name = key.partition(".")[2]
     mesh = case.mesh
     sizes = (

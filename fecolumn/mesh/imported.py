@@ -8,7 +8,6 @@ import io
 import re
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -21,10 +20,8 @@ from fecolumn.mesh.filled import filled
 from fecolumn.mesh.jacobian import corner_jacobians
 from fecolumn.mesh.mass import MassProperties
 from fecolumn.mesh.mesh_file import MeshFile, UnusableShape
+from fecolumn.mesh.upright import Upright
 from fecolumn.mesh.weighing import NoSuchDensity, relative_densities
-
-if TYPE_CHECKING:
-    from fecolumn.case.short_form import ShortForm
 
 _DIMENSION_TOLERANCE = 0.01
 _BELOW_THREE_DIMENSIONS = {
@@ -104,7 +101,7 @@ def own_mesh(file: MeshFile) -> OwnMesh:
     return _own_mesh(file, content(file.path))
 
 
-def imported_column(case: ShortForm) -> BrickMesh:
+def imported_column(case: Upright) -> BrickMesh:
     """Column of `case.column.mesh_file`; its height and outer diameter must agree with the case
     within 1 %, where it has them.
 
@@ -285,7 +282,7 @@ def _read(path: Path, refuse):
         refuse(None, f"cannot be read as a mesh by meshio: {said or type(error).__name__}")
 
 
-def _check_dimensions(own: OwnMesh, case: ShortForm, refuse) -> None:
+def _check_dimensions(own: OwnMesh, case: Upright, refuse) -> None:
     column = case.column
     diameter = np.ptp(own.mesh.points[:, :2], axis=0).mean()
     for key, value, wanted in (

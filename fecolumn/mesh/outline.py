@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from fecolumn.mesh.upright import Upright
 
-def foot_sides(case) -> tuple[float, float]:
+
+def foot_sides(case: Upright) -> tuple[float, float]:
     """Length along x and width along y [m] of the rectangle around the foot."""
     return foot_of_column(case.column, case.flange)
 
@@ -28,7 +30,7 @@ def outline_sides(column) -> tuple[float, float]:
 
 def own_of(column):
     """The user's own mesh of a [column]."""
-    from fecolumn.mesh.imported import own_mesh
+    from fecolumn.mesh.imported import own_mesh  # which brings numba
 
     return own_mesh(column.drawn)
 

@@ -8,7 +8,6 @@ import functools
 import math
 import operator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,9 +16,7 @@ from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
 from fecolumn.mesh.mass import MassProperties, mass_properties
 from fecolumn.mesh.outline import is_solid, own_of
 from fecolumn.mesh.specimen import SpecimenMesh
-
-if TYPE_CHECKING:
-    from fecolumn.case.short_form import ShortForm
+from fecolumn.mesh.upright import Upright
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +36,7 @@ class QualityRow:
         return None if self.exact is None else self.mesh / self.exact - 1
 
 
-def exact_column(case: ShortForm) -> MassProperties:
+def exact_column(case: Upright) -> MassProperties:
     """Closed form of the tube, solid cylinder or block, without flange and cap."""
     column, density = case.column, case.material.density_kg_m3
     if column.shape == "block":
@@ -56,7 +53,7 @@ def exact_column(case: ShortForm) -> MassProperties:
     )
 
 
-def exact_flange(case: ShortForm) -> MassProperties:
+def exact_flange(case: Upright) -> MassProperties:
     """Closed form of the flange."""
     flange = case.flange
     return ring_properties(
@@ -68,7 +65,7 @@ def exact_flange(case: ShortForm) -> MassProperties:
     )
 
 
-def exact_cap(case: ShortForm) -> MassProperties:
+def exact_cap(case: Upright) -> MassProperties:
     """Closed form of the cap plate."""
     cap = case.cap
     return box_properties(
@@ -101,7 +98,7 @@ def box_properties(a, b, c, bottom, density) -> MassProperties:
     return MassProperties(a * b * c, mass, np.array([0, 0, bottom + c / 2]), inertia)
 
 
-def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[QualityRow, ...]:
+def quality_table(case: Upright, specimen: SpecimenMesh) -> tuple[QualityRow, ...]:
     """Jacobians, and mass properties of flange, column, cap and their assembly, against closed
     forms where the column is a built one.
 
@@ -162,7 +159,7 @@ def quality_table(case: ShortForm, specimen: SpecimenMesh) -> tuple[QualityRow, 
     return tuple(rows)
 
 
-def _drawn_column(body: BrickMesh, case: ShortForm) -> MassProperties | None:
+def _drawn_column(body: BrickMesh, case: Upright) -> MassProperties | None:
     """Of the surface or the CAD body that a column was drawn as; None of elements of one's own."""
     drawn, density = own_of(case.column).exact, case.material.density_kg_m3
     if drawn is None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,9 +13,7 @@ from fecolumn.mesh.cap_plate import cap_mesh
 from fecolumn.mesh.column import column_mesh, section
 from fecolumn.mesh.imported import imported_column
 from fecolumn.mesh.tie import Tie, adjust, tie
-
-if TYPE_CHECKING:
-    from fecolumn.case.short_form import ShortForm
+from fecolumn.mesh.upright import Upright
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +40,7 @@ class SpecimenMesh:
     foot_nodes: np.ndarray
 
 
-def specimen_mesh(case: ShortForm) -> SpecimenMesh:
+def specimen_mesh(case: Upright) -> SpecimenMesh:
     """Meshes of a case, built or imported.
 
     Raises
@@ -56,7 +53,7 @@ def specimen_mesh(case: ShortForm) -> SpecimenMesh:
     return SpecimenMesh(body, base_mesh(case), ties, foot)
 
 
-def body_mesh(case) -> tuple[BrickMesh, tuple[Tie, ...]]:
+def body_mesh(case: Upright) -> tuple[BrickMesh, tuple[Tie, ...]]:
     """Mesh of a column with flange and cap, slaves already on their master surfaces, and its ties.
 
     Raises
@@ -79,7 +76,7 @@ def body_mesh(case) -> tuple[BrickMesh, tuple[Tie, ...]]:
     return body, tuple(ties)
 
 
-def _joints(case: ShortForm, column: BrickMesh, height: float):
+def _joints(case: Upright, column: BrickMesh, height: float):
     """Slave part, master part, height [m] and keys of each joint, from the foot upwards."""
     lowest = LOWER if column.has_part(LOWER) else UPPER
     if column.has_part(FLANGE):
@@ -95,7 +92,7 @@ def _joints(case: ShortForm, column: BrickMesh, height: float):
         yield column.top_part, CAP, height, "column.height_m, cap"
 
 
-def _reach(case: ShortForm) -> float:
+def _reach(case: Upright) -> float:
     """How far a slave may be moved [m]: the sagitta of a brick's chord and a tenth of a fine
     brick.
     """

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.fft import next_fast_len
 
-import fecolumn
+from fecolumn.foundation.version import __version__
 from fecolumn.motions.atkinson_silva import duration, fourier_amplitude
 from fecolumn.motions.directivity_pulse import DirectivityPulse, scenario_pulse
 from fecolumn.motions.ensemble import Ensemble
@@ -247,7 +247,7 @@ def near_fault_ensemble(
         parameters,
         {
             "model": SOURCE,
-            "version": fecolumn.__version__,
+            "version": __version__,
             "seed": int(seed),
             "arguments": arguments,
         },

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
-import fecolumn
+from fecolumn.foundation.version import __version__
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.record import GroundMotion
 
@@ -248,7 +248,7 @@ def pulse_ensemble(
         },
         provenance={
             "model": SHAPES[shape].source,
-            "version": fecolumn.__version__,
+            "version": __version__,
             "arguments": arguments,
         },
     )

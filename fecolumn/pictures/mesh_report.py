@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case.bodies import Cone, Ground, Matrices, Meshed, Plate, Prism, Storeys
+from fecolumn.case.bodies import Cone, Matrices, Meshed, Plate, Prism, Storeys
+from fecolumn.case.column_keys import Column
+from fecolumn.case.ground import Ground
 from fecolumn.case.sections import Cap, Flange, Material
-from fecolumn.case.short_form import Column, Heights
 from fecolumn.engines.reduced_engine import upright
 from fecolumn.engines.scene.structure_scene import structure_scene
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
@@ -19,19 +20,20 @@ from fecolumn.mesh.export import write_meshes
 from fecolumn.mesh.jacobian import scaled_jacobian
 from fecolumn.mesh.mass import mass_properties
 from fecolumn.mesh.outline import is_solid
-from fecolumn.mesh.picture import picture
 from fecolumn.mesh.quality import QualityRow, quality_table
 from fecolumn.mesh.specimen import SpecimenMesh
+from fecolumn.mesh.upright import Upright
+from fecolumn.pictures.mesh_picture import mesh_picture
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.layout import layout_of
+from fecolumn.structures.made_layout import keep_models
 from fecolumn.structures.model import GROUND
-from fecolumn.structures.picture import structure_picture
 from fecolumn.structures.place import touching
 from fecolumn.structures.reduction import body_of
 from fecolumn.structures.shapes import shape_of
 from fecolumn.structures.size import expected, made_of
 from fecolumn.structures.store import kept_body
-from fecolumn.structures.structure import assembled, keep_models, standing_of
+from fecolumn.structures.structure import assembled, standing_of
 from fecolumn.structures.tied import built_of
 
 #: Files that the report writes.
@@ -42,7 +44,7 @@ _NOTHING = BrickMesh(np.zeros((0, 3)), np.zeros((0, 8), np.int64), np.zeros(0, n
 
 
 @dataclass(frozen=True, slots=True)
-class Made(Heights):
+class Made(Upright):
     """What a body is made of, as the closed forms of its mass and bending take it."""
 
     column: Column
@@ -66,7 +68,7 @@ def mesh_report(case, file, folder, say=lambda text: None) -> str:
     scene = structure_scene(case, upright(case, structure), layout.drawings, file)
     folder.mkdir(parents=True, exist_ok=True)
     write_meshes(scene.meshes, folder)
-    _draw(scene, structure, folder / "mesh.png")
+    mesh_picture(scene, structure, folder / "mesh.png")
     found = made_of(case, models, scene)
     text = "\n".join(
         [
@@ -83,17 +85,6 @@ def mesh_report(case, file, folder, say=lambda text: None) -> str:
     )
     (folder / "table.txt").write_text(text + "\n")
     return text
-
-
-def _draw(scene, structure, path: Path) -> None:
-    """A body alone with its foot magnified, several with their names."""
-    meshes = scene.meshes
-    feet = [contact for contact in scene.contacts if contact.on_ground]
-    if len(scene.bodies) > 1 or len(feet) != 1 or not meshes[0].part.all():
-        structure_picture(scene, structure, path)
-        return
-    base = meshes[1] if len(meshes) > 1 else _NOTHING
-    picture(SpecimenMesh(meshes[0], base, (), feet[0].points), path)
 
 
 def _parts(scene) -> list[str]:

@@ -9,12 +9,9 @@ from __future__ import annotations
 
 import math
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-
-if TYPE_CHECKING:
-    from fecolumn.statistics.ecdf import Ecdf
 from numpy.typing import ArrayLike, NDArray
 
 
@@ -71,22 +68,24 @@ def wilson(k: ArrayLike, n: int, confidence: float = 0.95) -> tuple[NDArray[Any]
     return np.where(k == 0, 0.0, lower), np.where(k == n, 1.0, upper)
 
 
-def dkw(ecdf: Ecdf, confidence: float = 0.95) -> tuple[NDArray[Any], NDArray[Any]]:
+def dkw(cdf: ArrayLike, n: int, confidence: float = 0.95) -> tuple[NDArray[Any], NDArray[Any]]:
     """Simultaneous band F +- `dkw_distance`, clipped to [0, 1].
 
     Parameters
     ----------
-    ecdf
-        an `Ecdf`.
+    cdf
+        (m,) F.
+    n
+        size of the sample, overturned runs included.
     confidence
         level, in (0, 1).
 
     Returns
     -------
-    lower, upper: at ecdf.x, (m,) each.
+    lower, upper: (m,) each.
     """
-    reach = dkw_distance(ecdf.n, confidence)
-    return np.maximum(ecdf.cdf - reach, 0.0), np.minimum(ecdf.cdf + reach, 1.0)
+    cdf, reach = np.asarray(cdf, float), dkw_distance(n, confidence)
+    return np.maximum(cdf - reach, 0.0), np.minimum(cdf + reach, 1.0)
 
 
 def dkw_distance(n: ArrayLike, confidence: float = 0.95) -> Any:

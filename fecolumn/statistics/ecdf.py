@@ -9,9 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fecolumn.statistics.bands import greenwood, normal_quantile
-
-__all__ = ["Ecdf", "censored", "ecdf", "normal_quantile", "percentile", "proportion_interval"]
+from fecolumn.statistics.bands import greenwood
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fecolumn.statistics.ecdf import normal_quantile
+from fecolumn.statistics.bands import normal_quantile
 
 #: A difference of two CDFs that most would call small: "no difference" is claimed up to it.
 SMALL = 0.1

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fecolumn.statistics.ecdf import normal_quantile
+from fecolumn.statistics.bands import normal_quantile
 from fecolumn.statistics.equivalence import paired_error, upper_bound
 
 _CONFIDENCE = 0.95

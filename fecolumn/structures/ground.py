@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from fecolumn.case.bodies import Ground
+from fecolumn.case.ground import Ground
 from fecolumn.contact.unbounded_base import rigid_base, unbounded_base, window
 from fecolumn.foundation._compiled import cache_folder
 from fecolumn.foundation.digests import remove_damaged

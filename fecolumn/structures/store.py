@@ -32,6 +32,9 @@ from fecolumn.structures.model import BodyModel, StoreyDrifts, Surface
 #: Sources that bodies, layouts and grounds are made from, whole folders where most of them are.
 SOURCES = (
     "case/bodies.py",
+    "case/body_keys.py",
+    "case/ground.py",
+    "case/joint.py",
     "fem",
     "mesh",
     "structures",

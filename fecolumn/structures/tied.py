@@ -7,18 +7,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from fecolumn.case.bodies import Block, Cylinder, Meshed
+from fecolumn.case.column_keys import Base, Column, Mesh
 from fecolumn.case.sections import Cap, Flange
-from fecolumn.case.short_form import Base, Column, Heights, Mesh
 from fecolumn.case.sizes import sized
 from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.estimate import body_counts
 from fecolumn.mesh.imported import own_mesh
 from fecolumn.mesh.specimen import body_mesh
+from fecolumn.mesh.upright import Upright
 
 
 @dataclass(frozen=True, slots=True)
-class Built(Heights):
+class Built(Upright):
     """Sections of the short form that say what a column is built of."""
 
     column: Column

@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from fecolumn.case.bodies import Solid
+from fecolumn.case.body_keys import Solid
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import BrickMesh
 from fecolumn.mesh.imported import own_mesh

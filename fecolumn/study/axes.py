@@ -28,9 +28,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fecolumn.case.case import type_of
-from fecolumn.case.model_names import TABLES as TABLES_OF_MODELS
-from fecolumn.case.model_names import model_class
+from fecolumn.case.case_tables import type_of
+from fecolumn.case.model_sections import SECTIONS
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.schema import InputError, build, meant
 from fecolumn.motions.chosen import chosen_motions
@@ -281,7 +280,7 @@ def _known(key: str, told: str, path: Path | str) -> None:
 
 def _of_model(key: str) -> Any:
     """Type of a dotted key of a rocking model's own table, such as podium.storeys, or None."""
-    if key.partition(".")[0] not in TABLES_OF_MODELS:
+    if key.partition(".")[0] not in SECTIONS:
         return None
     from fecolumn.case import model_table
 
@@ -290,10 +289,9 @@ def _of_model(key: str) -> Any:
 
 def _keys_of_model(table: str) -> tuple[str, ...]:
     """Dotted keys of a rocking model's own table; none of any other."""
-    if table not in TABLES_OF_MODELS:
+    if table not in SECTIONS:
         return ()
-    section = model_class(TABLES_OF_MODELS[table]).SECTION
-    return tuple(f"{table}.{field.name}" for field in dataclasses.fields(section))
+    return tuple(f"{table}.{field.name}" for field in dataclasses.fields(SECTIONS[table]))
 
 
 def _known_keys(section: Any = ShortForm, prefix: str = "") -> dict[str, type]:

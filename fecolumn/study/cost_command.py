@@ -115,11 +115,12 @@ def _tell(words: str) -> None:
 
 def _duration(case: Case, file: str) -> float:
     """Time analysed [s], until rest the longest."""
-    from fecolumn.case.case import check, check_duration
+    from fecolumn.case.check_case import check
     from fecolumn.motions.load import load_motion
+    from fecolumn.simulation import check_analysis
 
     check(case, file)
-    check_duration(case, file)
+    check_analysis(case, file)
     if case.integration.duration_s or case.motion is None:
         return case.integration.duration_s
     ground = load_motion(case.motion, float(case.integration.dt_s), file)
@@ -143,7 +144,7 @@ def first_steps(case: Case, file: str, seconds: float) -> FirstSteps:
     import numpy as np
     from mpi4py import MPI
 
-    from fecolumn.case.case import check
+    from fecolumn.case.check_case import check
     from fecolumn.engines.trial_run import trial
     from fecolumn.simulation import started_analysis
 

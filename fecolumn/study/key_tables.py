@@ -105,6 +105,8 @@ def tables() -> list[Table]:
                     "case",
                 )
             )
+    from fecolumn.case.model_sections import SECTIONS
+
     return [
         *found,
         *_of_structures(),
@@ -112,31 +114,19 @@ def tables() -> list[Table]:
         Table("latin_hypercube", _sentence(LatinHypercube), _keys(LatinHypercube), "study"),
         *(
             Table(name, _sentence(section), _keys(section), "model")
-            for name, section in _model_sections().items()
+            for name, section in SECTIONS.items()
         ),
     ]
 
 
-def _model_sections() -> dict[str, type]:
-    """Sections of the rocking models by the names of their tables."""
-    from fecolumn.case.model_names import MODELS, model_class
-
-    return {cls.TABLE: cls.SECTION for cls in map(model_class, MODELS)}
-
-
 def _of_structures() -> list[Table]:
     """Tables of a structure's case beside those that it has in common with a column's."""
-    from fecolumn.case.bodies import (
-        KINDS,
-        Footed,
-        Ground,
-        Interface,
-        LinkKeys,
-        MeshLimits,
-        Placed,
-        Solid,
-        Stuff,
-    )
+    from fecolumn.case.bodies import KINDS, Footed
+    from fecolumn.case.body_keys import Placed, Solid, Stuff
+    from fecolumn.case.ground import Ground
+    from fecolumn.case.joint import Interface
+    from fecolumn.case.link import LinkKeys
+    from fecolumn.case.mesh_limits import MeshLimits
     from fecolumn.case.sections import Cap, Flange, Initial, Material, Motion
 
     def own(kind):

@@ -4,37 +4,24 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-from collections.abc import Callable
+import functools
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from fecolumn.motions.ensemble import Ensemble
     from fecolumn.motions.record import GroundMotion
     from fecolumn.motions.spectral_match import TargetSpectrum
+
+from fecolumn.study.motion_files import add_unit_and_step, all_of, ensemble_path, store
 
 # Beyond it, and below one over it, a factor is told
 _FACTOR = 4.0
 
 
-def add_match_actions(
-    actions: Any,
-    read: Callable[[argparse.Namespace], list[GroundMotion]],
-    store: Callable[[Ensemble, str], int],
-) -> None:
-    """Actions of `fecolumn motions`.
-
-    Parameters
-    ----------
-    actions
-        subparsers of `motions`.
-    read
-        function of the arguments that returns the motions of args.sources.
-    store
-        function of an ensemble and the output file that writes it and returns the exit status.
-    """
+def add_match_actions(actions: Any) -> None:
+    """Actions of `fecolumn motions` that fit motions to a spectrum; actions: its subparsers."""
     for name, words in (
         ("scale", "motions scaled so that each fits a target response spectrum best"),
         ("select", "of many motions those that fit a target spectrum and its dispersion together"),
@@ -67,14 +54,7 @@ def add_match_actions(
             metavar="F",
             help="leave out motions whose scale factor is not between 1/F and F (default: none)",
         )
-        parser.add_argument(
-            "--units",
-            default="",
-            help="unit of the accelerations where a file does not state it: g, m/s2, cm/s2, mm/s2",
-        )
-        parser.add_argument(
-            "--dt", type=float, default=0.0, help="sampling step [s] where a file does not state it"
-        )
+        add_unit_and_step(parser, "a file")
         if name == "select":
             parser.add_argument(
                 "-n", type=int, required=True, help="how many motions to select, 1 or more"
@@ -91,17 +71,10 @@ def add_match_actions(
             metavar="ENSEMBLE.h5",
             help="its table and a figure of the spectra stand beside it",
         )
-        parser.set_defaults(command=_with(name, read, store))
+        parser.set_defaults(command=functools.partial(_match, name))
 
 
-def _with(name: str, read: Any, store: Any) -> Callable[[argparse.Namespace], int]:
-    def command(args: argparse.Namespace) -> int:
-        return _match(name, args, read, store)
-
-    return command
-
-
-def _match(name: str, args: argparse.Namespace, read: Any, store: Any) -> int:
+def _match(name: str, args: argparse.Namespace) -> int:
     import numpy as np
 
     from fecolumn.motions.ensemble import Ensemble
@@ -114,7 +87,8 @@ def _match(name: str, args: argparse.Namespace, read: Any, store: Any) -> int:
     target = _target(args, told)
     if args.most_factor and args.most_factor < 1:
         _refuse(told, "--most-factor", args.most_factor, "must be at least 1, or 0 for any")
-    motions = read(args)
+    ensemble_path(args.output)
+    motions = all_of(args)
     if name == "select" and not 1 <= args.n <= len(motions):
         _refuse(
             told, "-n", args.n, f"must be a number from 1 to {len(motions)}, as many as SET has"
@@ -152,7 +126,7 @@ def _match(name: str, args: argparse.Namespace, read: Any, store: Any) -> int:
             "periods_s": [float(target.periods[0]), float(target.periods[-1])],
         },
     )
-    status: int = store(found, args.output)
+    status = store(found, args.output)
     for file in match_figure(target, scaled[kept], Path(args.output).with_suffix("")):
         print(f"wrote {file}")
     print(_summary(target, scaled[kept], factors[kept], len(motions)))

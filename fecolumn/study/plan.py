@@ -22,13 +22,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fecolumn.case.case import Case, case_from_tables, check_duration
+from fecolumn.case.case import Case, case_from_tables
 from fecolumn.case.check_step import check_stated
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.paths import taken_over
-from fecolumn.foundation.schema import InputError, merge, nested, read_toml, shown
+from fecolumn.foundation.schema import InputError, shown
+from fecolumn.foundation.toml_file import merge, nested, read_toml
 from fecolumn.motions.ensemble_file import file_and_number
+from fecolumn.simulation import check_analysis
 from fecolumn.study.axes import AxisFactor, hint, read_factors
 from fecolumn.study.keys import StudyKeys
 
@@ -233,7 +235,7 @@ class _Maker:
     def _case(self, places: tuple[int, ...]) -> Case:
         """The case at a level of each factor."""
         case = case_from_tables(self._tables(places), self.path)
-        check_duration(case, self.path)
+        check_analysis(case, self.path)
         check_stated(case, self.path)
         if case.motion:
             self._refuse_missing(case.motion)

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import sys
 
-from fecolumn.case.model_names import MODELS
+from fecolumn.case.model_names import TABLES
 
 _SPECTRUM = "spectrum"
 _MEASURES = ("pga_m_s2", "pgv_m_s", "pgd_m")  # of motions.intensity.peak_values
@@ -17,10 +17,10 @@ def add_arguments(parser) -> None:
     """Arguments of `fecolumn rocking`."""
     parser.add_argument(
         "model",
-        choices=(*MODELS, _SPECTRUM),
+        choices=(*TABLES.values(), _SPECTRUM),
         metavar="MODEL",
-        help=f"{', '.join(MODELS)}; or {_SPECTRUM}: which pulses overturn a block, CASE its "
-        "[block]",
+        help=f"{', '.join(TABLES.values())}; or {_SPECTRUM}: which pulses overturn a "
+        "block, CASE its [block]",
     )
     parser.add_argument(
         "case",

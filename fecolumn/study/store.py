@@ -18,11 +18,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
-from fecolumn import __version__
 from fecolumn.foundation.atomic import UNFINISHED, write_json
 from fecolumn.foundation.content import content
 from fecolumn.foundation.files import Unreadable, read_json
 from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.version import __version__
 from fecolumn.study.ledger import (
     PLANNED,
     RUNNING,

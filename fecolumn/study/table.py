@@ -12,8 +12,7 @@ from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
-from fecolumn.study.bond_peaks import BOND_COLUMNS, peaks_of_bonds
-from fecolumn.study.link_peaks import LINK_COLUMNS, peaks_of_links
+from fecolumn.study.device_peaks import BOND_COLUMNS, LINK_COLUMNS, peaks_of_bonds, peaks_of_links
 from fecolumn.study.plan import Plan
 from fecolumn.study.store import DONE
 
@@ -108,7 +107,7 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
             timing.append(
                 [*texts, row.n, f"{row.s_per_step:.6f}", f"{sum(s['wall_s'] for s in done):.2f}"]
             )
-            links += [[*texts, *_told(link.row)] for link in peaks_of_links(done)]
+            links += [[*texts, *_told(row)] for row in peaks_of_links(done)]
             bonds += [[*texts, *_told(row)] for row in peaks_of_bonds(done)]
         else:
             table.append([*texts, planned, 0] + [""] * (len(_TABLE) - 2))

@@ -16,7 +16,7 @@ import numpy as np
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.engines.dynamics.history import read_history
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import run as analyse
 from fecolumn.verification.result import CaseRows, Row
 

@@ -34,7 +34,7 @@ from fecolumn.case.case import read_case
 from fecolumn.engines.dynamics.checkpoint import read_checkpoint, write_checkpoint
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.foundation._mpi import launch_environment
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification import FULL

@@ -19,7 +19,7 @@ from fecolumn.engines.dynamics.system import System
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.total_lagrangian import TotalLagrangian
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas

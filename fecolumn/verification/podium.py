@@ -19,15 +19,10 @@ import math
 
 import numpy as np
 
+from fecolumn.case.model_sections import CAV, CRV, LAWS
 from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.podium import Podium, study_podium
-from fecolumn.engines.rocking.podium_impact import (
-    CAV,
-    CRV,
-    LAWS,
-    kinetic_energy_kept,
-    podium_restitution,
-)
+from fecolumn.engines.rocking.podium_impact import kinetic_energy_kept, podium_restitution
 from fecolumn.engines.rocking.storeys import PROFILES, storeys
 from fecolumn.motions.directivity_pulse import MEAN_GAMMA, MEAN_PHASE
 from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES

@@ -33,7 +33,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fecolumn.engines.rocking.podium_impact import CAV, podium_restitution
+from fecolumn.case.model_sections import CAV
+from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.verification.podium_structure import (
     ALPHA,
     GAMMA,

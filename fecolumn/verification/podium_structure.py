@@ -102,20 +102,3 @@ def tilt_of(rows: dict) -> np.ndarray:
     return np.sign(moved) * (
         ALPHA - np.arcsin(np.clip(math.sin(ALPHA) - np.abs(moved) / HALF_DIAGONAL, -1, 1))
     )
-
-
-def kept_rate(rows: dict, skip: float = 2e-3, width: float = 8e-3) -> float:
-    """Rate of the tilt after over before the first impact: by straight and curved fits over `width`
-    [s], `skip` [s] from it.
-    """
-    time, tilt = rows["time"], tilt_of(rows)
-    passed = int(np.argmax(tilt < 0))
-    at = float(np.interp(0.0, -tilt[passed - 1 : passed + 1], time[passed - 1 : passed + 1]))
-    before, after = (
-        ((time > at - skip - width) & (time < at - skip)),
-        ((time > at + skip) & (time < at + skip + width)),
-    )
-    return float(
-        np.polyfit(time[after] - at, tilt[after], 2)[1]
-        / np.polyfit(time[before] - at, tilt[before], 2)[1]
-    )

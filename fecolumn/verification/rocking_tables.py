@@ -22,8 +22,9 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.case.model_sections import LAWS
 from fecolumn.engines.rocking.overturning import half_sine_overturning, half_sine_phase, outcomes
-from fecolumn.engines.rocking.podium_impact import LAWS, podium_restitution
+from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.verification.result import CaseRows, Row
 
 TABLES = Path(__file__).with_name("tables")

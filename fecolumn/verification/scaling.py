@@ -34,7 +34,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import COARSE, column_system, shaking
 from fecolumn.verification.result import CaseRows, Row

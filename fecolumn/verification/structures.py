@@ -22,9 +22,10 @@ import math
 import numpy as np
 
 from fecolumn.case.case import case_from_tables
+from fecolumn.case.model_sections import CRV, WobblingFrameSection
 from fecolumn.engines.rocking import wobbling_equations as equations
-from fecolumn.engines.rocking.podium_impact import CRV, podium_restitution
-from fecolumn.engines.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
+from fecolumn.engines.rocking.podium_impact import podium_restitution
+from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.verification.podium_bodies import podium_rows
 from fecolumn.verification.podium_structure import (

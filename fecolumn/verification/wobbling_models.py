@@ -22,9 +22,10 @@ import math
 
 import numpy as np
 
+from fecolumn.case.model_sections import WobblingFrameSection
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking import wobbling_equations as equations
-from fecolumn.engines.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
+from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.statistics.kolmogorov import asymptotic_p, samples_of_p
 from fecolumn.verification.result import CaseRows, Row

@@ -11,6 +11,7 @@ import pytest
 from benchmarks.planar import column, compare, ensembles, nsgs, package, structures, theory
 from benchmarks.planar.advance import History, advance
 from benchmarks.planar.bodies import GRAVITY, Body, Structure, quadrilateral
+from benchmarks.planar.shaken import Response
 from fecolumn.case.case import case_from_tables
 
 FRAME = structures.frame(**structures.FRAME)
@@ -242,7 +243,7 @@ def test_impacts_are_returns_of_a_joint():
 
 def test_comparison_counts_outcomes_and_distance():
     def response(peak, fallen=False, failed=""):
-        return ensembles.Response(
+        return Response(
             np.arange(3) * 1e-3, np.array([0.0, peak, 0.0]), np.zeros((3, 1)), fallen, failed
         )
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from benchmarks.structures import figure, podium
-from fecolumn.engines.rocking.podium_impact import CAV, CRV
-from fecolumn.verification.podium_structure import ALPHA, HALF_DIAGONAL, kept_rate, tilt_of
+from fecolumn.case.model_sections import CAV, CRV
+from fecolumn.verification.podium_structure import ALPHA, HALF_DIAGONAL, tilt_of
 
 
 def rows_of(response):
@@ -21,7 +21,7 @@ def rows_of(response):
 def test_velocity_kept_at_an_impact_is_that_of_its_law(law):
     rows = rows_of(podium.model_rocking(3, law, 10.0, 0.3, 0.5))
     assert tilt_of(rows).max() == pytest.approx(0.3 * ALPHA)
-    assert kept_rate(rows) == pytest.approx(podium.laws(3)[law == CAV], rel=2e-3)
+    assert podium.kept_rate(rows) == pytest.approx(podium.laws(3)[law == CAV], rel=2e-3)
 
 
 def test_next_top_of_a_rigid_podium_has_the_energy_that_its_law_leaves():

@@ -5,7 +5,7 @@ base.
 from mpi4py import MPI
 
 from fecolumn.case.short_form import short_form
-from fecolumn.foundation.schema import merge, read_toml
+from fecolumn.foundation.toml_file import merge, read_toml
 from fecolumn.verification.one_column import build_system
 
 SPECIMEN = "meshes/stout.toml"

@@ -11,7 +11,7 @@ from fecolumn.case.short_form import short_form
 from fecolumn.engines.dynamics.energy import Ledger
 from fecolumn.engines.dynamics.gravity import standing, tilted
 from fecolumn.engines.dynamics.stepper import Stepper
-from fecolumn.foundation.schema import merge, read_toml
+from fecolumn.foundation.toml_file import merge, read_toml
 from fecolumn.mesh.column import column_mesh
 from fecolumn.verification.one_column import build_system
 

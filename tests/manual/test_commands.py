@@ -14,7 +14,7 @@ import pytest
 from documents import PAGES, ROOT, blocks
 
 from fecolumn.cli import _parser, main
-from fecolumn.foundation.schema import merge, read_toml
+from fecolumn.foundation.toml_file import merge, read_toml
 
 SHELLS = ("sh", "slurm")
 COMMANDS = [

@@ -5,7 +5,7 @@ import tomllib
 import pytest
 from documents import PAGES, ROOT, blocks
 
-from fecolumn.foundation.schema import read_toml
+from fecolumn.foundation.toml_file import read_toml
 
 FILES = sorted(
     file

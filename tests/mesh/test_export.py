@@ -5,7 +5,6 @@ from small_specimen import small_case
 
 from fecolumn.mesh.bricks import merged_mesh
 from fecolumn.mesh.export import write_meshes
-from fecolumn.mesh.picture import picture
 from fecolumn.mesh.specimen import specimen_mesh
 
 
@@ -39,23 +38,3 @@ def test_a_failed_write_leaves_the_earlier_files(specimen, tmp_path, monkeypatch
     with pytest.raises(OSError):
         write_meshes(meshes, tmp_path)
     assert {path: path.read_bytes() for path in tmp_path.iterdir()} == before
-
-
-def test_picture_shows_every_part_in_its_colour_without_an_x_server(
-    specimen, tmp_path, monkeypatch
-):
-    from matplotlib.image import imread
-
-    monkeypatch.delenv("DISPLAY", raising=False)
-    path = picture(specimen, tmp_path / "specimen.png")
-    image = imread(path)[:, :, :3]
-    assert image.shape[0] > 1000 and [p.name for p in tmp_path.iterdir()] == ["specimen.png"]
-    # Reddish (lower), bluish (upper), yellowish (cap) and neutral grey (base) areas, away from the
-    # legend's swatches.
-    foot = image[image.shape[0] // 3 :].reshape(-1, 3)
-    left = image[:, : image.shape[1] // 3].reshape(-1, 3)
-    red, blue = foot[:, 0] - foot[:, 2], left[:, 2] - left[:, 0]
-    assert np.mean(red > 0.2) > 0.02
-    assert np.mean(blue > 0.05) > 0.02
-    assert np.mean(left[:, 0] - left[:, 2] > 0.15) > 0.01
-    assert np.mean(np.ptp(foot, axis=1) + (foot.mean(axis=1) > 0.9) < 0.05) > 0.05

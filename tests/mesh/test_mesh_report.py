@@ -4,9 +4,11 @@ import sys
 from pathlib import Path
 
 import meshio
+import numpy as np
 import pytest
+from small_specimen import small_case
 
-from fecolumn.case.case import case_from_tables
+from fecolumn.case.case import Case, case_from_tables
 from fecolumn.pictures.mesh_report import FILES, mesh_report
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "render"))
@@ -36,3 +38,22 @@ def test_every_body_stands_beside_its_closed_form_and_in_the_files(
     assert set(map(int, sum((part.tolist() for part in mesh.cell_data["body"]), []))) == set(
         range(1, bodies + 1)
     )
+
+
+def test_a_body_alone_is_drawn_in_the_colours_of_its_parts_without_an_x_server(
+    tmp_path, monkeypatch
+):
+    """Reddish (lower), bluish (upper), yellowish (cap) and neutral grey (plate) areas."""
+    from matplotlib.image import imread
+
+    monkeypatch.delenv("DISPLAY", raising=False)
+    mesh_report(Case.of_column(small_case()), "case", tmp_path)
+    image = imread(tmp_path / "mesh.png")[:, :, :3]
+    whole, foot = np.split(image, [image.shape[1] * 2 // 3], axis=1)
+    whole, foot = whole.reshape(-1, 3), foot.reshape(-1, 3)
+    red, blue = foot[:, 0] - foot[:, 2], whole[:, 2] - whole[:, 0]
+    assert np.mean(red > 0.2) > 0.02
+    assert np.mean(blue > 0.05) > 0.01
+    assert np.mean(-blue > 0.15) > 0.005
+    grey = np.ptp(foot, axis=1) + (foot.mean(axis=1) > 0.9) < 0.05
+    assert np.mean(grey) > 0.05

@@ -73,7 +73,7 @@ class Recorded:
 
 def cases() -> dict[str, Recorded]:
     """All cases by name."""
-    from fecolumn.foundation.schema import merge
+    from fecolumn.foundation.toml_file import merge
 
     text = {}
     for file in CASES:

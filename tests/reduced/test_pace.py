@@ -14,7 +14,7 @@ from fecolumn.cli import main
 from fecolumn.engines import pace as paces
 from fecolumn.engines.dynamics.record import Record
 from fecolumn.engines.pace import NAME, Pace, cheaper, contact_points_of
-from fecolumn.foundation.schema import merge, nested
+from fecolumn.foundation.toml_file import merge, nested
 from fecolumn.simulation import run
 
 BLOCK = {

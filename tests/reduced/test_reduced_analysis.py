@@ -13,7 +13,8 @@ import fecolumn.engines.reduced_analysis  # noqa: F401  (compiled functions belo
 from fecolumn import simulation
 from fecolumn.case.case import case_from_tables
 from fecolumn.contact.known_base import KnownBase
-from fecolumn.foundation.schema import InputError, merge, read_toml
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge, read_toml
 from fecolumn.structures.bodies import Drawing
 
 SPECIMEN = "meshes/stout.toml"

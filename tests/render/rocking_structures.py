@@ -3,7 +3,7 @@ sways on its slab.
 """
 
 from fecolumn.case.case import case_from_tables
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import run
 
 STONE = dict(youngs_modulus_pa=50e9, poissons_ratio=0.2, density_kg_m3=2700.0)

@@ -14,7 +14,8 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.rocking.impact import body_restitution
 from fecolumn.engines.rocking.of_bodies import model_of
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import run
 from fecolumn.study.plan import read_plan
 

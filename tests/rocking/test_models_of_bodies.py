@@ -6,10 +6,10 @@ import h5py
 import numpy as np
 import pytest
 
-from fecolumn.case.case import case_from_tables, case_of_table, read_case, structure_from_tables
+from fecolumn.case.case import case_from_tables, case_of_table, read_case
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
 from fecolumn.foundation.schema import InputError
-from fecolumn.simulation import run
+from fecolumn.simulation import check_analysis, run
 
 BLOCK = dict(kind="block", length_m=0.4, width_m=0.6, height_m=1.6, density_kg_m3=2700.0)
 DRUM = dict(kind="cylinder", outer_diameter_m=0.4, height_m=1.6, density_kg_m3=2700.0)
@@ -24,7 +24,7 @@ FRAME = FOOT | dict(head=dict(between=["body", "slab"]))
 
 def case(engine, bodies, joints, **tables):
     plan = dict(engine=engine, dt_s=1e-3, duration_s=1.0)
-    return structure_from_tables(
+    return case_from_tables(
         dict(bodies=bodies, interfaces=joints, integration=plan) | tables, "case.toml"
     )
 
@@ -163,7 +163,7 @@ n_modes = 10
 def test_bodies_of_another_geometry_are_refused_with_the_reason(made, told):
     for read in (
         lambda: model_of(made, "case.toml"),
-        lambda: case_from_tables(made.tables(), "case.toml"),
+        lambda: check_analysis(case_from_tables(made.tables(), "case.toml"), "case.toml"),
     ):
         with pytest.raises(InputError, match="integration.engine|foot_radius|restitution") as one:
             read()

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
+from fecolumn.case.model_sections import BlockSection
 from fecolumn.case.sections import GRAVITY
-from fecolumn.engines.rocking.block import BlockSection, RockingBlock
+from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.impact import (
     body_restitution,
     housner_restitution,

@@ -9,8 +9,9 @@ import pytest
 from scipy.signal import StateSpace, lsim
 
 from benchmarks.podium.ensemble import batches, gathered, responses
-from fecolumn.engines.rocking.podium import Podium, PodiumSection, study_podium
-from fecolumn.engines.rocking.podium_impact import CAV, CRV, LAWS, kinetic_energy_kept
+from fecolumn.case.model_sections import CAV, CRV, LAWS, PodiumSection
+from fecolumn.engines.rocking.podium import Podium, study_podium
+from fecolumn.engines.rocking.podium_impact import kinetic_energy_kept
 from fecolumn.engines.rocking.podium_motion import DAMPED, KINETIC, SHEAR, STRAIN, WORK
 from fecolumn.engines.rocking.storeys import PROFILES, storeys
 from fecolumn.foundation.schema import InputError

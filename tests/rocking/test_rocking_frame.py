@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
+from fecolumn.case.model_sections import BlockSection, FrameSection
 from fecolumn.case.sections import GRAVITY
-from fecolumn.engines.rocking.block import BlockSection, RockingBlock
-from fecolumn.engines.rocking.frame import FrameSection, RockingFrame
+from fecolumn.engines.rocking.block import RockingBlock
+from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.impact import frame_restitution, housner_restitution
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.motions.pulses import Pulse, sample

@@ -9,11 +9,14 @@ from pathlib import Path
 import pytest
 
 from fecolumn.case.case import case_from_tables, read_case
-from fecolumn.case.model_names import MODELS, TABLES, model_class
+from fecolumn.case.model_names import TABLES
+from fecolumn.case.model_sections import SECTIONS
 from fecolumn.cli import main
 from fecolumn.engines.rocking.case import read_model_case
+from fecolumn.engines.rocking.models import MODELS
 from fecolumn.foundation import _compiled
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import read_folder_case, run
 from fecolumn.study.plan import read_plan
 from fecolumn.verification import rocking_tables
@@ -45,7 +48,8 @@ def folder(tmp_path):
 
 
 def test_tables_are_those_of_the_models():
-    assert {model_class(name).TABLE: name for name in MODELS} == TABLES
+    assert {one.TABLE: name for name, one in MODELS.items()} == TABLES
+    assert set(SECTIONS) == set(TABLES)
 
 
 def test_a_podium_runs_as_any_case_and_gives_what_the_rocking_command_gives(folder, capsys):

@@ -9,12 +9,13 @@ import pytest
 from scipy.integrate import trapezoid
 
 from fecolumn.case.case import case_from_tables
+from fecolumn.case.model_sections import WobblingFrameSection, WobblingSection
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.block import RockingBlock, body_plane
 from fecolumn.engines.rocking.of_bodies import model_of
 from fecolumn.engines.rocking.restraint import Restraint
-from fecolumn.engines.rocking.wobbling import Wobbling, WobblingSection
-from fecolumn.engines.rocking.wobbling_frame import WobblingFrame, WobblingFrameSection
+from fecolumn.engines.rocking.wobbling import Wobbling
+from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
 from fecolumn.verification.result import Row

@@ -52,7 +52,7 @@ def test_dkw_has_massarts_constant():
     # sqrt(ln(2 / 0.05) / (2 * 115)) = sqrt(3.688879 / 230) = 0.126644
     assert dkw_distance(115) == pytest.approx(0.126644, abs=1e-6)
     f = ecdf([0.01, 0.02, 0.03, 0.04], [False, False, False, True])
-    lower, upper = dkw(f)
+    lower, upper = dkw(f.cdf, f.n)
     reach = math.sqrt(math.log(40) / 8)
     np.testing.assert_allclose(lower, np.maximum(f.cdf - reach, 0))
     np.testing.assert_allclose(upper, np.minimum(f.cdf + reach, 1))
@@ -68,7 +68,7 @@ def test_simultaneous_band_holds_the_whole_curve_in_95_of_100_ensembles(share):
     for _ in range(1500):
         u = rng.random(n)
         f = ecdf(u, u > 1 - share)
-        lower, upper = dkw(f)
+        lower, upper = dkw(f.cdf, f.n)
         # F is continuous: the worst is at a step or just before it
         edges = np.append(f.x, 1 - share)
         before = np.concatenate([[0.0], upper]) if upper.size else [dkw_distance(n)]

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.stats import beta
 
-from fecolumn.statistics.ecdf import ecdf, normal_quantile, percentile, proportion_interval
+from fecolumn.statistics.bands import normal_quantile
+from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
 from fecolumn.statistics.ensemble import summarize
 
 

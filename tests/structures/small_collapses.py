@@ -5,7 +5,7 @@ import numpy as np
 from fecolumn.case.case import case_from_tables
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.engines.structure_analysis import columns_of
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.structures.structure import structure_model
 
 DENSITY = 2500.0

@@ -5,7 +5,7 @@ from small_structures import RIGID, STONE, structure
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.history import read_history
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import run
 
 SIDE, HEIGHT, SUBGRADE = 0.6, 0.9, 2e7

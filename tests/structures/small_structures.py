@@ -1,7 +1,7 @@
 """Structures of few elements."""
 
 from fecolumn.case.case import case_from_tables
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 
 STONE = dict(youngs_modulus_pa=50e9, poissons_ratio=0.0, density_kg_m3=2700.0)
 BLOCK = dict(kind="block", length_m=0.4, width_m=0.2, height_m=1.2, element_size_m=0.1) | STONE

@@ -10,8 +10,9 @@ import pytest
 from small_structures import BLOCK, FOOT, structure
 
 from fecolumn.foundation import digests
+from fecolumn.structures.made_layout import kept_keys
 from fecolumn.structures.store import kept_body
-from fecolumn.structures.structure import kept_keys, structure_model
+from fecolumn.structures.structure import structure_model
 
 CASE = structure(
     bodies=dict(block=BLOCK | dict(height_m=0.4)),

@@ -8,7 +8,8 @@ from scipy.integrate import solve_ivp
 from small_structures import block, stack, structure
 
 from fecolumn.engines.dynamics.history import read_history
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.pictures.mesh_report import mesh_report
 from fecolumn.simulation import run
 from fecolumn.structures.structure import structure_model

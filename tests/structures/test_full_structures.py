@@ -14,7 +14,8 @@ from small_structures import STONE, structure
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.dynamics.stay import StickOperatorCache
 from fecolumn.engines.elements import structure_of_elements
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import read_folder_case, run
 
 # As in tests/dynamics: by which the engines may part with all modes, displacement [m] and tilt

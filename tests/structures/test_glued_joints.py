@@ -13,11 +13,12 @@ from fecolumn.engines.dynamics.link_law import damage_of
 from fecolumn.engines.dynamics.links import LINK
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.pictures.figures.history_figures import history_figures
-from fecolumn.simulation import run
+from fecolumn.simulation import check_analysis, run
 from fecolumn.structures.structure import structure_model
-from fecolumn.study.bond_peaks import BOND_COLUMNS, peaks_of_bonds
+from fecolumn.study.device_peaks import BOND_COLUMNS, peaks_of_bonds
 from fecolumn.verification.structures_feet import columns_and_rows
 
 WAX = dict(tension_pa=3e4, cohesion_pa=2.5e4, bond_stiffness_n_m3=5e7)
@@ -220,6 +221,7 @@ def test_wrong_glue_is_refused_in_a_line(joint, said):
 def test_glue_where_it_cannot_be_is_refused_in_a_line(tables, said):
     with pytest.raises(InputError, match=said) as caught:
         case = waxed(**tables)
+        check_analysis(case, "small.toml")
         engine_of(case, structure_model(case), "small.toml")
     assert "\n" not in str(caught.value)
 

@@ -20,7 +20,7 @@ from small_grounds import (
 from small_grounds import analysed as analysed_by
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 
 BLOCK = RIGID_BLOCK | dict(rigid=False, element_size_m=0.3)
 SOFT = dict(youngs_modulus_pa=5e7, poissons_ratio=0.3, thickness_m=0.6, element_size_m=0.15)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from small_structures import STONE, stack, structure
 
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import run
 
 

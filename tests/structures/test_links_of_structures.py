@@ -10,7 +10,7 @@ import pytest
 from small_structures import block, structure
 
 from fecolumn.engines.dynamics.history import read_history
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.pictures.figures.history_figures import has_figures, history_figures
 from fecolumn.pictures.mesh_report import mesh_report
 from fecolumn.simulation import run

@@ -7,9 +7,10 @@ import pytest
 from scipy.optimize import brentq
 from small_structures import structure
 
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
+from fecolumn.structures.made_layout import kept_keys
 from fecolumn.structures.store import kept_body, shape_at
-from fecolumn.structures.structure import kept_keys, structure_model
+from fecolumn.structures.structure import structure_model
 from fecolumn.verification.structures_feet import columns_and_rows
 
 LENGTH, SIDE, YOUNG, DENSITY = 2.0, 0.4, 1e8, 2000.0

@@ -8,7 +8,7 @@ from small_structures import STONE, block, stack, structure
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.history import read_history
-from fecolumn.foundation.schema import merge
+from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import run
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.structure import standing_of, structure_model

@@ -258,8 +258,8 @@ def test_labels_of_a_picture_stand_on_the_side_of_what_they_name():
     """So that no line from a label to a column crosses another column: left ones are named to the
     left.
     """
-    from fecolumn.mesh.picture import projection_axes
-    from fecolumn.structures.picture import _labels
+    from fecolumn.pictures.mesh_picture import _labels
+    from fecolumn.pictures.off_screen import projection_axes
     from fecolumn.structures.structure import structure_model
 
     tendon = dict(
@@ -282,7 +282,7 @@ def test_labels_of_a_picture_stand_on_the_side_of_what_they_name():
 
 
 def test_labels_that_do_not_fit_beside_a_picture_are_counted_and_bodies_numbered():
-    from fecolumn.structures.picture import _fitted, _labels
+    from fecolumn.pictures.mesh_picture import _fitted, _labels
     from fecolumn.structures.structure import structure_model
 
     labels = _labels(structure_model(structure(**frame())), np.array([1.0, 0, 0]), 0.0, 2.0)

@@ -4,7 +4,8 @@ import pytest
 from small_collapses import box, rod
 
 from fecolumn.case.case import case_from_tables
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.structures.structure import structure_model
 
 L_OUTLINE = [[0, 0], [0.6, 0], [0.6, 0.2], [0.2, 0.2], [0.2, 0.8], [0, 0.8]]

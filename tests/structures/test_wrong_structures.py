@@ -5,7 +5,8 @@ import pytest
 from small_structures import RIGID, STONE, block, frame, stack, structure
 
 from fecolumn.case.case import case_from_tables, read_case
-from fecolumn.foundation.schema import InputError, merge
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.structures.structure import structure_model
 
 LINK = dict(
@@ -158,11 +159,6 @@ WRONG = [
         "[-10000, 10000]",
     ),
     (stack(column=dict(height_m=1.0)), "bodies", "beside [column]"),
-    (
-        stack(integration=dict(engine="housner")),
-        "integration.engine",
-        "is of one body on the ground",
-    ),
     (
         stack(
             bodies=dict(upper=STOREYS | dict(floor_masses_kg=[9.0], at_m=[0, 0, 0.8])),
@@ -442,7 +438,7 @@ def test_block_alone_is_a_structure():
 
 
 def test_what_cannot_be_is_refused_before_models_are_made(monkeypatch):
-    from fecolumn.structures import structure as made
+    from fecolumn.structures import made_layout as made
 
     monkeypatch.setattr(made, "keep_body", lambda *_: pytest.fail("a reduced model was asked for"))
     tables = stack(

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fecolumn.foundation.schema import InputError
-from fecolumn.study.link_peaks import LINK_COLUMNS, peaks_of_links
+from fecolumn.study.device_peaks import LINK_COLUMNS, peaks_of_links
 from fecolumn.study.plan import read_plan
 from fecolumn.study.questions.limit import read_event
 from fecolumn.study.report.link_section import link_section
@@ -34,11 +34,12 @@ def link(k, broke=None):
 
 def test_quantiles_are_of_all_runs_and_counts_of_those_that_yielded_and_broke():
     runs = [dict(links=dict(bar=link(k), wire=link(1, broke=0.5))) for k in range(1, 6)]
-    bar, wire = peaks_of_links(runs)
-    assert (bar.name, bar.n, bar.yielded, bar.broke, wire.broke) == ("bar", 5, 3, 0, 5)
-    assert bar.quantiles[0] == pytest.approx((3e3, np.quantile(range(1, 6), 0.84) * 1e3, 5e3))
-    assert bar.quantiles[3][2] == pytest.approx(0.01) and bar.work == 30.0
-    assert len(bar.row) == len(LINK_COLUMNS)
+    bar, wire = (dict(zip(LINK_COLUMNS, row, strict=True)) for row in peaks_of_links(runs))
+    assert (bar["link"], bar["n"], bar["yielded"], bar["broke"]) == ("bar", 5, 3, 0)
+    assert wire["broke"] == 5
+    tension = [bar[f"tension_{share}_n"] for share in ("50", "84", "max")]
+    assert tension == pytest.approx((3e3, np.quantile(range(1, 6), 0.84) * 1e3, 5e3))
+    assert bar["shortening_max_m"] == pytest.approx(0.01) and bar["work_50_j"] == 30.0
     # of a model without links, and of a version that told less, nothing is said
     assert peaks_of_links([dict(u_max_m=1.0), dict(links=dict(old=dict(tension_max_n=1.0)))]) == []
 

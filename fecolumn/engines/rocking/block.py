@@ -11,82 +11,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from fecolumn.case.model_sections import BlockSection
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.impact import body_restitution, one_sided_restitution
-from fecolumn.engines.rocking.outline_keys import RockingKeys
 from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
-from fecolumn.foundation.schema import InputError, parameter
-from fecolumn.foundation.section_class import section_class
-
-
-@section_class(kw_only=True)
-class BlockSection(RockingKeys):
-    """Rectangular rigid block that rocks along x, about the edges of its foot; with depth_m along
-    y, too, as if each did not know of the other.
-    """
-
-    depth_m: float | None = parameter(
-        None,
-        doc="depth along y; left out: 1 m of a wall that rocks along x alone",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    density_kg_m3: float = parameter(
-        2000.0,
-        doc="density; of a free block it matters to forces and energies alone",
-        unit="kg/m3",
-        above=0,
-        high=1e5,
-    )
-    sides: int = parameter(
-        2, doc="2: leans to both sides; 1: to +x alone, held by a wall behind it", low=1, high=2
-    )
-    spring_n_m: float = parameter(
-        0.0,
-        doc="stiffness of a horizontal spring on the block's axis",
-        unit="N/m",
-        low=0,
-        high=1e12,
-    )
-    spring_height_m: float | None = parameter(
-        None, doc="height of that spring; left out: at the top", unit="m", above=0, high=1000
-    )
-    bed_n_m2: float = parameter(
-        0.0,
-        doc="stiffness over height of horizontal springs smeared over the block's axis",
-        unit="N/m2",
-        low=0,
-        high=1e12,
-    )
-    bed_from_m: float = parameter(
-        0.0, doc="lower end of that bed of springs", unit="m", low=0, high=1000
-    )
-    bed_to_m: float | None = parameter(
-        None,
-        doc="upper end of that bed of springs; left out: the top",
-        unit="m",
-        above=0,
-        high=1000,
-    )
-    roof_mass_kg: float = parameter(
-        0.0, doc="mass on the top, which moves with it as a point", unit="kg", low=0, high=1e9
-    )
-    roof_eccentricity_m: float = parameter(
-        0.0,
-        doc="distance of that mass from the block's axis, towards +x",
-        unit="m",
-        low=-1000,
-        high=1000,
-    )
-    roof_thrust_n: float = parameter(
-        0.0,
-        doc="constant horizontal force of the roof at the top, towards +x",
-        unit="N",
-        low=-1e9,
-        high=1e9,
-    )
+from fecolumn.foundation.schema import InputError
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -100,7 +30,6 @@ class RockingBlock(PlanarModel):
     """
 
     TABLE: ClassVar[str] = "block"
-    SECTION: ClassVar[type] = BlockSection
 
     planes: tuple[Plane, ...]
 

@@ -10,13 +10,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case.case import case_from_tables, case_of_table, check_duration
-from fecolumn.case.model_names import model_class
+from fecolumn.case.case import case_from_tables, case_of_table
+from fecolumn.case.check_case import check_duration
 from fecolumn.case.model_table import Start
 from fecolumn.case.sections import REST, Motion, located
 from fecolumn.engines.rocking.model import Model, ModelResponse
+from fecolumn.engines.rocking.models import MODELS
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
-from fecolumn.foundation.schema import InputError, build, merge, read_toml
+from fecolumn.foundation.schema import InputError, build
+from fecolumn.foundation.toml_file import merge, read_toml
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.motions.load import load_motion
 from fecolumn.motions.record import GroundMotion
@@ -99,7 +101,7 @@ def read_model_case(name: str, path) -> ModelCase:
     InputError
         unknown key, value out of range, parts that do not fit.
     """
-    tables, cls = read_toml(path), model_class(name)
+    tables, cls = read_toml(path), MODELS[name]
     if not {"column", "bodies"} & set(tables) and not isinstance(tables.get(cls.TABLE), dict):
         raise InputError(
             path,

@@ -14,30 +14,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from fecolumn.case.model_sections import FrameSection
 from fecolumn.engines.rocking.block import described
 from fecolumn.engines.rocking.impact import frame_restitution
-from fecolumn.engines.rocking.outline_keys import RockingKeys
 from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.swing import GRAVITY
-from fecolumn.foundation.schema import parameter
-from fecolumn.foundation.section_class import section_class
-
-
-@section_class(kw_only=True)
-class FrameSection(RockingKeys):
-    """Equal rectangular columns that carry a beam and rock along x."""
-
-    column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
-    beam_mass_kg: float = parameter(doc="mass of the beam", unit="kg", low=0, high=1e9)
-    columns: int = parameter(2, doc="number of columns", low=1, high=10_000)
-    tendon_joints: int = parameter(
-        1,
-        doc="joints that a tendon crosses: 1 where it is anchored in the column, 2 where "
-        "it runs from foundation to beam",
-        low=1,
-        high=2,
-    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -59,7 +41,6 @@ class RockingFrame(PlanarModel):
     """
 
     TABLE: ClassVar[str] = "frame"
-    SECTION: ClassVar[type] = FrameSection
 
     columns: int
     column_mass: float

@@ -2,7 +2,7 @@
 
 Any ensemble runs through any model.
 
-A model is a frozen dataclass with the methods of `Model`. Its name is a word of `MODELS`: of
+A model is a frozen dataclass with the methods of `Model`. Its name is a word of `models.MODELS`: of
 `fecolumn rocking NAME CASE`, and of integration.engine where it can be made from a column's case.
 """
 
@@ -82,12 +82,9 @@ class Model(Protocol):
     ----------
     TABLE
         name of its own table in a model's case file, such as "block".
-    SECTION
-        dataclass (schema.Section) of that table's keys.
     """
 
     TABLE: ClassVar[str]
-    SECTION: ClassVar[type]
 
     @property
     def critical_tilt(self) -> float:

@@ -9,12 +9,13 @@ import numpy as np
 
 from fecolumn.case import bodies as keys
 from fecolumn.case.check_bodies import material_of
-from fecolumn.case.model_names import model_class
+from fecolumn.case.ground import GROUND
 from fecolumn.case.model_table import Start
 from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.model import Model
+from fecolumn.engines.rocking.models import MODELS
 from fecolumn.engines.rocking.podium import Podium
 from fecolumn.engines.rocking.storeys import shear_building
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
@@ -35,7 +36,7 @@ def model_of(case, file) -> Model:
         the bodies are not those of the model; it says what they lack.
     """
     for section in case.own.values():
-        return model_class(case.integration.engine).of_section(section, file)
+        return MODELS[case.integration.engine].of_section(section, file)
     return _Reader(case, file).model()
 
 
@@ -142,7 +143,7 @@ class _Reader:
         pairs = set()
         for interface in self.case.joints.values():
             own, others = (
-                {one} if one == keys.GROUND else {body for body, _ in self.case.copies_of(one)}
+                {one} if one == GROUND else {body for body, _ in self.case.copies_of(one)}
                 for one in (interface.slave, interface.on)
             )
             pairs |= {pair for a in own for b in others for pair in ((a, b), (b, a))}
@@ -154,14 +155,14 @@ class _Reader:
         if more or len(body.places) > 1:
             count = sum(len(one.places) for one in self.case.bodies.values())
             self._lacks(f"is of one body on the ground; there are {count}")
-        if (name, keys.GROUND) not in self._joints():
+        if (name, GROUND) not in self._joints():
             self._lacks(f'needs an interface between "{name}" and the ground')
         return name
 
     def _columns(self) -> tuple[str, str]:
         """The body whose copies are the columns, and that on them."""
         joints = self._joints()
-        below = [name for name in self.case.bodies if (name, keys.GROUND) in joints]
+        below = [name for name in self.case.bodies if (name, GROUND) in joints]
         if len(self.case.bodies) != 2 or len(below) != 1:
             self._lacks(
                 "is of equal columns on the ground, one body with copies_m, and of one body on "
@@ -222,7 +223,7 @@ class _Reader:
     def _friction(self, name: str) -> float:
         """Coefficient of friction between a body and the ground."""
         for interface in self.case.joints.values():
-            if interface.on == keys.GROUND and name in {
+            if interface.on == GROUND and name in {
                 body for body, _ in self.case.copies_of(interface.slave)
             }:
                 own = interface.friction_coefficient

@@ -10,54 +10,15 @@ from typing import ClassVar
 
 import numpy as np
 
+from fecolumn.case.model_sections import CRV, PodiumSection
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.model import ModelResponse, balanced
-from fecolumn.engines.rocking.outline_keys import RectangleKeys
-from fecolumn.engines.rocking.podium_impact import CRV, LAWS, podium_restitution
-from fecolumn.engines.rocking.storeys import PROFILES, ElasticBuilding, storeys
-from fecolumn.foundation.schema import InputError, parameter
-from fecolumn.foundation.section_class import section_class
+from fecolumn.engines.rocking.podium_impact import podium_restitution
+from fecolumn.engines.rocking.storeys import ElasticBuilding, storeys
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
 
 _SHARE = 30  # steps in the period of the highest mode
-
-
-@section_class(kw_only=True)
-class PodiumSection(RectangleKeys):
-    """Building of equal storeys on a beam on rocking rectangular columns, along x."""
-
-    column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
-    floor_mass_kg: float = parameter(doc="mass of each floor", unit="kg", above=0, high=1e9)
-    columns: int = parameter(4, doc="number of columns", low=1, high=10_000)
-    beam_mass_kg: float | None = parameter(
-        None,
-        doc="mass of the beam on the columns; left out: that of a floor",
-        unit="kg",
-        above=0,
-        high=1e9,
-    )
-    storeys: int = parameter(3, doc="number of storeys", low=1, high=200)
-    period_s: float | None = parameter(
-        None,
-        doc="period of the building's first mode on a fixed base; left out: a tenth of the "
-        "number of storeys",
-        unit="s",
-        above=0,
-        high=100,
-    )
-    damping_ratio: float = parameter(0.05, doc="of modes 1 and 2 (Rayleigh)", low=0, high=0.5)
-    profile: str = parameter(
-        "shear",
-        doc="first mode over the height x: flexural 1 - cos(pi x/2), shear sin(pi x/2), "
-        "triangular x",
-        choices=tuple(PROFILES),
-    )
-    impact: str = parameter(
-        CRV,
-        doc="floors at an impact keep their velocity relative to the beam (CRV) or their "
-        "absolute one (CAV)",
-        choices=LAWS,
-    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,7 +42,6 @@ class Podium:
     """
 
     TABLE: ClassVar[str] = "podium"
-    SECTION: ClassVar[type] = PodiumSection
 
     slenderness: float
     half_diagonal: float

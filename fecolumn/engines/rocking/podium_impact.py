@@ -22,8 +22,7 @@ from __future__ import annotations
 
 import math
 
-CRV, CAV = "CRV", "CAV"
-LAWS = (CRV, CAV)
+from fecolumn.case.model_sections import CRV, LAWS
 
 
 def podium_restitution(

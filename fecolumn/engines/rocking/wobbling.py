@@ -14,14 +14,13 @@ from typing import ClassVar
 
 import numpy as np
 
+from fecolumn.case.model_sections import WobblingSection
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction
-from fecolumn.engines.rocking.outline_keys import RollingKeys
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.foundation.schema import InputError, parameter
-from fecolumn.foundation.section_class import section_class
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
 
 #: Tolerance of a step's error, relative to the state: free motion then keeps its energy to 1e-10 in
@@ -29,19 +28,6 @@ from fecolumn.motions.record import GroundMotion
 TOLERANCE = 1e-12
 #: Difference of the inertias across the axis, over their mean, that a round body may have
 _ROUND = 0.02
-
-
-@section_class(kw_only=True)
-class WobblingSection(RollingKeys):
-    """Round rigid column that rolls on the rim of its foot."""
-
-    density_kg_m3: float = parameter(
-        2000.0,
-        doc="density; of a free column it matters to forces and energies alone",
-        unit="kg/m3",
-        above=0,
-        high=1e5,
-    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -61,7 +47,6 @@ class Wobbling:
     """
 
     TABLE: ClassVar[str] = "wobbling"
-    SECTION: ClassVar[type] = WobblingSection
     #: Rims on which the point rolls whose displacement counts: a slab lies on the upper one, too
     RIMS: ClassVar[int] = 1
 

@@ -13,23 +13,10 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from fecolumn.case.model_sections import WobblingFrameSection
 from fecolumn.engines.rocking.frame import RockingFrame
-from fecolumn.engines.rocking.outline_keys import RollingKeys
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
-from fecolumn.foundation.schema import parameter
-from fecolumn.foundation.section_class import section_class
-
-
-@section_class(kw_only=True)
-class WobblingFrameSection(RollingKeys):
-    """Slab on equal round columns that roll on their rims; a tendon is anchored in its column and
-    the slab.
-    """
-
-    column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
-    slab_mass_kg: float = parameter(doc="mass of the slab", unit="kg", above=0, high=1e9)
-    columns: int = parameter(4, doc="number of columns", low=1, high=10_000)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -37,7 +24,6 @@ class WobblingFrame(Wobbling):
     """A slab on `columns` equal columns; attributes as of Wobbling."""
 
     TABLE: ClassVar[str] = "wobbling_frame"
-    SECTION: ClassVar[type] = WobblingFrameSection
     RIMS: ClassVar[int] = 2
 
     @classmethod

@@ -236,8 +236,8 @@ def _contact(joint, shown: _Shown, part, first: np.ndarray) -> JointFace:
 def _expanded(case, structure, kinds, shown, scene: Scene, file) -> StateFields:
     from scipy.spatial import cKDTree
 
+    from fecolumn.structures.made_layout import kept_keys
     from fecolumn.structures.store import body_folder
-    from fecolumn.structures.structure import kept_keys
 
     keys, copies = kept_keys(case, file), {}
     for number, kind in enumerate(kinds):

@@ -6,8 +6,8 @@ import dataclasses
 import typing
 
 from fecolumn.case.bodies import KINDS
-from fecolumn.case.case import NAMED
-from fecolumn.case.model_names import TABLES, model_class
+from fecolumn.case.case_tables import NAMED
+from fecolumn.case.model_sections import SECTIONS
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.case.short_form import ShortForm
 
@@ -69,8 +69,8 @@ def axis_unit(key: str) -> str:
         if kind
         else [ShortForm]
     )
-    if section in TABLES:
-        owners.append(model_class(TABLES[section]).SECTION)
+    if section in SECTIONS:
+        owners.append(SECTIONS[section])
     if section in NAMED:  # [bodies.NAME] and the like
         name = name.rpartition(".")[2]
         owners += [*KINDS.values(), Flange, Cap] if section == "bodies" else [NAMED[section]]

@@ -97,7 +97,7 @@ def _distributions(axes, a, b, labels, limit_mm: float, word: str) -> None:
             f"[{100 * low:.1f}, {100 * high:.1f}]",
         )
         if sample is b and curve.x.size:
-            lower, upper = dkw(curve)
+            lower, upper = dkw(curve.cdf, curve.n)
             for edge, first, note in (
                 (lower, 0.0, "simultaneous 95 % band of the reference"),
                 (upper, dkw_distance(curve.n), None),

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.engines.rocking.podium_impact import CAV, CRV
+from fecolumn.case.model_sections import CAV, CRV
 from fecolumn.pictures.figures.style import BLUE, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
 from fecolumn.statistics.bands import greenwood
 

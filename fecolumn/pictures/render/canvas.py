@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.mesh.picture import light_and_look, off_screen_plotter
 from fecolumn.pictures.figures.style import BLACK, VERMILION
+from fecolumn.pictures.off_screen import light_and_look, off_screen_plotter
 from fecolumn.pictures.render.camera import Camera
 from fecolumn.pictures.render.frame import Frame
 from fecolumn.pictures.render.overlay import Overlay, alike

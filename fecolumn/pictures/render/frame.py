@@ -6,8 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.pictures.render.thrust import Thrust
-
 
 @dataclass(frozen=True, slots=True)
 class Fields:
@@ -20,6 +18,29 @@ class Fields:
     stress: np.ndarray
     pressure: np.ndarray
     centres: np.ndarray | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Thrust:
+    """What is drawn of the forces in n joints, where they are; no length where a joint carries
+    nothing.
+
+    Attributes
+    ----------
+    centers
+        (n, 3) [m] of pressure.
+    resultants
+        (n, 3) [N] on the slaves; 0 where nothing is carried.
+    lines
+        (n, 2, 2, 3) [m] parts of the thrust line from each centre into slave and master.
+    hinges
+        (n,) whether the joint is a hinge.
+    """
+
+    centers: np.ndarray
+    resultants: np.ndarray
+    lines: np.ndarray
+    hinges: np.ndarray
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,8 @@ import numpy as np
 from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.figures.style import BLACK, BLUE, VERMILION
 from fecolumn.pictures.render.camera import Camera
-from fecolumn.pictures.render.thrust import Thrust, scene_size
+from fecolumn.pictures.render.frame import Thrust
+from fecolumn.pictures.render.thrust import scene_size
 
 if TYPE_CHECKING:
     from fecolumn.pictures.render.frames import Frames

@@ -15,7 +15,7 @@ from fecolumn.engines.summary import NAME, check_owner, read_summary
 from fecolumn.foundation.files import Unreadable, is_file, read_json
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.field_frames import FieldFrames, FrameSeries
-from fecolumn.pictures.render.pose import Poses, nearest_rigid
+from fecolumn.pictures.render.pose import Poses
 from fecolumn.pictures.render.scene_history import SceneHistory, read_scene_history
 from fecolumn.pictures.render.state_frames import StateFrames
 from fecolumn.simulation import read_folder_case
@@ -56,8 +56,6 @@ class Result:
         columns of n rows by name
     scene_history
         motion of the scene by these columns.
-    poses
-        Poses of each body.
     fields
         FieldFrames, without frames where none were written.
     states
@@ -69,7 +67,6 @@ class Result:
     summary: dict
     history: dict[str, np.ndarray]
     scene_history: SceneHistory
-    poses: tuple[Poses, ...]
     fields: FieldFrames
     states: StateFrames | None
 
@@ -77,6 +74,11 @@ class Result:
     def scene(self) -> Scene:
         """What is drawn."""
         return self.scene_history.scene
+
+    @property
+    def poses(self) -> tuple[Poses, ...]:
+        """Of each body, at the rows of the history."""
+        return self.scene_history.poses
 
     @property
     def time(self) -> np.ndarray:
@@ -231,36 +233,7 @@ def read_result(folder, body: str = "") -> Result:
     fields = FieldFrames(folder / "fields")
     fields.check(known.scene)
     states = StateFrames(folder / STATES, known.scene) if is_file(folder / STATES) else None
-    poses = known.poses or _poses_of(states, fields, known.scene, folder, case)
-    return Result(folder, case, summary, history, known, poses, fields, states)
-
-
-def _poses_of(states, fields: FieldFrames, scene: Scene, folder: Path, case) -> tuple[Poses, ...]:
-    """Poses at the instants of states or fields, of a history that does not tell them."""
-    if states and len(states.time):
-        time, center, rotation = states.time, states.center, states.rotation
-    elif len(fields.time):
-        time, count = fields.time, len(scene.bodies)
-        center, rotation = np.empty((len(time), count, 3)), np.empty((len(time), count, 3, 3))
-        for k in range(len(time)):
-            moved = scene.points + fields.read(k).displacement
-            for number, piece in enumerate(scene.bodies):
-                rotation[k, number], center[k, number] = nearest_rigid(
-                    piece.upright - piece.center, moved[scene.own(number)]
-                )
-    else:
-        key = "fields" if case.integration.engine == "full" else "states"
-        raise InputError(
-            folder / "history.h5",
-            "",
-            None,
-            "is of a version before 0.7 and does not tell how bodies turn, and the folder has no "
-            f"{key}: run the case into a new folder with output.{key}_every_s = 0.04",
-        )
-    return tuple(
-        Poses(time, rotation[:, k], center[:, k], piece.center)
-        for k, piece in enumerate(scene.bodies)
-    )
+    return Result(folder, case, summary, history, known, fields, states)
 
 
 def read_rows(file: Path) -> dict[str, np.ndarray]:

@@ -20,7 +20,7 @@ class SceneHistory:
     Attributes
     ----------
     poses
-        of each body at the rows of the history; None where the history has no rotations.
+        of each body at the rows of the history.
     u_top
         displacement (n, 3) [m] of the top that is followed.
     top
@@ -35,7 +35,7 @@ class SceneHistory:
     """
 
     scene: Scene
-    poses: tuple[Poses, ...] | None
+    poses: tuple[Poses, ...]
     u_top: np.ndarray
     top: np.ndarray
     title: str
@@ -44,7 +44,7 @@ class SceneHistory:
 
 
 def read_scene_history(case, folder, history: dict[str, np.ndarray], body: str) -> SceneHistory:
-    """Motion of a scene from the history of an analysis; a version before 0.7 has no poses.
+    """Motion of a scene from the history of an analysis.
 
     Raises
     ------
@@ -63,34 +63,31 @@ def read_scene_history(case, folder, history: dict[str, np.ndarray], body: str) 
     mark = observed[1] if followed == observed[0] else "top"
     part = structure.parts[followed]
     column = f"mark/{part.name}.{mark}/displacement"
-    wanted = [f"body/{one.name}/displacement" for one in structure.parts] + [column]
-    for name in wanted:
+    moved = "displacement", "rotation"
+    wanted = [f"body/{one.name}/{what}" for one in structure.parts for what in moved]
+    for name in [*wanted, column]:
         if name not in history:
             raise InputError(
                 folder / "history.h5",
                 "",
                 None,
                 f'has no column "{name}": it is of another structure than that of case.json, '
-                "or of a column and a version before 0.7",
+                "or of a version before 0.7; run the case into a new folder",
             )
     moves = []
     for one in structure.parts:
-        turned = history.get(f"body/{one.name}/rotation")
-        if turned is None:
-            moves = None
-            break
-        matrices = Rotation.from_rotvec(turned).as_matrix()
+        matrices = Rotation.from_rotvec(history[f"body/{one.name}/rotation"]).as_matrix()
         there = one.center + history[f"body/{one.name}/displacement"]
         moves.append(Poses(history["time"], matrices, there, one.center))
     scene = scene_of(case, structure, file)
     return SceneHistory(
         scene,
-        moves and tuple(moves),
+        tuple(moves),
         history[column],
         part.center + part.model.marks[mark][0],
         f"{mark} of {part.name}",
         followed,
-        _floors(scene, structure, history, moves) if moves else {},
+        _floors(scene, structure, history, moves),
     )
 
 

@@ -33,7 +33,7 @@ class StateFrames(FrameSeries):
     Attributes
     ----------
     time
-        (n,) [s] of each. center: (n, nb, 3) [m] of mass; rotation: (n, nb, 3, 3).
+        (n,) [s] of each.
 
     Raises
     ------
@@ -66,9 +66,6 @@ class StateFrames(FrameSeries):
             )
         self._file, self._scene, self._expand = file, scene, None
         super().__init__(self._arrays["time"])
-        count = len(self.time)
-        self.center = self._arrays["center"].reshape(count, -1, 3)
-        self.rotation = self._arrays["rotation"].reshape(count, -1, 3, 3)
 
     def state(self, k: int) -> Snapshot:
         """Snapshot number k."""

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from fecolumn.engines.scene.scene import JointFace, Scene
 from fecolumn.foundation.schema import InputError
-
-if TYPE_CHECKING:
-    from fecolumn.pictures.render.result import Result
+from fecolumn.pictures.render.frame import Thrust
+from fecolumn.pictures.render.result import Result
 
 # Columns of an interface that are needed
 _COLUMNS = ("force", "resultant", "center", "tilt")
@@ -29,29 +25,6 @@ _THROUGH = 0.5
 _ARROW = 0.15
 # Instants at which the largest force is looked for
 _SAMPLES = 100
-
-
-@dataclass(frozen=True, slots=True)
-class Thrust:
-    """What is drawn of the forces in n joints, where they are; no length where a joint carries
-    nothing.
-
-    Attributes
-    ----------
-    centers
-        (n, 3) [m] of pressure.
-    resultants
-        (n, 3) [N] on the slaves; 0 where nothing is carried.
-    lines
-        (n, 2, 2, 3) [m] parts of the thrust line from each centre into slave and master.
-    hinges
-        (n,) whether the joint is a hinge.
-    """
-
-    centers: np.ndarray
-    resultants: np.ndarray
-    lines: np.ndarray
-    hinges: np.ndarray
 
 
 def scene_size(scene: Scene) -> float:

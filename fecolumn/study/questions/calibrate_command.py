@@ -112,7 +112,7 @@ def _write(question: Any, fit: Any, case: str, folder: Path) -> None:
     import tomli_w
 
     from fecolumn.foundation.atomic import write_bytes, write_csv
-    from fecolumn.foundation.schema import merge, nested
+    from fecolumn.foundation.toml_file import merge, nested
     from fecolumn.pictures.figures.axis_text import axis_unit
     from fecolumn.pictures.figures.calibration_figure import calibration_figure
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.check_step import check_stated
-from fecolumn.foundation.schema import InputError, merge, nested
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge, nested
 from fecolumn.pictures.figures.axis_text import axis_unit
 from fecolumn.statistics.profile import ProfiledFit, ProfiledParameter
 from fecolumn.statistics.rocking_test import RockingTest

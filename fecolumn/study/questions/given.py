@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from fecolumn.foundation.paths import absolute, taken_over
-from fecolumn.foundation.schema import InputError, merge, nested, read_toml
+from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge, nested, read_toml
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.study.axes import kind_of_range
 from fecolumn.study.plan import Plan, plan_of

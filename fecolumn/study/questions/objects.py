@@ -17,8 +17,6 @@ _COLUMNS = {"width": _LENGTHS, "depth": _LENGTHS, "height": _LENGTHS, "mass": _M
 _MOST = {"width": 100.0, "depth": 100.0, "height": 100.0, "mass": 1e9, "friction": 10.0}
 _SI = {"width": "m", "depth": "m", "height": "m", "mass": "kg", "friction": "-"}
 _NEEDED = "name, width_m, depth_m, height_m, mass_kg and friction"
-#: Engines that a list may be run by.
-ENGINES = ("rigid", "housner")
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +110,7 @@ def tables_of_objects(
     sources
         of the motions.
     engine
-        one of ENGINES.
+        "rigid" or "housner".
     motion
         further keys of [motion].
     """

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.engines.rocking.podium_impact import CAV, CRV
+from fecolumn.case.model_sections import CAV, CRV
 from fecolumn.pictures.figures.podium_figure import podium_figure
 from fecolumn.study.report.claim import Claim, ClaimList
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.engines.rocking.podium_impact import CAV, CRV
+from fecolumn.case.model_sections import CAV, CRV
 from fecolumn.statistics.bands import greenwood, wilson
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED, Claim

@@ -13,6 +13,7 @@ from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS, read_history
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.schema import InputError, meant
+from fecolumn.study.results.parting import Parting, parting
 from fecolumn.study.results.picture import Picture
 
 if TYPE_CHECKING:
@@ -189,8 +190,8 @@ class AnalysisResult:
 
         return render(self.folder, RenderOptions(**options), quiet=True)
 
-    def compare(self, other: AnalysisResult, tolerance: float = 0.05):
-        """Compare with another analysis as `fecolumn compare` does; a `results.parting.Parting`.
+    def compare(self, other: AnalysisResult, tolerance: float = 0.05) -> Parting:
+        """Compare with another analysis as `fecolumn compare` does.
 
         Parameters
         ----------
@@ -204,8 +205,6 @@ class AnalysisResult:
         InputError
             a history is missing, or they have no time in common.
         """
-        from fecolumn.study.results.parting import parting
-
         return parting(self, other, tolerance)
 
     def __repr__(self) -> str:

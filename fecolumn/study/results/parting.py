@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
@@ -17,9 +17,6 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.render.strips import LIFTED
 
-if TYPE_CHECKING:
-    from fecolumn.study.results.analysis import AnalysisResult
-
 #: Difference at which two histories have parted, over the larger of their peaks [-]: a twentieth is
 #: seen in a figure
 TOLERANCE = 0.05
@@ -29,6 +26,18 @@ QUANTITIES = {
     "tilt": ("tilt", "rad", r"\theta"),
     "uplift": ("uplift", "m", "w"),
 }
+
+
+class Analysed(Protocol):
+    """An analysis that has rows: its case, and arrays by name whose first axis is time."""
+
+    @property
+    def case(self) -> Case:
+        """What was analysed."""
+
+    @property
+    def history(self) -> dict[str, np.ndarray]:
+        """As of `history.h5`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +121,7 @@ class Parting:
         return (name, float(self.time[row])) if found else None
 
 
-def parting(a: AnalysisResult, b: AnalysisResult, tolerance: float = TOLERANCE) -> Parting:
+def parting(a: Analysed, b: Analysed, tolerance: float = TOLERANCE) -> Parting:
     """Compare two analyses, finished or not.
 
     Raises
@@ -138,7 +147,7 @@ def parting(a: AnalysisResult, b: AnalysisResult, tolerance: float = TOLERANCE) 
             "have fewer than two rows in common: A ends at "
             f"{histories[0]['time'][-1]:g} s, B at {histories[1]['time'][-1]:g} s",
         )
-    cases = [_case(one) for one in (a, b)]
+    cases = [a.case, b.case]
     heights, lifted = zip(*(_uplift(case, history) for case, history in zip(cases, histories)))
     lifts = any(lifted)
 
@@ -165,10 +174,6 @@ def _at(time: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:
     return np.column_stack(
         [np.interp(time, known, column) for column in values.reshape(len(values), -1).T]
     )
-
-
-def _case(result: AnalysisResult):
-    return result.case
 
 
 def _uplift(case, history) -> tuple[np.ndarray, bool]:

@@ -9,8 +9,8 @@ from importlib.resources import files
 
 import numpy as np
 
-from fecolumn import __version__
 from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.version import __version__
 from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.render.camera import camera
 from fecolumn.pictures.render.page.arrows import arrows_of

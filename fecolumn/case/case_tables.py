@@ -1,0 +1,60 @@
+"""Tables of a case by name, and the classes of their keys."""
+
+from __future__ import annotations
+
+import typing
+
+from fecolumn.case.bodies import KINDS
+from fecolumn.case.body_keys import Placed
+from fecolumn.case.ground import Ground
+from fecolumn.case.joint import Interface
+from fecolumn.case.link import LinkKeys
+from fecolumn.case.mesh_limits import MeshLimits
+from fecolumn.case.sections import (
+    Contact,
+    Initial,
+    Integration,
+    Material,
+    Motion,
+    Output,
+    Overturn,
+)
+
+#: Tables of tables by name, and the class of each.
+NAMED = {
+    "bodies": Placed,
+    "materials": Material,
+    "grounds": Ground,
+    "joints": Interface,
+    "links": LinkKeys,
+    "initial": Initial,
+}
+#: Sections that a structure's case has in common with a column's.
+COMMON = {
+    "contact": Contact,
+    "integration": Integration,
+    "motion": Motion,
+    "overturn": Overturn,
+    "output": Output,
+    "mesh": MeshLimits,
+}
+
+
+def of_this_version(key: str) -> str:
+    """A dotted key of earlier versions by its name in this one."""
+    first, dot, rest = key.partition(".")
+    return f"joints{dot}{rest}" if first == "interfaces" else key
+
+
+def type_of(key: str):
+    """Type of a dotted key of a structure's case, whatever its bodies are called, or None:
+    "bodies.slab.length_m" is a float.
+    """
+    head, _, last = of_this_version(key).rpartition(".")
+    name = head.partition(".")[0]
+    classes = set(KINDS.values()) if name == "bodies" else {NAMED[name]} if name in NAMED else set()
+    hints = {
+        field: kind for section in classes for field, kind in typing.get_type_hints(section).items()
+    }
+    kind = hints.get(last) if head.count(".") == 1 else None
+    return next((one for one in (kind, *typing.get_args(kind)) if one in (int, float)), kind)

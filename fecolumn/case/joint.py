@@ -1,0 +1,152 @@
+"""Keys of a joint."""
+
+from __future__ import annotations
+
+from fecolumn.foundation.schema import Section, parameter
+from fecolumn.foundation.section_class import section_class
+
+
+@section_class(kw_only=True)
+class Interface(Section):
+    """A joint: faces of two bodies, or of a body and a ground, that touch at the start, or look at
+    one another across a gap; copies each with each. Which body comes first decides nothing.
+    """
+
+    @classmethod
+    def section_name(cls) -> str:
+        """As of its table [joints.NAME]."""
+        return "joint"
+
+    @classmethod
+    def public_name(cls) -> str:
+        """Of a script."""
+        return "Joint"
+
+    between: tuple[str, ...] = parameter(
+        (),
+        doc='the two bodies that touch, or a body and a ground, as in ["drum", "ground"]; '
+        "the same body twice where copies stand on one another, or voussoirs of an arch touch",
+    )
+    slave: str = parameter("", doc="instead of between: one of the two bodies")
+    on: str = parameter("", doc="instead of between: the other body, or a ground")
+    friction_coefficient: float | None = parameter(
+        None, doc="Coulomb friction coefficient; left out: that of [contact]", low=0, high=10
+    )
+    law: str | None = parameter(
+        None,
+        doc="contact formulation; left out: that of [contact]",
+        choices=("augmented_lagrange", "penalty"),
+    )
+    penalty_factor: float | None = parameter(
+        None,
+        doc="penalty stiffness per area as a multiple of E / element size of the slave; "
+        "left out: that of [contact]",
+        above=0,
+        high=1e9,
+    )
+    restitution: float | None = parameter(
+        None, doc="velocity after over before an impact; left out: that of [contact]", low=0, high=1
+    )
+    rolling_resistance: float | None = parameter(
+        None,
+        doc="energy that a rolling rim loses per length rolled, over the contact force; left "
+        "out: that of [contact], 0 on a pad",
+        low=0,
+        high=0.1,
+        since="0.7",
+    )
+    stiffness_n_m3: float | None = parameter(
+        None,
+        doc="springs across a pad between the two, per area; left out: that of the ground, "
+        "between bodies no pad",
+        unit="N/m3",
+        above=0,
+        high=1e15,
+        since="0.7",
+    )
+    shear_stiffness_n_m3: float = parameter(
+        0.0,
+        doc="springs along the pad per area; 0 takes 0.8 of stiffness_n_m3",
+        unit="N/m3",
+        low=0,
+        high=1e15,
+        since="0.7",
+    )
+    damping_ratio: float = parameter(
+        0.0,
+        doc="of the dashpots of the pad: that of the vertical vibration on it of what it carries",
+        low=0,
+        high=10,
+        since="0.7",
+    )
+    yield_pa: float | None = parameter(
+        None,
+        doc="pressure at which the pad yields, and settles for good; left out: never",
+        unit="Pa",
+        above=0,
+        high=1e12,
+        since="0.7",
+    )
+    tension_pa: float = parameter(
+        0.0,
+        doc="tensile strength of wax, putty or mortar between the faces, which holds each contact "
+        "point until it fails there; 0: nothing holds them together",
+        unit="Pa",
+        low=0,
+        high=1e9,
+        since="0.11",
+    )
+    cohesion_pa: float | None = parameter(
+        None,
+        doc="shear strength of that layer without pressure, friction comes on top; left out: "
+        "tension_pa",
+        unit="Pa",
+        above=0,
+        high=1e9,
+        since="0.11",
+    )
+    fracture_energy_j_m2: float = parameter(
+        0.0,
+        doc="energy that the layer takes per area until it has failed, its stress falling in a "
+        "straight line; 0: it fails at once",
+        unit="J/m2",
+        low=0,
+        high=1e7,
+        since="0.11",
+    )
+    bond_stiffness_n_m3: float = parameter(
+        0.0,
+        doc="stiffness of that layer per area: its modulus over its thickness",
+        unit="N/m3",
+        low=0,
+        high=1e15,
+        since="0.11",
+    )
+    bond_shear_stiffness_n_m3: float = parameter(
+        0.0,
+        doc="stiffness of that layer per area along the faces; 0 takes 0.4 of bond_stiffness_n_m3",
+        unit="N/m3",
+        low=0,
+        high=1e15,
+        since="0.11",
+    )
+    interior_points: int | None = parameter(
+        None,
+        doc="contact points inside the outlines of the slave's face; left out: that of [contact]",
+        low=0,
+        high=10**6,
+    )
+    open: bool | None = parameter(
+        None,
+        doc="whether faces that look at one another across a gap belong to it, too, and may meet; "
+        "left out: where no faces of the two touch at the start",
+        since="0.9",
+    )
+    allowance_m: float | None = parameter(
+        None,
+        doc="how far the slave may slide on a body before its compliance ends; left out: a "
+        "quarter of the slave's smaller side, its larger one across a gap",
+        unit="m",
+        low=0,
+        high=1000,
+    )

@@ -1,0 +1,26 @@
+"""Keys of [mesh] of a case of bodies."""
+
+from __future__ import annotations
+
+from fecolumn.foundation.schema import Section, parameter
+from fecolumn.foundation.section_class import section_class
+
+
+@section_class(kw_only=True)
+class MeshLimits(Section):
+    """How large the meshes of a structure may be; sizes of elements are those of its bodies."""
+
+    limit_dofs: int = parameter(
+        500_000,
+        doc="degrees of freedom of all different bodies together above which their meshes "
+        'are refused before they are built; with engine = "full" of all copies',
+        low=100,
+        high=10**9,
+        counts=False,
+        since="0.7",
+    )
+
+    @classmethod
+    def section_name(cls) -> str:
+        """As its table."""
+        return "mesh"

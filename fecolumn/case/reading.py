@@ -1,0 +1,173 @@
+"""Sections of a case from TOML tables."""
+
+from __future__ import annotations
+
+import dataclasses
+import typing
+from collections.abc import Callable
+
+from fecolumn.case.arch import with_voussoirs, without_voussoirs
+from fecolumn.case.bodies import KINDS
+from fecolumn.case.case_tables import COMMON, NAMED
+from fecolumn.case.given import by_two_bodies, check_name, with_files
+from fecolumn.case.ground import GROUND, Ground
+from fecolumn.case.sections import (
+    located,
+)
+from fecolumn.case.short_form import full_tables, in_short_form, short_form
+from fecolumn.foundation.schema import InputError, build, meant
+from fecolumn.foundation.toml_file import stated
+
+_Made = typing.TypeVar("_Made")
+
+
+def fields_of_tables(tables: dict, file) -> tuple[dict, Callable[[str], str]]:
+    """Fields of the Case of TOML tables, and how messages call its keys and ranges; relative paths
+    are taken from the folder of `file`.
+
+    Raises
+    ------
+    InputError
+        every unknown or missing key, wrong type and value out of range, told at once.
+    """
+    if "column" in tables and "bodies" in tables:
+        raise InputError(
+            file,
+            "bodies",
+            None,
+            "stands beside [column], the short form of a case of one body; describe the column in "
+            "[bodies], too: fecolumn show writes it so",
+        )
+    if "column" in tables:
+        return _of_short_form(tables, file)
+    if "interfaces" in tables:
+        return _of_interfaces(tables, file)
+    tables, errors, found = stated(tables), [], {}
+    if not tables.get("grounds"):
+        tables = tables | {"grounds": {GROUND: {}}}
+    grounds = set(tables["grounds"]) if isinstance(tables["grounds"], dict) else {GROUND}
+    for key in tables:
+        if key not in NAMED and key not in COMMON and key not in ("title", "observed"):
+            errors.append(
+                InputError(
+                    file,
+                    key,
+                    None,
+                    f"says nothing of a structure of [bodies]{meant(key, [*NAMED, *COMMON])}; "
+                    f"its tables: {', '.join([*NAMED, *COMMON])}",
+                )
+            )
+    bodies, own = without_voussoirs(tables.get("bodies", {}))
+    tables = tables | {"bodies": bodies}
+    for name, kind in NAMED.items():
+        found[name] = _named(name, kind, tables.get(name, {}), grounds, file, errors)
+    for name, kind in COMMON.items():
+        table = tables.get(name, False)
+        try:
+            if name != "motion" or table is not False:
+                found[name] = located(
+                    name, build(kind, {} if table is False else table, file, f"{name}."), file
+                )
+        except InputError as error:
+            errors.append(error)
+    for key in ("title", "observed"):
+        found[key] = tables.get(key, "")
+        if not isinstance(found[key], str):
+            errors.append(InputError(file, key, found[key], "must be text in quotes"))
+    try:
+        found["bodies"], found["arches"] = with_voussoirs(found["bodies"], own, file)
+    except InputError as error:
+        errors.append(error)
+    if errors:
+        raise InputError.of_several(errors)
+    return found, str
+
+
+def _of_short_form(tables: dict, file):
+    """As `fields_of_tables`, of tables with [column]; messages name the keys of the short form."""
+    form = short_form(tables, file)
+    found, _ = told_of(file, lambda: fields_of_tables(full_tables(form), file), in_short_form)
+    return found | {"short": form}, in_short_form
+
+
+def _of_interfaces(tables: dict, file):
+    """As `fields_of_tables`, of tables with [interfaces], the name of [joints] in earlier versions,
+    by which messages call them.
+    """
+    older, joints = tables["interfaces"], tables.get("joints", {})
+    if not isinstance(older, dict) or not isinstance(joints, dict):
+        raise InputError(file, "joints", joints or older, "must hold tables by name")
+    if twice := set(joints) & set(older):
+        key = f"joints.{min(twice)}"
+        raise InputError(file, key, None, "stands in [interfaces], too: give it once")
+    others = {name: table for name, table in tables.items() if name != "interfaces"}
+
+    def named(text: str) -> str:
+        for name in older:
+            text = text.replace(f"joints.{name}", f"interfaces.{name}")
+        return text
+
+    found, _ = told_of(
+        file, lambda: fields_of_tables(others | {"joints": older | joints}, file), named
+    )
+    return found, named
+
+
+def told_of(file, made: Callable[[], _Made], named: Callable[[str], str]) -> _Made:
+    """What `made` returns; its errors are told of `file`, with keys and ranges as `named` says."""
+    try:
+        return made()
+    except InputError as error:
+        raise InputError.of_several(
+            [InputError(file, named(one.key), one.value, named(one.allowed)) for one in error.all]
+        ) from None
+
+
+def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
+    """Sections by name of one table of tables; grounds: names that no body can have."""
+    if not isinstance(tables, dict):
+        errors.append(
+            InputError(file, name, tables, f"must hold tables by name, such as [{name}.NAME]")
+        )
+        return {}
+    found = {}
+    for key, table in tables.items():
+        if table is False:
+            continue
+        try:
+            if not isinstance(table, dict):
+                raise InputError(
+                    file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys"
+                )
+            check_name(name, key, tables, grounds, file)
+            found[key] = _built(
+                _kind_of(name, key, table, kind, file), table, file, f"{name}.{key}."
+            )
+            if name == "joints":
+                found[key] = by_two_bodies(found[key], grounds, file, f"{name}.{key}.")
+        except InputError as error:
+            errors.append(error)
+    return found
+
+
+def _kind_of(name: str, key: str, table: dict, kind, file):
+    """Class of a section: of a body that of its kind."""
+    if name != "bodies":
+        return kind
+    word = table.get("kind")
+    if not isinstance(word, str) or word not in KINDS:
+        raise InputError(
+            file,
+            f"{name}.{key}.kind",
+            word,
+            f"{'missing; ' if word is None else ''}must be one of {', '.join(KINDS)}",
+        )
+    return KINDS[word]
+
+
+def _built(kind, table, file, prefix):
+    """A section with its relative paths taken from the folder of `file`."""
+    section = build(kind, table, file, prefix)
+    if kind is Ground and section.motion:
+        return dataclasses.replace(section, motion=located("motion", section.motion, file))
+    return with_files(section, file, prefix)

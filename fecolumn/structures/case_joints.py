@@ -1,0 +1,124 @@
+"""Joints of a structure from those of its case."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from fecolumn.case.bodies import Matrices
+from fecolumn.case.check_bodies import material_of
+from fecolumn.contact.law import interface_compliance
+from fecolumn.contact.rim import Rim
+from fecolumn.foundation.schema import InputError
+from fecolumn.structures import model as models
+from fecolumn.structures.feet import ball_of, hertz
+from fecolumn.structures.model import Joint
+from fecolumn.structures.place import loads
+
+
+def joint_of(case, contact: dict, bodies, places, sizes, file) -> Joint:
+    """The joint of one contact of a layout.
+
+    Parameters
+    ----------
+    contact
+        as of `made_layout.said_of`.
+    bodies
+        models by name.
+    places
+        number of each copy (name, number) among all parts.
+    sizes
+        element size [m] by body.
+
+    Raises
+    ------
+    InputError
+        a penalty law of a body without elements.
+    """
+    name, (body, number) = contact["interface"], contact["slave"]
+    keys, model, master = case.joints[name], bodies[body], contact["master"]
+    own = {
+        key: getattr(keys, key)
+        for key in (
+            "friction_coefficient",
+            "law",
+            "penalty_factor",
+            "restitution",
+            "rolling_resistance",
+        )
+    }
+    contact_keys = dataclasses.replace(
+        case.contact, **{key: value for key, value in own.items() if value is not None}
+    )
+    surface = model.surfaces[contact["slave_surface"]]
+    outlines = tuple(
+        np.array(own) - bodies[of[0]].center
+        for own, of in zip(contact["outlines"], (contact["slave"], master))
+    )
+    if contact_keys.law == "penalty" and body not in sizes:
+        raise InputError(
+            file,
+            f"joints.{name}.law",
+            contact_keys.law,
+            f'must be augmented_lagrange where the slave, "{body}", has no elements',
+        )
+    youngs = (
+        0.0
+        if body not in sizes
+        else material_of(case.bodies[body], case.materials).youngs_modulus_pa
+    )
+    law = interface_compliance(contact_keys, youngs, sizes.get(body, 1.0), surface.areas)
+    ball = ball_of(case.bodies[body]) if contact["slave_surface"] == "foot" else None
+    round_rim = (
+        not (ball and ball.is_dome)
+        and abs(surface.normal[2]) > 1 - 1e-9
+        and Rim.find(surface.plane(model.arms[surface.nodes])) is not None
+    )
+    title = case.names_of(body)[number]
+    where = keys.on if master is None else case.names_of(master[0])[master[1]]
+    shown = f"{name}, edge" if contact["slave_surface"].endswith(", edge") else name
+    return Joint(
+        f"{shown}: {title} on {where}",
+        places[body, number],
+        contact["slave_surface"],
+        models.GROUND if master is None else places[tuple(master)],
+        contact["master_surface"],
+        contact_keys.friction_coefficient,
+        law,
+        round_rim,
+        contact_keys.restitution,
+        ball,
+        contact["pair"],
+        outlines,
+        contact_keys.rolling_resistance,
+        ground=list(case.grounds).index(keys.on) if master is None else 0,
+        gap=contact["gap"],
+    )
+
+
+def with_hertz(case, joints, standing, copies) -> list[Joint]:
+    """The joints, domes with the compliance of a sphere on what they stand on, linear about what
+    they carry at rest; none in the rigid engine.
+    """
+    if case.integration.engine == "rigid":
+        return joints
+    found = []
+    for joint, load in zip(joints, loads(standing, joints)):
+        if joint.ball and joint.ball.is_dome:
+            bodies = [
+                case.bodies[copies[place][0]]
+                for place in (joint.slave, joint.master)
+                if place != models.GROUND
+            ]
+            if bodies[0].contact_stiffness_n_m3 is None:
+                materials = [
+                    material_of(body, case.materials)
+                    for body in bodies
+                    if not isinstance(body, Matrices)
+                ]
+                joint = dataclasses.replace(
+                    joint, law=joint.law + hertz(joint.ball.radius, load, *materials)
+                )
+        found.append(joint)
+    return found

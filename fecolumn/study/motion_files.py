@@ -1,0 +1,155 @@
+"""Records and ensembles that the commands of ground motions read and write."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fecolumn.motions.ensemble import Ensemble
+    from fecolumn.motions.record import GroundMotion
+
+
+def add_output(parser: argparse.ArgumentParser) -> None:
+    """Flag of the ensemble that is written."""
+    parser.add_argument(
+        "-o",
+        "--output",
+        required=True,
+        metavar="ENSEMBLE.h5",
+        help="its table stands beside it, ENSEMBLE.csv",
+    )
+
+
+def add_unit_and_step(parser: argparse.ArgumentParser, file: str = "the file") -> None:
+    """Flags for what a file does not state."""
+    parser.add_argument(
+        "--units",
+        default="",
+        help=f"unit of the accelerations where {file} does not state it: g, m/s2, cm/s2 or mm/s2",
+    )
+    parser.add_argument(
+        "--dt", type=float, default=0.0, help=f"sampling step [s] where {file} does not state it"
+    )
+
+
+def store(ensemble: Ensemble, output: Path | str) -> int:
+    """Write an ensemble and its table, and say what it is."""
+    from fecolumn.motions.ensemble_file import summary, write_ensemble, write_summary
+    from fecolumn.motions.ensemble_report import report
+
+    path = ensemble_path(output)
+    columns = summary(ensemble)
+    write_ensemble(ensemble, path)
+    write_summary(ensemble, columns, path.with_suffix(".csv"))
+    print(report(ensemble, columns))
+    print(f"wrote {path}\nwrote {path.with_suffix('.csv')}")
+    return 0
+
+
+def ensemble_path(output: Path | str) -> Path:
+    """Path of an ensemble that may be written; its folder is there."""
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.motions.ensemble_file import TABLE_HEAD, is_ensemble
+
+    path = Path(output)
+    if path.suffix not in (".h5", ".hdf5"):
+        raise InputError("fecolumn motions", "-o", str(output), "must end in .h5")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if os.path.lexists(path) and not is_ensemble(path):
+        raise InputError(
+            "fecolumn motions",
+            "-o",
+            str(output),
+            "is there and no ensemble of motions; move it away or give another name",
+        )
+    table = path.with_suffix(".csv")
+    refuse_foreign(
+        table,
+        TABLE_HEAD,
+        "is there and no table of an ensemble; move it away or give the ensemble another name",
+    )
+    return path
+
+
+def refuse_foreign(path: Path, head: str, allowed: str) -> None:
+    """Refuse to write over a file that does not begin as ours do."""
+    from fecolumn.foundation.files import Unreadable, read_bytes
+    from fecolumn.foundation.schema import InputError
+
+    try:
+        own = not os.path.lexists(path) or read_bytes(path).startswith(head.encode())
+    except Unreadable:
+        own = False
+    if not own:
+        raise InputError("fecolumn motions", "-o", str(path), allowed)
+
+
+def read_record(source: str, args: argparse.Namespace, **keys: Any) -> GroundMotion:
+    """One motion as recorded."""
+    from fecolumn.case.sections import Motion
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.motions.load import read_motion
+    from fecolumn.motions.record import METRES_PER_S2
+
+    if args.units and args.units not in METRES_PER_S2:
+        raise InputError(
+            "fecolumn motions", "--units", args.units, f"must be one of {', '.join(METRES_PER_S2)}"
+        )
+    if not 0 <= args.dt <= 100:
+        raise InputError("fecolumn motions", "--dt", args.dt, "must lie in [0, 100] s")
+    motion = Motion(source, units=args.units, dt_s=args.dt, **keys)
+    with told_by_flags():
+        return read_motion(motion, "fecolumn motions")
+
+
+# Flags of the commands for the keys of a case
+_FLAGS = {
+    "motion.units": "--units",
+    "motion.dt_s": "--dt",
+    "motion.source_y": "--source-y",
+    "motion.source": "SOURCE",
+}
+
+
+@contextlib.contextmanager
+def told_by_flags() -> Iterator[None]:
+    """Refusals that name the flags of a command, not the keys of a case."""
+    from fecolumn.foundation.schema import InputError
+
+    def told(text: str) -> str:
+        for key, flag in _FLAGS.items():
+            text = text.replace(key, flag)
+        return text
+
+    try:
+        yield
+    except InputError as error:
+        raise InputError(error.file, told(error.key), error.value, told(error.allowed)) from None
+
+
+def stored_ensemble(path: Path | str) -> Ensemble:
+    """An ensemble in a file."""
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.motions.ensemble_file import read_ensemble
+    from fecolumn.motions.record import UnusableRecord
+
+    try:
+        return read_ensemble(path)
+    except UnusableRecord as error:
+        raise InputError(path, "", None, str(error)) from None
+
+
+def all_of(args: argparse.Namespace) -> list[GroundMotion]:
+    """The motions of args.sources."""
+    from fecolumn.motions.chosen import chosen_motions
+
+    return [
+        read_record(one, args)
+        for source in args.sources
+        for one in chosen_motions(source, "SOURCE", "fecolumn motions")
+    ]

@@ -1,0 +1,245 @@
+"""`fecolumn motions info | correct | plot | convert`."""
+
+from __future__ import annotations
+
+import argparse
+import math
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    pass
+
+from fecolumn.study.motion_files import (
+    add_unit_and_step,
+    all_of,
+    ensemble_path,
+    read_record,
+    store,
+    stored_ensemble,
+    told_by_flags,
+)
+
+# As `load.FORMATS`, which it would take long to import
+_FORMATS = (
+    "PEER AT2, ESM ASC, columns of text (CSV, tabs, spaces; decimal comma or point); with the "
+    "extra records K-NET, KiK-net, SAC, miniSEED, GSE2"
+)
+
+
+def add_look_actions(actions: Any) -> None:
+    """Actions of `fecolumn motions` that look at motions and convert them."""
+    info = actions.add_parser(
+        "info",
+        help="what a file or an ensemble is: format, unit, peaks, and what is odd; medians, spread",
+        epilog=f"Files that are read: {_FORMATS}.",
+    )
+    info.add_argument(
+        "ensemble", metavar="FILE", help="ENSEMBLE.h5, or a motion as in motion.source of a case"
+    )
+    add_unit_and_step(info)
+    info.set_defaults(command=_info)
+
+    correct = actions.add_parser(
+        "correct", help="take the drift out of a record: baseline and band-pass, with a picture"
+    )
+    correct.add_argument("source", metavar="SOURCE", help="as in motion.source of a case")
+    correct.add_argument(
+        "--source-y", default="", metavar="FILE", help="file of the y component, if any"
+    )
+    add_unit_and_step(correct)
+    correct.add_argument(
+        "--high-pass",
+        type=float,
+        default=0.1,
+        metavar="HZ",
+        help="corner below which it is taken out, 0 for none (default: %(default)s)",
+    )
+    correct.add_argument(
+        "--low-pass",
+        type=float,
+        default=0.0,
+        metavar="HZ",
+        help="corner above which it is taken out, 0 for none (default: %(default)s)",
+    )
+    correct.add_argument(
+        "--order", type=int, default=4, help="of the filter, run twice (default: %(default)s)"
+    )
+    correct.add_argument(
+        "--degree",
+        type=int,
+        default=1,
+        help="of the polynomial taken off first, -1 for none (default: %(default)s)",
+    )
+    correct.add_argument(
+        "-o", "--output", required=True, metavar="DIR", help="folder of the motion and the picture"
+    )
+    correct.set_defaults(command=_correct)
+
+    plot = actions.add_parser(
+        "plot",
+        help="figures of an ensemble: three motions, spectra, distributions, rocking spectra",
+    )
+    plot.add_argument("ensemble", metavar="ENSEMBLE.h5")
+    plot.add_argument(
+        "-o", "--output", required=True, metavar="DIR", help="folder of the figures, PNG and PDF"
+    )
+    plot.add_argument(
+        "--show",
+        type=int,
+        nargs="+",
+        metavar="NUMBER",
+        help="motions to show, counted from 1 (default: small, median and large PGV)",
+    )
+    plot.add_argument(
+        "--slenderness",
+        type=float,
+        default=0.1,
+        metavar="ALPHA",
+        help="of the blocks of the rocking spectra, tan alpha = width/height [rad] "
+        "(default: %(default)s)",
+    )
+    plot.set_defaults(command=_plot)
+
+    convert = actions.add_parser(
+        "convert", help="any motions into an ensemble (.h5), or into text files in a folder"
+    )
+    convert.add_argument(
+        "sources",
+        nargs="+",
+        metavar="SOURCE",
+        help="as in motion.source of a case; ensemble.h5#* are all of its motions",
+    )
+    add_unit_and_step(convert, "a file")
+    convert.add_argument(
+        "--format",
+        choices=("csv", "at2"),
+        default="csv",
+        help="of the text files (default: %(default)s)",
+    )
+    convert.add_argument("-o", "--output", required=True, metavar="ENSEMBLE.h5|DIR")
+    convert.set_defaults(command=_convert)
+
+
+def _info(args: argparse.Namespace) -> int:
+    from fecolumn.motions.ensemble_file import summary
+    from fecolumn.motions.ensemble_report import report
+
+    if Path(args.ensemble).suffix not in (".h5", ".hdf5"):
+        return _info_of_motion(args)
+    ensemble = stored_ensemble(args.ensemble)
+    print(report(ensemble, summary(ensemble)))
+    return 0
+
+
+def _info_of_motion(args: argparse.Namespace) -> int:
+    from fecolumn.case.sections import Motion
+    from fecolumn.motions.inspection import file_lines, oddities, peak_lines, peaks_by_unit
+    from fecolumn.motions.load import recording_of
+
+    with told_by_flags():
+        motion = Motion(args.ensemble, dt_s=args.dt)
+        recording = recording_of(motion, "source", "fecolumn motions info")
+    print("\n".join(file_lines(recording, recording.dt or args.dt)))
+    if not (recording.dt or args.dt):
+        print("its step is not stated: --dt says it")
+    elif not (recording.units or args.units):
+        print(peaks_by_unit(recording))
+        print("--units says it, and motion.units in a case")
+    else:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # told below
+            ground = read_record(args.ensemble, args)
+        print("\n".join(peak_lines(ground)))
+        for odd in oddities(ground):
+            print(f"warning: {odd}")
+    return 0
+
+
+def _correct(args: argparse.Namespace) -> int:
+    from fecolumn.foundation.folder import written
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.motions.correction import corrected, end_of
+    from fecolumn.motions.export import write_text_files
+    from fecolumn.pictures.figures.correction_figure import correction_figure
+
+    for key, value, low, high in (
+        ("--high-pass", args.high_pass, 0, 1e4),
+        ("--low-pass", args.low_pass, 0, 1e5),
+        ("--order", args.order, 1, 10),
+        ("--degree", args.degree, -1, 10),
+    ):
+        if not low <= value <= high:
+            raise InputError(
+                "fecolumn motions correct", key, value, f"must lie in [{low:g}, {high:g}]"
+            )
+    before = read_record(args.source, args, source_y=args.source_y)
+    try:
+        after = corrected(before, args.high_pass, args.low_pass, args.order, args.degree)
+    except ValueError as error:
+        raise InputError("fecolumn motions correct", "SOURCE", args.source, str(error)) from None
+    with written(args.output, "motions correct") as draft:
+        files = [*write_text_files([after], draft, "csv")]
+        files += correction_figure(before, after, draft)
+    for name, one in (("before", before), ("after", after)):
+        speed, way = end_of(one)
+        print(f"{name}: ends at {100 * speed:.3g} cm/s and {100 * way:.3g} cm")
+    for file in files:
+        print(f"wrote {Path(args.output) / file.name}")
+    return 0
+
+
+def _plot(args: argparse.Namespace) -> int:
+    from fecolumn.foundation.folder import written
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.motions.ensemble_file import summary
+    from fecolumn.pictures.figures.motion_figures import motion_figures
+
+    if not 0 < args.slenderness < math.pi / 2:
+        raise InputError(
+            "fecolumn motions plot",
+            "--slenderness",
+            args.slenderness,
+            "must lie between 0 and pi/2 rad",
+        )
+    ensemble = stored_ensemble(args.ensemble)
+    for number in args.show or ():
+        if not 1 <= number <= len(ensemble.motions):
+            raise InputError(
+                args.ensemble,
+                "--show",
+                number,
+                f"must be a number from 1 to {len(ensemble.motions)}",
+            )
+    with written(args.output, "motions plot") as draft:
+        files = motion_figures(ensemble, summary(ensemble), draft, args.show, args.slenderness)
+    for file in files:
+        print(f"wrote {Path(args.output) / file.name}")
+    return 0
+
+
+def _convert(args: argparse.Namespace) -> int:
+    from fecolumn.foundation.folder import written
+    from fecolumn.motions.ensemble import Ensemble
+    from fecolumn.motions.export import write_text_files
+
+    whole = Path(args.output).suffix in (".h5", ".hdf5")
+    if whole:
+        ensemble_path(args.output)
+    motions = all_of(args)
+    if whole:
+        return store(
+            Ensemble(
+                Path(args.output).stem,
+                tuple(motions),
+                {},
+                {"model": "collected", "sources": args.sources},
+            ),
+            args.output,
+        )
+    with written(args.output, "motions convert") as draft:
+        files = write_text_files(motions, draft, args.format)
+    for file in files:
+        print(f"wrote {Path(args.output) / file.name}")
+    return 0
