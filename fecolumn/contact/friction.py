@@ -21,7 +21,7 @@ from fecolumn.contact.coupling import (
 )
 from fecolumn.contact.frozen_slips import halve_way, solve_frozen
 from fecolumn.contact.interior_point import approach, in_cones
-from fecolumn.contact.newton import Limits, newton_steps, solve_in_place
+from fecolumn.contact.newton import NewtonLimits, newton_steps, solve_in_place
 from fecolumn.foundation._compiled import njit
 
 
@@ -79,7 +79,7 @@ def frictionless(coupling, q, start):
             q,
             np.zeros(len(q)),
             start,
-            Limits(0.0, rho, rho, 0.0, tolerances.ACTIVE_SETS, 5),
+            NewtonLimits(0.0, rho, rho, 0.0, tolerances.ACTIVE_SETS, 5),
         )
         for i in range(len(q)):
             forces[i, 0] = forces[i, 1] = 0.0
@@ -139,7 +139,7 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
                     q,
                     friction,
                     start,
-                    Limits(
+                    NewtonLimits(
                         tolerance,
                         together,
                         rho,
@@ -154,7 +154,7 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
     by_levers = len(coupling.whole) == 0
     many = by_levers and n > tolerances.MANY_POINTS
     # cheap by levers: many small steps, each held by a compliance against change
-    held = Limits(
+    held = NewtonLimits(
         tolerance,
         rho,
         rho,
@@ -266,7 +266,7 @@ def by_frozen_slips(coupling, q, friction, start, tolerance, rho, turns):
     steps, patience = tolerances.NEWTON_STALLED, 2
     if by_levers:
         steps, patience = tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED
-    limits = Limits(tolerance, rho, rho, give, steps, patience)
+    limits = NewtonLimits(tolerance, rho, rho, give, steps, patience)
     for turn in range(turns):
         if by_levers:
             before, exact = slips.copy(), tolerance
@@ -383,7 +383,7 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
         q,
         friction,
         guess,
-        Limits(tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED),
+        NewtonLimits(tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED),
     )
     if least > tolerance:
         forces, residual, made = newton_steps(
@@ -391,7 +391,7 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
             q,
             friction,
             start,
-            Limits(
+            NewtonLimits(
                 tolerance,
                 stiffnesses(coupling, True),
                 rho,
@@ -420,7 +420,7 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
                 q,
                 friction,
                 forces,
-                Limits(tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2),
+                NewtonLimits(tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2),
             )
             iterations += newtons
             if residual < least:
@@ -440,7 +440,9 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
             q,
             friction,
             forces,
-            Limits(tolerance, rho, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED),
+            NewtonLimits(
+                tolerance, rho, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED
+            ),
         )
         iterations += made
         if residual < least:
@@ -455,7 +457,7 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
             q,
             friction,
             best,
-            Limits(tolerance, rho, rho, held, tolerances.HELD_STEPS, tolerances.HELD_STALLED),
+            NewtonLimits(tolerance, rho, rho, held, tolerances.HELD_STEPS, tolerances.HELD_STALLED),
         )
         iterations += made
         if residual < least:

@@ -14,7 +14,7 @@ from fecolumn.contact.tolerances import SINGULAR
 from fecolumn.foundation._compiled import njit
 
 
-class Limits(NamedTuple):
+class NewtonLimits(NamedTuple):
     """How Newton steps are made, and when they end.
 
     tolerance: residual [m] at which the laws are obeyed. rho: (n,) stiffness [N/m] by which stick
@@ -32,7 +32,7 @@ class Limits(NamedTuple):
 
 @njit
 def newton_steps(coupling, q, friction, start, limits):
-    """Newton steps within Limits until the tolerance is met, or the residual falls no more, or
+    """Newton steps within NewtonLimits until the tolerance is met, or the residual falls no more, or
     without give W proves singular: best forces, residual, steps made.
     """
     forces, least, stalled, made = start, np.inf, 0, 0
