@@ -65,6 +65,11 @@ if TYPE_CHECKING:
     from fecolumn.case.short_form import Base, Column, ShortForm
     from fecolumn.case.short_form import Mesh as MeshSizes
     from fecolumn.engines.dynamics.history import read_history
+    from fecolumn.engines.rocking.block import BlockSection as BlockModel
+    from fecolumn.engines.rocking.frame import FrameSection as FrameModel
+    from fecolumn.engines.rocking.podium import PodiumSection as PodiumModel
+    from fecolumn.engines.rocking.wobbling import WobblingSection as WobblingModel
+    from fecolumn.engines.rocking.wobbling_frame import WobblingFrameSection as WobblingFrameModel
     from fecolumn.foundation.schema import InputError
     from fecolumn.mesh.specimen import specimen_mesh
     from fecolumn.motions.array import motion_file
@@ -86,6 +91,7 @@ __all__ = [
     "Arch",
     "Base",
     "Block",
+    "BlockModel",
     "Cap",
     "Case",
     "Column",
@@ -94,6 +100,7 @@ __all__ = [
     "Cylinder",
     "Dashpot",
     "Flange",
+    "FrameModel",
     "FrictionDamper",
     "GapStop",
     "Ground",
@@ -111,6 +118,7 @@ __all__ = [
     "Output",
     "Overturn",
     "Plate",
+    "PodiumModel",
     "Prism",
     "Restrainer",
     "ShortForm",
@@ -121,6 +129,8 @@ __all__ = [
     "StudyResult",
     "Tendon",
     "Tube",
+    "WobblingFrameModel",
+    "WobblingModel",
     "calibrate",
     "case_from_tables",
     "design",
@@ -179,6 +189,11 @@ _HOMES = {
     "MeshSizes": "case.short_form:Mesh",
     "ShortForm": "case.short_form",
     "read_history": "engines.dynamics.history",
+    "BlockModel": "engines.rocking.block:BlockSection",
+    "FrameModel": "engines.rocking.frame:FrameSection",
+    "WobblingModel": "engines.rocking.wobbling:WobblingSection",
+    "WobblingFrameModel": "engines.rocking.wobbling_frame:WobblingFrameSection",
+    "PodiumModel": "engines.rocking.podium:PodiumSection",
     "InputError": "foundation.schema",
     "specimen_mesh": "mesh.specimen",
     "motion_file": "motions.array",

@@ -186,6 +186,41 @@ class Case:
         """
         return case_from_tables(form.tables())
 
+    @staticmethod
+    def of_model(
+        model: Section,
+        *,
+        motion: Motion | None = None,
+        integration: Integration | None = None,
+        initial: Initial | None = None,
+        overturn: Overturn | None = None,
+        output: Output | None = None,
+        title: str = "",
+    ) -> Case:
+        """The case of a rocking model of rigid bodies: a BlockModel, FrameModel, WobblingModel,
+        WobblingFrameModel or PodiumModel, which gives the engine.
+
+            fecolumn.Case.of_model(
+                fecolumn.FrameModel(width_m=0.3, height_m=1.8, column_mass_kg=400, beam_mass_kg=900),
+                motion=fecolumn.Motion("lick:1"),
+            )
+
+        Raises
+        ------
+        InputError
+            names key, value and range, or the parts that do not fit.
+        """
+        from fecolumn.case.model_table import tables_of_model
+
+        sections: dict[str, Section | None] = {
+            "motion": motion,
+            "integration": integration,
+            "initial": initial,
+            "overturn": overturn,
+            "output": output,
+        }
+        return case_from_tables(tables_of_model(model, sections, title))
+
     @property
     def id(self) -> str:
         """Twelve hexadecimal digits that name everything but title and output cadence; motions and

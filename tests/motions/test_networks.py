@@ -154,7 +154,7 @@ def test_letters_replaced_are_refused_or_leave_a_motion_of_the_same_size(tmp_pat
 def test_a_spike_is_warned_of_and_a_sharp_pulse_is_none(tmp_path, capsys):
     text = FILES["a.nsmn"]
     line = text.splitlines()[60]
-    damaged = text.replace(line, "  9" + line[3:])
+    damaged = text.replace(line, f"{900.0:12.6f}" + line[12:])
     (tmp_path / "a.txt").write_text(damaged)
     with pytest.warns(UserWarning, match="has a spike .* t = 1.02 s"):
         read(tmp_path, damaged)
