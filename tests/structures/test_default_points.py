@@ -55,9 +55,9 @@ def test_a_case_of_several_bodies_is_not_taken_for_that_of_64_points():
 def test_an_exhibit_swings_as_with_four_times_the_points_until_its_third_impact(tmp_path):
     """Largest tilt of the figure between the first three landings, within 1 %."""
     time = 0.005 * np.arange(121)
-    ground = np.where(time < 0.5, 2.9 * np.sin(2 * np.pi * 2 * time), 0.0)
+    ground = np.where(time < 0.4, 2.6 * np.sin(2 * np.pi * 2.5 * time), 0.0)
     source = str(fecolumn.motion_file(tmp_path / "pulse.csv", ground, 0.005))
-    plan = fecolumn.Integration(dt_s=1e-3, duration_s=1.2)
+    plan = fecolumn.Integration(dt_s=1e-3, duration_s=1.3)
     found = []
     for points in (None, 36):
         folder = tmp_path / str(points)
@@ -73,5 +73,5 @@ def test_an_exhibit_swings_as_with_four_times_the_points_until_its_third_impact(
             ]
         )
     few, many = np.array(found)
-    assert len(many) == 3 and many.max() > 5e-3
-    assert np.abs(few / many - 1).max() < 0.01
+    assert len(many) == 3 and many.max() > 0.05
+    assert np.abs(few - many).max() < 0.01 * many.max()
