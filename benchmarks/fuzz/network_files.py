@@ -29,7 +29,7 @@ def cosmos(channels, *, unit=4, parameter=1, first="Corrected acceleration", end
         reals[[61, 62, 63]] = 1000 * DT, DT * len(values), values[np.abs(values).argmax()]
         lines += [f"{first}    (Format v01.20 with 13 text lines) Src: own"]
         lines += [f"text {i}" for i in range(2, 13)]
-        lines[-9] = "Statn No: 05- 13921 Code:CE-13921  CGS  Riverside"
+        lines[-8] = "Statn No: 05- 13921 Code:CE-13921  CGS  Riverside"
         lines += ["Values used when parameter or data value is unknown/unspecified:   -999, -999.0"]
         lines += [" 100 Integer-header values follow on  10 lines, Format= (10I8)"]
         lines += rows(integers, 10, "8d")
