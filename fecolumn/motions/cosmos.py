@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
+
+from numpy.typing import NDArray
 
 from fecolumn.motions.directions import Channel, direction_of, recorded
 from fecolumn.motions.fixed_width import block, check_peak, layout, stated_step
@@ -140,7 +143,8 @@ def _numbers(lines: list[str], place: int, what: str, least: int) -> tuple[list[
     return [text[i * width : (i + 1) * width] for i in range(count)], after
 
 
-def _values(lines: list[str], place: int):
+def _values(lines: list[str], place: int) -> tuple[NDArray[Any], int]:
+    """Samples, and the index of the line behind them."""
     head = _head(lines, place, "")
     if not re.match(r"acc|uncor|corr|data", head["what"], re.IGNORECASE):
         raise UnusableRecord(

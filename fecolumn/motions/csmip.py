@@ -90,14 +90,13 @@ def _only_ends(lines: list[str], first: int, last: int) -> None:
 
 def _channel(lines: list[str], start: int) -> tuple[Channel, str, int]:
     """A channel, its unit, and the index of the line behind its last block."""
-    direction, told, peak = "", "", None
+    told, peak = "", None
     for place in range(start, min(start + _MOST_HEAD, len(lines))):
         line = lines[place]
         if (found := _CORRECTED.match(line)) or (found := _UNCORRECTED.match(line)):
             break
         if not told and (named := _CHANNEL.search(line)):
             told = named["direction"]
-            direction = direction_of(told)
         if said := _PEAK.search(line) or _RAW_PEAK.search(line):
             peak = said["peak"]
     else:
@@ -127,4 +126,4 @@ def _channel(lines: list[str], start: int) -> tuple[Channel, str, int]:
             raise UnusableRecord(f"line {place + 1}: a second block of accelerations")
         many, width = layout(found["format"], place + 1)
         _, place = block(lines, place + 1, int(found["count"][:9]), many, width)
-    return Channel(values, direction, dt, told), unit, place
+    return Channel(values, direction_of(told), dt, told), unit, place
