@@ -9,7 +9,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from fecolumn.motions.directions import Channel, direction_of, recorded
-from fecolumn.motions.fixed_width import block, check_peak, layout, stated_step
+from fecolumn.motions.fixed_width import check_peak, layout, number_block, stated_step
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import read_text
 
@@ -138,7 +138,7 @@ def _numbers(lines: list[str], place: int, what: str, least: int) -> tuple[list[
     count = int(head["count"])
     if count < least:
         raise UnusableRecord(f"line {place + 1}: {count} numbers; a COSMOS header has {least}")
-    _, after = block(lines, place + 1, count, many, width)
+    _, after = number_block(lines, place + 1, count, many, width)
     text = "".join(line.rstrip() for line in lines[place + 1 : after])
     return [text[i * width : (i + 1) * width] for i in range(count)], after
 
@@ -151,4 +151,4 @@ def _values(lines: list[str], place: int) -> tuple[NDArray[Any], int]:
             f"line {place + 1}: holds no accelerations: {lines[place].strip()[:60]!r}"
         )
     many, width = layout(head["format"] or "", place + 1)
-    return block(lines, place + 1, int(head["count"]), many, width)
+    return number_block(lines, place + 1, int(head["count"]), many, width)

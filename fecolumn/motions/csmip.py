@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from fecolumn.motions.directions import Channel, direction_of, recorded
-from fecolumn.motions.fixed_width import block, check_peak, layout, stated_step
+from fecolumn.motions.fixed_width import check_peak, layout, number_block, stated_step
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import read_text, unit_named
 
@@ -118,12 +118,12 @@ def _channel(lines: list[str], start: int) -> tuple[Channel, str, int]:
     else:
         dt = stated_step(volume["dt"], row, "the step [s]")
     many, width = layout(volume["format"], row)
-    values, place = block(lines, place + 1, int(volume["count"][:9]), many, width)
+    values, place = number_block(lines, place + 1, int(volume["count"][:9]), many, width)
     if peak:
         check_peak(values, peak, unit)
     while place < len(lines) and (found := _CORRECTED.match(lines[place])):
         if found["what"].lower().startswith("accel"):
             raise UnusableRecord(f"line {place + 1}: a second block of accelerations")
         many, width = layout(found["format"], place + 1)
-        _, place = block(lines, place + 1, int(found["count"][:9]), many, width)
+        _, place = number_block(lines, place + 1, int(found["count"][:9]), many, width)
     return Channel(values, direction_of(told), dt, told), unit, place

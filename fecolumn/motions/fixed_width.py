@@ -35,7 +35,7 @@ def layout(text: str, row: int) -> tuple[int, int]:
     return many, width
 
 
-def block(
+def number_block(
     lines: Sequence[str], first: int, count: int, many: int, width: int
 ) -> tuple[NDArray[Any], int]:
     """Numbers of a block and the index of the line after it.

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.motions.directions import Channel, direction_of, recorded
-from fecolumn.motions.fixed_width import block, check_peak
+from fecolumn.motions.fixed_width import check_peak, number_block
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import read_text
 
@@ -55,7 +55,7 @@ def _channel(lines: list[str], start: int) -> tuple[Channel, int]:
     """A component and the index of the line behind its last block."""
     raw = "uncorrected" in lines[start].lower()
     first = start + _TEXT
-    header, place = block(lines, first, _ROWS * 10, 10, _WIDTH)
+    header, place = number_block(lines, first, _ROWS * 10, 10, _WIDTH)
     head = header.reshape(_ROWS, 10)
     counts = [head[3, 0] if raw else head[3, 3], head[3, 4], head[3, 5]]
     if not all(count == int(count) and 0 <= count < 10**8 for count in counts) or counts[0] < 2:
@@ -65,9 +65,9 @@ def _channel(lines: list[str], start: int) -> tuple[Channel, int]:
     dt = head[6, 5]
     if not 0 < dt < np.inf:
         raise UnusableRecord(f"line {first + 7}: a step of {dt:g} s must be above 0")
-    values, place = block(lines, place, int(counts[0]), 10, _WIDTH)
+    values, place = number_block(lines, place, int(counts[0]), 10, _WIDTH)
     for count in counts[1:]:
-        _, place = block(lines, place, int(count), 10, _WIDTH)
+        _, place = number_block(lines, place, int(count), 10, _WIDTH)
     if peak := head[7, 0] if raw else head[7, 5]:
         check_peak(values, f"{peak:.1f}", "mm/s2")
     told = re.match(r"\s*component\s+(\S+)", lines[start + 12], re.IGNORECASE)

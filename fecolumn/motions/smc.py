@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from fecolumn.motions.fixed_width import block, check_peak, stated_step
+from fecolumn.motions.fixed_width import check_peak, number_block, stated_step
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import read_text
 
@@ -37,8 +37,8 @@ def read_smc(path: Path | str) -> Recording:
     lines = read_text(path).splitlines()
     if len(lines) < _TEXT or lines[_TEXT - 1].strip() != "*":
         raise UnusableRecord(f"line {_TEXT}: must be a star, the last of {_TEXT} lines of text")
-    integers, after = block(lines, _TEXT, *_INTEGERS)
-    reals, place = block(lines, after, *_REALS)
+    integers, after = number_block(lines, _TEXT, *_INTEGERS)
+    reals, place = number_block(lines, after, *_REALS)
     missing = integers[0]
     count, comments = integers[_COUNT], integers[_COMMENTS]
     if not 1 < count < 10**8 or count == missing:
@@ -51,7 +51,7 @@ def read_smc(path: Path | str) -> Recording:
         if not lines[i].startswith("|"):
             raise UnusableRecord(f"line {i + 1}: must be a comment that starts with |")
     dt = 1.0 / stated_step(str(reals[_RATE]), after + 1, "samples a second")
-    values, end = block(lines, place + int(comments), int(count), 8, 10)
+    values, end = number_block(lines, place + int(comments), int(count), 8, 10)
     if any(line.strip() for line in lines[end:]):
         raise UnusableRecord(f"line {end + 1}: more follows than {count:g} samples")
     peaks = [reals[place] for place in _PEAKS]
