@@ -102,63 +102,6 @@ def test_what_was_killed_goes_on_from_its_runs(test_of_block):
     assert all(file.stat().st_mtime_ns == at for file, at in old.items())
 
 
-BODY = """
-[bodies.block]
-kind = "block"
-length_m = 0.3
-width_m = 0.3
-height_m = 0.9
-mass_kg = 200
-element_size_m = 0.1
-{body}
-[joints.foot]
-between = ["block", "ground"]
-friction_coefficient = 0.8
-[contact]
-interior_points = 4
-[integration]
-engine = "rigid"
-dt_s = 1e-3
-{more}
-"""
-
-
-@pytest.mark.parametrize(
-    "key, body, more, true, allowed",
-    [
-        ("bodies.block.edge_radius_m", "edge_radius_m = 0.01", "", 0.02, "0:0.04"),
-        (
-            "grounds.ground.stiffness_n_m3",
-            "rigid = true",
-            '[grounds.ground]\nkind = "pad"\nstiffness_n_m3 = 1e8',
-            4e8,
-            "1e7:1e9",
-        ),
-    ],
-)
-def test_edge_radius_and_contact_stiffness_are_recovered(
-    tmp_path, key, body, more, true, allowed, capsys
-):
-    (tmp_path / "case.toml").write_text(BODY.format(body=body, more=more))
-    (tmp_path / "true.toml").write_text(
-        f'extends = "case.toml"\n{key} = {true}\n[initial.block]\ntilt_rad = 0.1\n'
-        "[integration]\nduration_s = 0.6\n"
-    )
-    assert main(["run", str(tmp_path / "true.toml"), "-o", str(tmp_path / "true"), "-q"]) == 0
-    found, times = read_history(tmp_path / "true" / "history.h5"), np.arange(0, 0.6, 0.01)
-    tilt = np.interp(times, found["time"], np.abs(found["tilt"]))
-    tilt += np.random.default_rng(7).normal(0, 5e-4, times.size)
-    (tmp_path / "free.csv").write_text(
-        "time_s,tilt_rad\n" + "".join(f"{t:.4f},{y:.7f}\n" for t, y in zip(times, tilt))
-    )
-    fit = ["calibrate", str(tmp_path / "case.toml"), "--test", str(tmp_path / "free.csv")]
-    assert main([*fit, "--fit", key, allowed, "-o", str(tmp_path / "fit")]) == 0
-    (row,) = rows(tmp_path / "fit" / "calibrate.csv")
-    low, value, high = (float(row[name]) for name in ("low", "value", "high"))
-    assert row["identified"] == "1" and low < value < high
-    assert abs(value - true) < high - low < 0.3 * true
-
-
 def test_a_range_of_decades_is_searched_in_logarithm(test_of_block):
     ranges = {"grounds.ground.stiffness_n_m3": (1e6, 1e10), "bodies.a.edge_radius_m": (0.0, 0.1)}
     test = read_rocking_test(test_of_block / "free.csv")
