@@ -280,6 +280,8 @@ def _analyse(case, folder, file, quiet, profile=False) -> int:
             f"{1e3 * summary['s_per_step']:.2g} ms/step, energy closure "
             f"{summary['energy_closure_rel']:.1e}"
         )
+        if doubt := summary.get("step_doubt"):
+            print(doubt)
         if profile:
             _tell_step_times(Path(folder))
     return 0

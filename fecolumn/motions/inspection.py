@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from fecolumn.case.sections import GRAVITY
 from fecolumn.motions.processing import integrate
 from fecolumn.motions.record import METRES_PER_S2, GroundMotion, Recording
+from fecolumn.motions.spike import spike_in
 
 # [g]: peaks of ground motions that are worth an analysis lie between; none was recorded beyond
 _LIKELY, _RECORDED = (0.005, 3.0), 5.0
@@ -84,6 +85,11 @@ def oddities(motion: GroundMotion) -> list[str]:
             found.append(f"a{name}: {peak / GRAVITY:.3g} g is hardly felt: another unit?")
         found += _drift(name, v, u)
         found += _stillness(name, a, motion.dt)
+        if (place := spike_in(a)) is not None:
+            found.append(
+                f"a{name}: a spike: {a[place]:.3g} m/s2 at t = {place * motion.dt:.4g} s, one "
+                "sample alone: is the file damaged?"
+            )
     return found
 
 
