@@ -32,8 +32,8 @@ class NewtonLimits(NamedTuple):
 
 @njit
 def newton_steps(coupling, q, friction, start, limits):
-    """Newton steps within NewtonLimits until the tolerance is met, or the residual falls no more, or
-    without give W proves singular: best forces, residual, steps made.
+    """Newton steps until the tolerance is met, or the residual falls no more, or without give W
+    proves singular: best forces, residual, steps made.
     """
     forces, least, stalled, made = start, np.inf, 0, 0
     best = start
