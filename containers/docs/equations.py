@@ -19,7 +19,7 @@ LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋", "0123456789+−"))
 TOKEN = re.compile(
     rf"(?P<up>[{''.join(RAISED)}]+)|(?P<down>[{''.join(LOWERED)}]+)"
     r"|_\((?P<lows>[^)]*)\)|_(?P<low>[^\W_]+)|\^\((?P<highs>[^)]*)\)|\^(?P<high>[\w.]+)"
-    r"|(?P<word>[^\W\d_][\u0300-\u036f]?(?:[^\W\d_₀-₉⁰-⁹ᵀᵃ][\u0300-\u036f]?)*)|(?P<rest>.)",
+    rf"|(?P<word>(?:[^\W\d_{''.join([*RAISED, *LOWERED])}½⅓¼][\u0300-\u036f]?)+)|(?P<rest>.)",
     re.DOTALL,
 )
 

@@ -47,6 +47,7 @@ from fecolumn.case.sections import (
 )
 from fecolumn.case.short_form import ALIKE, ShortForm, full_tables, in_short_form, short_form
 from fecolumn.foundation.content import content
+from fecolumn.foundation.deprecated import warn_of_older_name
 from fecolumn.foundation.paths import OF_BODIES as FILES
 from fecolumn.foundation.schema import (
     InputError,
@@ -371,7 +372,11 @@ class Case:
 def _of_this_version(key: str) -> str:
     """A dotted key of earlier versions by its name in this one."""
     first, dot, rest = key.partition(".")
-    return f"joints{dot}{rest}" if first == "interfaces" else key
+    if first != "interfaces":
+        return key
+    newer = f"joints{dot}{rest}"
+    warn_of_older_name("case", key, newer)
+    return newer
 
 
 def _is_full(key: str, value) -> bool:
@@ -543,6 +548,7 @@ def _of_interfaces(tables: dict, file) -> Case:
     if twice := set(joints) & set(older):
         key = f"joints.{min(twice)}"
         raise InputError(file, key, None, "stands in [interfaces], too: give it once")
+    warn_of_older_name(str(file), "[interfaces]", "[joints]")
     others = {name: table for name, table in tables.items() if name != "interfaces"}
 
     def named(text: str) -> str:
