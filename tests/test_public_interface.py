@@ -5,6 +5,7 @@ changelog tells what changed.
 """
 
 import inspect
+import re
 import types
 from pathlib import Path
 
@@ -18,11 +19,12 @@ def interface() -> str:
     lines = []
     for name in fecolumn.__all__:
         found = getattr(fecolumn, name)
-        own = isinstance(getattr(found, "__init__", None) if inspect.isclass(found) else found, types.FunctionType)
+        call = found.__init__ if inspect.isclass(found) else found
+        own = isinstance(call, types.FunctionType)  # not that of Python's exceptions
         lines.append(f"{name}{inspect.signature(found) if own else ''}")
         if inspect.isclass(found):
             lines += [f"    {line}" for line in _members(found)]
-    return "\n".join(lines) + "\n"
+    return re.sub(" at 0x[0-9a-f]+", "", "\n".join(lines)) + "\n"
 
 
 def _members(cls) -> list[str]:

@@ -21,12 +21,8 @@ GROUPS = {
         "Block Cylinder Tube Cone Plate Prism Arch MeshBody Storeys Matrices Flange Cap".split()
     ),
     "Joints, grounds, materials": "Joint Ground Material Initial".split(),
-    "Links": (
-        "Link Tendon Spring Restrainer Strut GapStop Dashpot FrictionDamper".split()
-    ),
-    "Other sections of a case": (
-        "Motion Contact Integration Overturn Output MeshLimits".split()
-    ),
+    "Links": ("Link Tendon Spring Restrainer Strut GapStop Dashpot FrictionDamper".split()),
+    "Other sections of a case": ("Motion Contact Integration Overturn Output MeshLimits".split()),
     "A column in the short form": "ShortForm Column Base MeshSizes".split(),
     "Motions and meshes": "motion_file load_motion specimen_mesh".split(),
     "Errors": "InputError AnalysisFailed StudyError".split(),

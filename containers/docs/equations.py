@@ -18,7 +18,8 @@ RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵀᵃ", "0123456789+−Ta")
 LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋", "0123456789+−"))
 TOKEN = re.compile(
     rf"(?P<up>[{''.join(RAISED)}]+)|(?P<down>[{''.join(LOWERED)}]+)"
-    r"|_\((?P<lows>[^)]*)\)|_(?P<low>[^\W_]+)|\^\((?P<highs>[^)]*)\)|\^(?P<high>[\w.]+)"
+    rf"|_\((?P<lows>[^)]*)\)|_(?P<low>[^\W_{''.join([*RAISED, *LOWERED])}]+)"
+    r"|\^\((?P<highs>[^)]*)\)|\^(?P<high>[\w.]+)"
     rf"|(?P<word>(?:[^\W\d_{''.join([*RAISED, *LOWERED])}½⅓¼][\u0300-\u036f]?)+)|(?P<rest>.)",
     re.DOTALL,
 )
@@ -53,11 +54,14 @@ def table(block: str) -> str:
     """An equation's block as an HTML table: a row a line; a number such as (1) at the right."""
     lines = [line.removeprefix("    ") for line in block.strip("\n").splitlines() if line.strip()]
     rows = []
+    # one line of two equations makes no columns
+    columns = sum(len(re.findall(r"\S {3,}[^ (]", line)) > 0 for line in lines) > 1
     for line in lines:
         number = re.search(r" {3,}(\(\d+\))$", line)
         line = line[: number.start()] if number else line
         indent = len(line) - len(line.lstrip())
         cells = [typeset(cell) for cell in re.split(r" {3,}", line.strip())]
+        cells = cells if columns else ["&emsp;&emsp;".join(cells)]
         first = f' style="padding-left: {indent / 2}em"' if indent else ""
         row = f"<td{first}>{cells[0]}</td>" + "".join(f"<td>{cell}</td>" for cell in cells[1:])
         rows.append(f"<tr>{row}<td class='number'>{number[1] if number else ''}</td></tr>")

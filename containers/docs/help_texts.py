@@ -1,7 +1,7 @@
 """Docstrings as the page of the API needs them.
 
-A class of keys has its whole help, as `help(fecolumn.Block)` prints it. A unit in brackets is no
-link of Markdown.
+A class of keys has its whole help, as `help(fecolumn.Block)` prints it. Parameters that share a
+description have one each, and a unit in brackets is no link of Markdown.
 """
 
 from __future__ import annotations
@@ -27,7 +27,16 @@ class HelpTexts(griffe.Extension):
         if text:
             if not obj.docstring:
                 obj.docstring = griffe.Docstring("", parent=obj)
-            obj.docstring.value = with_brackets(text)
+            obj.docstring.value = with_brackets(one_by_one(text))
+
+
+def one_by_one(text: str) -> str:
+    """A docstring whose parameters "a, b" of one description are told apart, each with its type."""
+
+    def apart(found) -> str:
+        return "".join(f"{name}\n{found[2]}" for name in found[1].split(", "))
+
+    return re.sub(r"^(\w+(?:, \w+)+)\n((?: {4}.*\n)+)", apart, f"{text}\n", flags=re.MULTILINE)
 
 
 def with_brackets(text: str) -> str:

@@ -27,7 +27,12 @@ MANUAL = PurePosixPath("fecolumn/case/manual")
 PAGES = {"README.md": "index.md", "benchmarks/RESULTS.md": "results.md"}
 #: where the theme would load a script from, and where it is on the site
 WORKER_ELSEWHERE, WORKER = "https://unpkg.com/iframe-worker/shim", "assets/iframe-worker.js"
-LINK = re.compile(r"(?P<start>!?\[(?:[^\[\]]|\[[^\]]*\])*\]\()(?P<target>[^)\s#]+)(?P<anchor>#[^)\s]*)?\)")
+LINK = re.compile(
+    r"(?P<start>!?\[(?:[^\[\]]|\[[^\]]*\])*\]\()(?P<target>[^)\s#]+)(?P<anchor>#[^)\s]*)?\)"
+)
+
+#: a bar that Markdown on GitHub wants marked in the code of a table, and this one does not
+PIPE = re.compile(r"(?<=[^\s|])\\\|(?=[^\s|])")
 
 
 def on_files(files, config):
@@ -81,7 +86,7 @@ def relinked(text: str, source: str, files, config) -> str:
         return f"{found['start']}{way}{found['anchor'] or ''})"
 
     parts = re.split(r"(^```.*?^```$)", text, flags=re.MULTILINE | re.DOTALL)
-    parts[::2] = [LINK.sub(link, part) for part in parts[::2]]
+    parts[::2] = [PIPE.sub(r"|", LINK.sub(link, part)) for part in parts[::2]]
     return "".join(parts)
 
 
@@ -100,18 +105,26 @@ def place_on_site(place: str, files, config) -> str:
 
 def gallery() -> str:
     """Every picture of README and manual with its words and the page that explains it."""
-    lines = ["# Gallery", "", "Each picture leads to the page that explains it.", ""]
-    pages = [ROOT / "README.md", *sorted((ROOT / MANUAL).glob("*.md"))]
-    for path in pages:
-        source = str(path.relative_to(ROOT).as_posix())
+    shown: dict[str, str] = {}
+    for path in [*sorted((ROOT / MANUAL).glob("*.md")), ROOT / "README.md"]:
+        source = path.relative_to(ROOT).as_posix()
         text = path.read_text(encoding="utf-8")
         page = PAGES.get(source) or path.name
         for words, name in re.findall(r"!\[([^]]*)\]\(([^)\s]+)\)", text):
             place = os.path.normpath(PurePosixPath(source).parent / name)
             inside = place.startswith(f"{MANUAL}/")
             there = str(PurePosixPath(place).relative_to(MANUAL)) if inside else f"files/{place}"
-            lines += [f"[![{words}]({there})]({page})", "", f"{words}. [{title(text)}]({page})", ""]
-    return "\n".join(lines)
+            picture = f"[![{words}]({there})]({page})"
+            shown.setdefault(there, f"-   {picture}\n\n    {words}. [{title(text)}]({page})\n")
+    return "\n".join(
+        [
+            "# Gallery\n",
+            "Each picture leads to the page that explains it.\n",
+            '<div class="grid cards gallery" markdown>\n',
+            *shown.values(),
+            "</div>\n",
+        ]
+    )
 
 
 def title(text: str) -> str:

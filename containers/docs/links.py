@@ -24,7 +24,9 @@ class _Page(HTMLParser):
         for name, value in attrs:
             if name in ("href", "src") and value:
                 self.targets.append(value)
-                if "://" in value[:9] and (tag != "a" and (tag, dict(attrs).get("rel")) not in UNLOADED):
+                if "://" in value[:9] and (
+                    tag != "a" and (tag, dict(attrs).get("rel")) not in UNLOADED
+                ):
                     self.loaded.append(value)
             elif name in ("id", "name") and value:
                 self.anchors.add(value)
