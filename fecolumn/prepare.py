@@ -1,5 +1,5 @@
-"""What is compiled on each machine, compiled before somebody waits for it: finite-element forms and
-contact.
+"""What is compiled on each machine, compiled before somebody waits for it: finite-element forms,
+contact, curves of figures.
 """
 
 from __future__ import annotations
@@ -34,6 +34,7 @@ def prepare(say) -> None:
         told what is done and how long it took.
     """
     from fecolumn.case.case import case_from_tables
+    from fecolumn.pictures.figures.thinning import thinned
     from fecolumn.simulation import run
 
     for engine, tables in (
@@ -51,3 +52,4 @@ def prepare(say) -> None:
         with tempfile.TemporaryDirectory() as folder:
             run(case, Path(folder) / engine, file="fecolumn prepare", quiet=True)
         say(f"{engine} engine{of} ready after {time.perf_counter() - began:.0f} s")
+    thinned([0.0, 1.0], [[0.0], [1.0]], [1.0])

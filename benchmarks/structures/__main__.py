@@ -2,7 +2,7 @@
 impacts of the rocking podium; and what a step costs.
 
     ./containers/run python -m benchmarks.structures [forces planar rolled impacts rocking speed
-        shaken apart walls large] [-o DIR]
+        growth apart walls large] [-o DIR]
     ./containers/run mpirun -n 2 python -m benchmarks.structures large
 
 Writes the rows of what was asked for into DIR as CSV, draws structures.png (and .pdf) from all that
@@ -17,8 +17,9 @@ from pathlib import Path
 import numpy as np
 from mpi4py import MPI
 
-from benchmarks.structures import apart, frame, large, podium, shaken, speed
+from benchmarks.structures import apart, frame, large, podium
 from benchmarks.structures.figure import draw
+from benchmarks.structures.speed_tables import growths, speeds
 from fecolumn.engines.rocking.podium_impact import LAWS
 from fecolumn.foundation.atomic import write_csv
 
@@ -151,65 +152,6 @@ def rocking(folder: Path) -> None:
         )
 
 
-def speeds(folder: Path) -> None:
-    """By number of bodies; each in several runs, of which the fastest counts: other work on the
-    machine only slows it down.
-    """
-    print(f"\ncompiled in {speed.compile_time():.0f} s of CPU time (0 to 2 s: it was on disk)")
-    print(
-        "\n| structure | bodies | points | state | us a step | carrying | iterations | "
-        "Newton steps | operators found |\n|---|---|---|---|---|---|---|---|---|"
-    )
-    table = []
-    for kind in ("frame", "stack"):
-        for number in speed.NUMBERS:
-            for rocks in (False, True):
-                found, state = (
-                    speed.least_cost(kind, number, rocks),
-                    "rocking" if rocks else "standing",
-                )
-                table.append([kind, number, state, *found.values()])
-                print(
-                    f"| {kind} of {number} | {number + (kind == 'frame')} | "
-                    f"{found['points']} | {state} | {found['us']:.0f} | "
-                    f"{found['carrying']:.0f} | {found['iterations']:.2f} "
-                    f"| {found['newton']:.2f} | {found['assembled']:.2f} |",
-                    flush=True,
-                )
-    write_csv(folder / "speed.csv", [["structure", "number", "state", *found], *table])
-
-
-def shaken_costs(folder: Path) -> None:
-    """Of structures that slide, lift and land, rigid and with ten modes a body, beside MuJoCo."""
-    print(
-        "\n| structure | rigid [us] | ten modes [us] | MuJoCo [us] | MuJoCo, stiff [us] "
-        "| peak, rigid [m] | peak, MuJoCo [m] | peak, MuJoCo, stiff [m] |\n"
-        "|---|---|---|---|---|---|---|---|"
-    )
-    table = []
-    for kind, number, factor in shaken.ROWS:
-        rigid, elastic = (
-            shaken.cost(kind, number, factor, engine) for engine in ("rigid", "reduced")
-        )
-        soft, stiff = (
-            shaken.mujoco_cost(kind, number, factor, settings) or dict(us=np.nan, peak_m=np.nan)
-            for settings in ("default", "stiff")
-        )
-        found = [one[key] for key in ("us", "peak_m") for one in (rigid, elastic, soft, stiff)]
-        table.append([kind, number, factor, *found])
-        print(
-            f"| {kind} of {number}, {f'shaken by {factor} of uplift' if factor else 'let go'} | "
-            + " | ".join(f"{us:.0f}" for us in found[:4])
-            + f" | {found[4]:.2g} | {found[6]:.2g} | {found[7]:.2g} |",
-            flush=True,
-        )
-    if np.isnan(table[0][5]):
-        print("MuJoCo is not installed: python -m benchmarks.peers --install")
-    names = ("rigid", "modes", "mujoco", "mujoco_stiff")
-    head = [f"{name}_{unit}" for unit in ("us", "peak_m") for name in names]
-    write_csv(folder / "shaken.csv", [["structure", "number", "factor", *head], *table])
-
-
 def apart_costs(folder: Path) -> None:
     """Of pairs that are apart: beside two standing blocks, and in rows of blocks."""
     print("\n| engine | blocks | no pairs [us] | joints [us] | found [us] |\n|---|---|---|---|---|")
@@ -269,7 +211,7 @@ def large_costs(folder: Path) -> None:
 
 PARTS = dict(
     speed=speeds,
-    shaken=shaken_costs,
+    growth=growths,
     apart=apart_costs,
     walls=wall_costs,
     large=large_costs,

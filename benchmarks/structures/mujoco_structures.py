@@ -1,10 +1,10 @@
-"""MuJoCo (PyPI) on the structures of `shaken`, run in an environment of its own.
+"""MuJoCo (PyPI) on the structures of `speed`, run in an environment of its own.
 
     PYTHON -P mujoco_structures.py JOB.json
 
-The job: structure ("frame" or "drums"), number, dt, seconds, amplitude [m/s2] and rate [Hz] of the
-ground's sine, tilt [rad] at which columns or drums begin, points a face, settings. Prints a line
-of JSON.
+The job: structure ("frame", "drums" or "cube"), number, dt, seconds, amplitude [m/s2] and rate [Hz]
+of the ground's sine, tilt [rad] at which columns or drums begin or velocity [m/s] of the cube,
+points a face, settings. Prints a line of JSON.
 
 Bodies are cylinders and a box with their mass and inertia. As in the program beside it, each face
 touches at its points: balls of a hundredth of the radius on the rim of one face, which meet the
@@ -23,7 +23,7 @@ import numpy as np
 
 MODEL = """
 <mujoco>
-  <option timestep="{dt}" gravity="0 0 -9.81" {option}/>
+  <option timestep="{dt}" gravity="0 0 -9.80665" {option}/>
   <size memory="200M"/>
   <default>
     <geom contype="0" conaffinity="0"/>
@@ -62,83 +62,83 @@ def body(name, kind, size, density, place, turn, pins):
 
 def model_of(job):
     """Text of the model, and the body that is watched."""
-    bodies, pairs, n, points = [], [], job["number"], job["points"]
-    (diameter, height), tilt = job["size"], job["tilt"]
-    radius = diameter / 2
     option, contact = OPTIONS[job["settings"]]
     contact = contact.format(2 * job["dt"])
+    bodies, touching = MAKERS[job["structure"]](job)
+    pairs = [
+        f'<pair geom1="{name}_{circle}_{k}" geom2="{other}" condim="3" '
+        f'friction="{job["friction"]} {job["friction"]} 0 0 0" {contact}/>'
+        for name, circle, other in touching
+        for k in range(job["points"])
+    ]
+    return MODEL.format(
+        dt=job["dt"], option=option, bodies="".join(bodies.values()), pairs="".join(pairs)
+    ), list(bodies)[-1]
 
-    def touch(name, circle, other):
-        for k in range(points):
-            pairs.append(
-                f'<pair geom1="{name}_{circle}_{k}" geom2="{other}" condim="3" '
-                f'friction="{job["friction"]} {job["friction"]} 0 0 0" {contact}/>'
-            )
 
-    # about the edge on which it leans
-    lean = [radius - radius * math.cos(tilt), radius * math.sin(tilt)]
-    if job["structure"] == "drums":
-        for i in range(n):
-            middle = height * (i + 0.5)
-            bodies.append(
-                body(
-                    f"b{i}",
-                    "cylinder",
-                    f"{radius} {height / 2}",
-                    2700,
-                    [
-                        lean[0] + middle * math.sin(tilt),
-                        0,
-                        lean[1] + middle * math.cos(tilt),
-                    ],
-                    tilt,
-                    [(-height / 2, radius, points)],
-                )
-            )
-            touch(f"b{i}", 0, f"b{i - 1}" if i else "ground")
-        watched = f"b{n - 1}"
-    else:
-        rows = 2 ** (int(math.log2(n)) // 2)
-        many = n // rows
-        top = lean[1] + height * math.cos(tilt) + radius * math.sin(tilt)
-        for i in range(n):
-            x, y = 2.0 * (i % many - (many - 1) / 2), 2.0 * (i // many - (rows - 1) / 2)
-            bodies.append(
-                body(
-                    f"b{i}",
-                    "cylinder",
-                    f"{radius} {height / 2}",
-                    2500,
-                    [
-                        x + lean[0] + height / 2 * math.sin(tilt),
-                        y,
-                        lean[1] + height / 2 * math.cos(tilt),
-                    ],
-                    tilt,
-                    [(-height / 2, radius, points), (height / 2, radius, points)],
-                )
-            )
-            touch(f"b{i}", 0, "ground")
-            touch(f"b{i}", 1, "slab")
-        bodies.append(
-            body(
-                "slab",
-                "box",
-                f"{many} {rows} 0.2",
-                2500,
-                [height * math.sin(tilt), 0, top + 0.2],
-                0.0,
-                [],
-            )
+def cube(job):
+    """A cube on the ground; as of drums: text of each body by name, and which circle of whose balls
+    meets what.
+    """
+    half = job["size"][0] / 2
+    text = body("cube", "box", f"{half} {half} {half}", 2700, [0, 0, half], 0.0, [(-half, half, 8)])
+    return {"cube": text}, [("cube", 0, "ground")]
+
+
+def lean_of(radius, tilt):
+    """Where the middle of a face lies that leans about its edge: along x, and up."""
+    return radius - radius * math.cos(tilt), radius * math.sin(tilt)
+
+
+def drums(job):
+    """Drums on one another."""
+    (diameter, height), tilt, bodies = job["size"], job["tilt"], {}
+    radius = diameter / 2
+    x, z = lean_of(radius, tilt)
+    for i in range(job["number"]):
+        middle = height * (i + 0.5)
+        bodies[f"b{i}"] = body(
+            f"b{i}",
+            "cylinder",
+            f"{radius} {height / 2}",
+            2700,
+            [x + middle * math.sin(tilt), 0, z + middle * math.cos(tilt)],
+            tilt,
+            [(-height / 2, radius, job["points"])],
         )
-        watched = "slab"
-    text = MODEL.format(
-        dt=job["dt"],
-        option=option,
-        bodies="".join(bodies),
-        pairs="".join(pairs),
-    )
-    return text, watched
+    below = ["ground", *bodies]
+    return bodies, [(name, 0, on) for name, on in zip(bodies, below)]
+
+
+def frame(job):
+    """A slab on columns, in a square or two beside each other."""
+    (diameter, height), tilt, bodies, touching = job["size"], job["tilt"], {}, []
+    radius, points = diameter / 2, job["points"]
+    x, z = lean_of(radius, tilt)
+    rows = 2 ** (int(math.log2(job["number"])) // 2)
+    many = job["number"] // rows
+    top = z + height * math.cos(tilt) + radius * math.sin(tilt)
+    for i in range(job["number"]):
+        bodies[f"b{i}"] = body(
+            f"b{i}",
+            "cylinder",
+            f"{radius} {height / 2}",
+            2500,
+            [
+                2.0 * (i % many - (many - 1) / 2) + x + height / 2 * math.sin(tilt),
+                2.0 * (i // many - (rows - 1) / 2),
+                z + height / 2 * math.cos(tilt),
+            ],
+            tilt,
+            [(-height / 2, radius, points), (height / 2, radius, points)],
+        )
+        touching += [(f"b{i}", 0, "ground"), (f"b{i}", 1, "slab")]
+    place = [height * math.sin(tilt), 0, top + 0.2]
+    bodies["slab"] = body("slab", "box", f"{many} {rows} 0.2", 2500, place, 0.0, [])
+    return bodies, touching
+
+
+MAKERS = dict(cube=cube, drums=drums, frame=frame)
 
 
 def main(job_file):
@@ -146,6 +146,7 @@ def main(job_file):
     text, watched = model_of(job)
     model = mujoco.MjModel.from_xml_string(text)
     data = mujoco.MjData(model)
+    data.qvel[0] = job.get("velocity", 0.0)
     mujoco.mj_forward(model, data)
     body, steps = model.body(watched).id, round(job["seconds"] / job["dt"])
     start, peak, cpu, first = data.xpos[body].copy(), 0.0, 0.0, 20

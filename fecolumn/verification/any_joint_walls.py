@@ -40,6 +40,7 @@ def wall_tables(courses: int, stones: int, engine: str, gap: float = 0.0) -> dic
         [length * (k - (stones - 2) / 2), 0.0, height * c] for c in odd for k in range(stones - 1)
     ]
     halves = [[side * ends, 0.0, height * c] for c in odd for side in (-1, 1)]
+    opened = dict(open=True) if gap else {}
     stone = dict(
         kind="block",
         width_m=width,
@@ -55,8 +56,8 @@ def wall_tables(courses: int, stones: int, engine: str, gap: float = 0.0) -> dic
         ),
         joints=dict(
             feet=dict(between=["stone", "ground"]),
-            stones=dict(between=["stone", "stone"]),
-            halves=dict(between=["stone", "half"]),
+            stones=dict(between=["stone", "stone"]) | opened,
+            halves=dict(between=["stone", "half"]) | opened,
         ),
         contact=dict(friction_coefficient=FRICTION, interior_points=0),
         integration=dict(engine=engine, dt_s=1e-3, duration_s=10.0)

@@ -23,10 +23,11 @@ def thinned(time, values, tolerance) -> np.ndarray:
         (k,), above 0, in the units of the values.
     """
     scaled = np.asarray(values, float) / np.asarray(tolerance, float)
-    return np.flatnonzero(_kept(np.asarray(time, float), np.ascontiguousarray(scaled)))
+    # copies: one kind of array, for which the set-up compiled
+    return np.flatnonzero(_kept(np.array(time, float), np.array(scaled, order="C")))
 
 
-@njit
+@njit(alone=True)
 def _kept(time, values):
     """Whether each row is kept; `values` in tolerances.
 

@@ -1,0 +1,92 @@
+"""Tables of what a step of a structure costs, and how the cost grows."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.structures import speed
+from fecolumn.foundation.atomic import write_csv
+
+
+def speeds(folder: Path) -> None:
+    """Of structures that stand, slide, lift and land, rigid and with ten modes a body, beside
+    MuJoCo; and what the time buys.
+    """
+    print(
+        "\n| structure | rigid [us] | median [us] | ten modes [us] | median [us] | MuJoCo [us] "
+        "| MuJoCo, stiff [us] | peak, rigid [m] | peak, ten modes [m] | peak, MuJoCo [m] "
+        "| peak, MuJoCo, stiff [m] | closure, rigid | closure, ten modes |\n" + "|---" * 13 + "|"
+    )
+    table = []
+    for kind, number, factor in speed.ROWS:
+        rigid, elastic = (
+            speed.cost(kind, number, factor, engine) for engine in ("rigid", "reduced")
+        )
+        soft, stiff = (
+            speed.mujoco_cost(kind, number, factor, settings) or dict(us=np.nan, peak_m=np.nan)
+            for settings in ("default", "stiff")
+        )
+        every = (rigid, elastic, soft, stiff)
+        costs = [rigid["us"], rigid["median_us"], elastic["us"], elastic["median_us"]]
+        costs += [soft["us"], stiff["us"]]
+        peaks, closures = [one["peak_m"] for one in every], [one["closure"] for one in every[:2]]
+        table.append([kind, number, factor, *costs, *peaks, *closures])
+        print(
+            f"| {kind} of {number}, {f'shaken by {factor} of uplift' if factor else 'let go'} | "
+            + " | ".join(f"{us:.0f}" for us in costs)
+            + "".join(f" | {value:.2g}" for value in (*peaks, *closures))
+            + " |",
+            flush=True,
+        )
+    if np.isnan(table[0][7]):
+        print("MuJoCo is not installed: python -m benchmarks.peers --install")
+    names = ("rigid", "modes", "mujoco", "mujoco_stiff")
+    head = ["rigid_us", "rigid_median_us", "modes_us", "modes_median_us", "mujoco_us"]
+    head += ["mujoco_stiff_us", *(f"{name}_peak_m" for name in names)]
+    head += ["rigid_closure", "modes_closure"]
+    write_csv(folder / "speed.csv", [["structure", "number", "factor", *head], *table])
+    print(
+        "\n| exact or wanted | rigid | ten modes | MuJoCo | MuJoCo, stiff |\n|---|---|---|---|---|"
+    )
+    for told, exact, own, peer in (
+        (f"a cube slides at {speed.SLIDES:g} m/s [m]", speed.slid_exactly(), speed.slid, "slid"),
+        (
+            f"{speed.CREEPS} drums stand for {speed.STANDS:g} s and move [m]",
+            0.0,
+            speed.crept,
+            "crept",
+        ),
+    ):
+        theirs = dict(slid=speed.mujoco_slid, crept=speed.mujoco_crept)[peer]
+        found = [*map(own, ("rigid", "reduced")), *map(theirs, ("default", "stiff"))]
+        print(f"| {told}: {exact:.5g} | " + " | ".join(f"{value:.6g}" for value in found) + " |")
+
+
+def growths(folder: Path) -> None:
+    """Of drums on one another, by their number and by the points of a face."""
+    print(
+        "\n| grows with | engine | regime | costs of a step [us] | exponent |\n" + "|---" * 5 + "|"
+    )
+    table = []
+    for engine in ("rigid", "reduced"):
+        for told, numbers, given in (
+            ("drums", speed.DRUMS, lambda n: (n, speed.POINTS)),
+            ("points a face, 2 drums", speed.POINTS_A_FACE, lambda n: (2, n)),
+        ):
+            for factor in speed.FACTORS:
+                costs = []
+                for n in numbers:
+                    number, points = given(n)
+                    costs.append(speed.cost("drums", number, factor, engine, points)["us"])
+                slope = speed.growth(numbers, costs)
+                regime = f"shaken by {factor} of uplift" if factor else "let go"
+                table.append([told, engine, regime, *costs, slope])
+                print(
+                    f"| {told}: {', '.join(map(str, numbers))} | {engine} | {regime} | "
+                    + ", ".join(f"{us:.0f}" for us in costs)
+                    + f" | {slope:.2f} |",
+                    flush=True,
+                )
+    write_csv(folder / "growth.csv", table)
