@@ -6,8 +6,9 @@ import subprocess
 import sys
 
 import pytest
-from containers.docs.cells import code_cells
 from documents import ROOT
+
+from containers.docs.cells import code_cells
 
 TUTORIALS = sorted((ROOT / "fecolumn" / "case" / "manual" / "tutorials").glob("*.py"))
 
