@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 from fecolumn import simulation
-from fecolumn.foundation.atomic import write_json
+from fecolumn.engines.summary import write_sealed
 
 ENTRY = "benchmarks.soak.analysis:run"
 _done = 0
@@ -28,8 +28,7 @@ def run(case, folder, **options) -> dict:
         "open_files": open_files("self"),
     }
     (folder / "history.h5").unlink(missing_ok=True)
-    write_json(folder / "summary.json", summary)
-    return summary
+    return write_sealed(folder, summary)
 
 
 def memory_mb(pid) -> float:
