@@ -29,9 +29,7 @@ GATE = dict(
         )
         | STONE,
     ),
-    joints=dict(
-        feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="lintel")
-    ),
+    joints=dict(feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="lintel")),
     links=dict(
         tendon=dict(
             kind="tendon",
