@@ -17,7 +17,7 @@ UPRIGHT = {"as", "at", "by", "in", "is", "no", "of", "on", "or", "to", "tr"}
 RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᵀᵃ", "0123456789+−Ta"))
 LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋", "0123456789+−"))
 TOKEN = re.compile(
-    rf"(?P<up>[{''.join(RAISED)}]+)|(?P<down>[{''.join(LOWERED)}]+)"
+    rf"(?P<constant>[A-Z]{{2,}}(?:_[A-Z]+)+)|(?P<up>[{''.join(RAISED)}]+)|(?P<down>[{''.join(LOWERED)}]+)"
     rf"|_\((?P<lows>[^)]*)\)|_(?P<low>[^\W_{''.join([*RAISED, *LOWERED])}]+)"
     r"|\^\((?P<highs>[^)]*)\)|\^(?P<high>[\w.]+)"
     rf"|(?P<word>(?:[^\W\d_{''.join([*RAISED, *LOWERED])}½⅓¼][\u0300-\u036f]?)+)|(?P<rest>.)",

@@ -49,6 +49,7 @@ def test_equations_of_the_manual_are_known_and_what_commands_print_is_left():
     [
         ("x₁ = M⁻¹ r_n", "<i>x</i><sub>1</sub> = <i>M</i><sup>−1</sup> <i>r</i><sub>n</sub>"),
         ("sin²(θ/2) < a_g0", "sin<sup>2</sup>(<i>θ</i>/2) &lt; <i>a</i><sub>g0</sub>"),
+        ("IMPACT_GIVES_j", "IMPACT_GIVES<sub>j</sub>"),
         ("w_k² q", "<i>w</i><sub>k</sub><sup>2</sup> <i>q</i>"),
         ("p^(j−1) of F", "<i>p</i><sup>j−1</sup> of <i>F</i>"),
     ],
