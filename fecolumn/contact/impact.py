@@ -37,19 +37,34 @@ def mark_landing(interfaces, points, listed, before, after, landing):
     were open at its start: how many.
 
     One that has come to the surface just at the end, by more than ARRIVES, and does not carry yet
-    is left a little above it: else it would not have been open when it carries in the next step.
+    lands with those that do: else rounding would say which points of a face take part. Where none
+    does it is left a little above the surface: else it would not have been open when it carries in
+    the next step.
     """
     count = 0
     for i in listed:
-        width = interfaces[points[i].interface].width
-        was_open = before[i].force[2] <= 0 and before[i].relative[2] > OPEN * width
-        landing[i] = not points[i].rolls and was_open and after[i].force[2] > 0
+        landing[i] = _was_open(interfaces, points, before, i) and after[i].force[2] > 0
         count += landing[i]
-        if not was_open or points[i].rolls or after[i].force[2] > 0 or not after[i].located:
+    for i in listed:
+        width = interfaces[points[i].interface].width
+        if after[i].force[2] > 0 or not after[i].located:
             continue
-        if before[i].relative[2] - after[i].relative[2] > ARRIVES * width:
-            after[i].relative[2] = max(after[i].relative[2], 2 * OPEN * width)
+        comes = before[i].relative[2] - after[i].relative[2] > ARRIVES * width
+        if not comes or not _was_open(interfaces, points, before, i):
+            continue
+        if after[i].relative[2] < 2 * OPEN * width:
+            if count > 0:
+                landing[i] = True
+            else:
+                after[i].relative[2] = 2 * OPEN * width
     return count
+
+
+@njit
+def _was_open(interfaces, points, before, i):
+    """Whether point i, which does not roll, was open at the start of the step."""
+    above = before[i].relative[2] > OPEN * interfaces[points[i].interface].width
+    return not points[i].rolls and before[i].force[2] <= 0 and above
 
 
 @njit
@@ -120,11 +135,13 @@ def impact_event(interfaces, points, listed, before, after, dt, early, late, lan
 
 
 @njit
-def touched(listed, before, after):
-    """Those of the listed points (k,) that carry at the start or at the end of the step."""
+def touched(listed, before, after, landing):
+    """Those of the listed points (k,) that carry at the start or at the end of the step, or land
+    (mask).
+    """
     union, k = np.empty(len(listed), np.int64), 0
     for i in listed:
-        if before[i].force[2] > 0 or after[i].force[2] > 0:
+        if before[i].force[2] > 0 or after[i].force[2] > 0 or landing[i]:
             union[k] = i
             k += 1
     return union[:k]
@@ -164,7 +181,7 @@ def find_impact(
     Parameters
     ----------
     union
-        (k,) points that carry at the start or at the end of the step, as of `touched`.
+        (k,) points that carry at the start or at the end of the step or land, as of `touched`.
     arms
         (n, 3) of the points on their slaves at the end of the step [m].
     early, late

@@ -82,7 +82,50 @@ def gap_rows(engine: str):
     yield from _peak_rows(engine)
     if engine == "rigid":
         yield from _history_rows(engine)
+        yield from _slide_rows()
     yield from _wall_rows(engine)
+
+
+def _slide_rows():
+    """A block slides without friction into one twice as heavy, which stands: their velocities after
+    by momentum and restitution; neither is lifted. The gap is a whole number of steps wide, so that
+    rounding says which points of the faces carry at the end of the step in which they meet.
+    """
+    speed, gap, dt = 0.5, 0.02, 1e-4
+    side = dict(kind="block", length_m=0.4, width_m=0.5, height_m=0.4, element_size_m=0.4)
+    bodies = dict(
+        left=side | dict(mass_kg=100.0),
+        right=side | dict(mass_kg=200.0, at_m=[0.4 + gap, 0.0, 0.0]),
+    )
+    for restitution in (0.0, 0.5, 1.0):
+        joints = dict(
+            foot=dict(between=["left", "ground"]),
+            feet=dict(between=["right", "ground"]),
+            side=dict(between=["left", "right"], restitution=restitution),
+        )
+        made = engines(
+            dict(
+                bodies=bodies,
+                joints=joints,
+                contact=dict(friction_coefficient=0.0, interior_points=0),
+                initial=dict(left=dict(velocity_m_s=[speed, 0.0, 0.0])),
+                integration=dict(engine="rigid", dt_s=dt, duration_s=1.0, start="drawn"),
+            )
+        )()
+        rows, _ = made.advance(np.zeros((round(2 * gap / speed / dt), 3)))
+        columns = columns_of(rows, made.model)
+        lifted = max(columns[f"body/{name}/displacement"][:, 2].max() for name in bodies)
+        ways = [columns[f"body/{name}/displacement"][-2:, 0] for name in bodies]
+        shares = (1 - 2 * restitution) / 3, (1 + restitution) / 3
+        told = f"a block slides into one twice as heavy, restitution {restitution:g}"
+        for name, way, share in zip(bodies, ways, shares):
+            yield Row(
+                f"{told}: velocity of the {name} one after over that before",
+                share,
+                (way[1] - way[0]) / dt / speed,
+                2e-4,
+            )
+        yield Row(f"{told}: how far either is lifted [m]", 0.0, lifted, 1e-7)
 
 
 def _beside(

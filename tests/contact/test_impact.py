@@ -67,7 +67,7 @@ def struck(
     assert mark_landing(interface, points, np.arange(n), before, after, landing) == n
     # what the step's own impulse, about to be replaced, has done is taken out again
     late = np.array(velocity if late is None else late, float)
-    early, union = np.array(velocity, float), touched(np.arange(n), before, after)
+    early, union = np.array(velocity, float), touched(np.arange(n), before, after, landing)
     answer, pushed, impulses = find_impact(
         bodies,
         NO_BASE,

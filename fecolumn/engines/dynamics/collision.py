@@ -73,7 +73,7 @@ def collide(system, made: StepMade, contact_work: float, booked: dict, ledger, r
     )
     if happens == NOTHING:
         return
-    union, moment = interpreted(touched)(listed, before, after.contact), np.nan
+    union, moment = interpreted(touched)(listed, before, after.contact, landing), np.nan
     if happens == LANDS:
         moment = interpreted(landing_moment)(union, before, after.contact, early, landing, hht.dt)
     answer, pushed, impulses = find_impact(

@@ -420,7 +420,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
         return OK
     arms, union, moment = (
         np.zeros((len(points), 3)),
-        touched(listed, before, end.contact),
+        touched(listed, before, end.contact, work.landing),
         np.nan,
     )
     for i in union:
