@@ -256,10 +256,6 @@ def test_a_rocking_model_of_a_class_is_the_case_of_its_file():
         (lambda: fecolumn.WobblingFrameModel(height_m=1.0), "wobbling_frame.slab_mass_kg: missing"),
         (lambda: fecolumn.Case.of_model(DRUM), "must be a BlockModel, FrameModel"),
         (
-            lambda: fecolumn.Case.of_model(fecolumn.BlockModel(width_m=0.3)),
-            "state block.width_m and block.height_m",
-        ),
-        (
             lambda: fecolumn.Case.of_model(
                 fecolumn.BlockModel(width_m=0.3, height_m=1.0), motion="lick:1"
             ),
