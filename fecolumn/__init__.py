@@ -55,6 +55,11 @@ if TYPE_CHECKING:
         Tendon,
     )
     from fecolumn.case.mesh_limits import MeshLimits
+    from fecolumn.case.model_sections import BlockSection as BlockModel
+    from fecolumn.case.model_sections import FrameSection as FrameModel
+    from fecolumn.case.model_sections import PodiumSection as PodiumModel
+    from fecolumn.case.model_sections import WobblingFrameSection as WobblingFrameModel
+    from fecolumn.case.model_sections import WobblingSection as WobblingModel
     from fecolumn.case.sections import (
         Cap,
         Contact,
@@ -88,6 +93,7 @@ __all__ = [
     "Arch",
     "Base",
     "Block",
+    "BlockModel",
     "Cap",
     "Case",
     "Column",
@@ -96,6 +102,7 @@ __all__ = [
     "Cylinder",
     "Dashpot",
     "Flange",
+    "FrameModel",
     "FrictionDamper",
     "GapStop",
     "Ground",
@@ -113,6 +120,7 @@ __all__ = [
     "Output",
     "Overturn",
     "Plate",
+    "PodiumModel",
     "Prism",
     "Restrainer",
     "ShortForm",
@@ -123,6 +131,8 @@ __all__ = [
     "StudyResult",
     "Tendon",
     "Tube",
+    "WobblingFrameModel",
+    "WobblingModel",
     "__version__",
     "calibrate",
     "case_from_tables",
@@ -182,6 +192,11 @@ _HOMES = {
     "MeshSizes": "case.column_keys:Mesh",
     "ShortForm": "case.short_form",
     "read_history": "engines.dynamics.history",
+    "BlockModel": "case.model_sections:BlockSection",
+    "FrameModel": "case.model_sections:FrameSection",
+    "WobblingModel": "case.model_sections:WobblingSection",
+    "WobblingFrameModel": "case.model_sections:WobblingFrameSection",
+    "PodiumModel": "case.model_sections:PodiumSection",
     "InputError": "foundation.schema",
     "specimen_mesh": "mesh.specimen",
     "motion_file": "motions.array",

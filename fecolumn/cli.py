@@ -28,6 +28,7 @@ def main(argv=None) -> int:
         return doctor.main(arguments[1:])
     args = _parser().parse_args(arguments)
     from fecolumn.foundation.atomic import disk_full
+    from fecolumn.foundation.deprecated import TOLD
     from fecolumn.foundation.schema import InputError
 
     # a terminal that cannot write a folder's name must not end what is at work there
@@ -35,6 +36,8 @@ def main(argv=None) -> int:
         with contextlib.suppress(AttributeError):
             cast(io.TextIOWrapper, stream).reconfigure(errors="backslashreplace")
     warnings.showwarning = _show_warning
+    # Python hides what is told of older names, which is for those who write files
+    warnings.filterwarnings("default", f".*{TOLD}", DeprecationWarning)
     try:
         code = args.command(args)
         sys.stdout.flush()
@@ -280,6 +283,8 @@ def _analyse(case, folder, file, quiet, profile=False) -> int:
             f"{1e3 * summary['s_per_step']:.2g} ms/step, energy closure "
             f"{summary['energy_closure_rel']:.1e}"
         )
+        if doubt := summary.get("step_doubt"):
+            print(doubt)
         if profile:
             _tell_step_times(Path(folder))
     return 0

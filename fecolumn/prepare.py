@@ -18,7 +18,7 @@ _TUBE = dict(
 _BLOCK = dict(kind="block", length_m=0.2, width_m=0.1, height_m=0.3, element_size_m=0.1)
 _STACK = dict(
     bodies=dict(low=_BLOCK, up=_BLOCK | dict(at_m=[0.0, 0.0, 0.3])),
-    interfaces=dict(foot=dict(between=["low", "ground"]), joint=dict(between=["up", "low"])),
+    joints=dict(foot=dict(between=["low", "ground"]), joint=dict(between=["up", "low"])),
     initial=dict(up=dict(tilt_rad=0.7)),
 )
 _PODIUM = dict(podium=dict(column_mass_kg=1.0, floor_mass_kg=10.0, width_m=0.1, height_m=0.5))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, read_case, type_of
 from fecolumn.case.sections import DEFAULT
 from fecolumn.case.short_form import finished
 from fecolumn.cli import main
@@ -85,6 +85,23 @@ def test_joints_of_earlier_versions_are_read_by_their_name_then():
     older["interfaces"] = {name: {"between": ["absent", "ground"]}}
     with pytest.raises(InputError, match=f"interfaces.{name}.*no such body"):
         case_from_tables(older, "case.toml")
+
+
+def test_an_older_name_is_said_once_with_the_one_to_write(tmp_path, capsys):
+    tables = read_case(SPECIMEN.with_name("two_blocks.toml")).tables()
+    case = case_from_tables(tables, tmp_path / "older.toml")
+    text = case.to_toml().replace("[joints", "[interfaces")
+    (tmp_path / "older.toml").write_text(text)
+    told = f"{tmp_path / 'older.toml'}: [interfaces] is an older name of [joints]"
+    with pytest.warns(DeprecationWarning) as caught:
+        assert read_case(tmp_path / "older.toml") == case
+        assert read_case(tmp_path / "older.toml") == case
+    assert [str(one.message).startswith(told) for one in caught] == [True]
+    with pytest.warns(DeprecationWarning, match="case: interfaces.x.law .* write joints.x.law"):
+        type_of("interfaces.x.law")
+    (tmp_path / "another.toml").write_text(text)
+    assert main(["show", str(tmp_path / "another.toml")]) == 0
+    assert capsys.readouterr().err.count("is an older name of [joints]") == 1
 
 
 def test_a_case_of_the_short_form_takes_keys_of_both():

@@ -12,7 +12,7 @@ from fecolumn.study.plan import read_plan
 COLUMN = '[column]\nshape = "block"\nlength_m = 0.3\nwidth_m = 0.2\nheight_m = 1.0\n'
 BODIES = (
     '[bodies.cube]\nkind = "mesh"\nmesh_file = "cube.vtk"\nrigid = '
-    'true\n[interfaces.foot]\nslave = "cube"\non = "ground"\n'
+    'true\n[joints.foot]\nslave = "cube"\non = "ground"\n'
 )
 
 

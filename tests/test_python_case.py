@@ -227,3 +227,49 @@ def test_the_file_of_a_rocking_model_states_what_was_stated(tmp_path):
     assert read_toml(tmp_path / "block.toml").keys() == {"block", "integration"}
     assert read_case(tmp_path / "block.toml") == case
     assert "block: Block" in repr(case)
+
+
+def test_a_rocking_model_of_a_class_is_the_case_of_its_file():
+    made = fecolumn.Case.of_model(
+        fecolumn.FrameModel(width_m=0.3, height_m=1.8, column_mass_kg=400, beam_mass_kg=900),
+        motion=fecolumn.Motion("lick:1"),
+        integration=fecolumn.Integration(dt_s=0.002),
+        initial=fecolumn.Initial(tilt_rad=0.01),
+        title="bent",
+    )
+    tables = {
+        "title": "bent",
+        "frame": {"width_m": 0.3, "height_m": 1.8, "column_mass_kg": 400, "beam_mass_kg": 900},
+        "motion": {"source": "lick:1"},
+        "integration": {"dt_s": 0.002},
+        "initial": {"tilt_rad": 0.01},
+    }
+    assert made == case_from_tables(tables) and made.id == case_from_tables(tables).id
+    assert "column_mass_kg" in fecolumn.FrameModel.__doc__ + str(
+        dataclasses.fields(fecolumn.FrameModel)
+    )
+
+
+@pytest.mark.parametrize(
+    "make, said",
+    [
+        (lambda: fecolumn.WobblingFrameModel(height_m=1.0), "wobbling_frame.slab_mass_kg: missing"),
+        (lambda: fecolumn.Case.of_model(DRUM), "must be a BlockModel, FrameModel"),
+        (
+            lambda: fecolumn.Case.of_model(
+                fecolumn.BlockModel(width_m=0.3, height_m=1.0), motion="lick:1"
+            ),
+            "motion = 'lick:1': must be a Motion",
+        ),
+        (
+            lambda: fecolumn.Case.of_model(
+                fecolumn.BlockModel(width_m=0.3, height_m=1.0),
+                integration=fecolumn.Integration(engine="rigid"),
+            ),
+            "must be housner",
+        ),
+    ],
+)
+def test_what_does_not_fit_a_rocking_model_is_refused_in_words(make, said):
+    with pytest.raises(InputError, match=said):
+        make()

@@ -20,6 +20,7 @@ _DECIDE_NOTHING = {
     "foundation/_form_compiler.py",
     "foundation/_kernel.py",
     "foundation/atomic.py",
+    "foundation/deprecated.py",
     "foundation/digests.py",
     "foundation/files.py",
     "foundation/lock.py",

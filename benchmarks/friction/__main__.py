@@ -32,7 +32,7 @@ from benchmarks.friction.problem import Problem, violation
 from benchmarks.friction.recorded import column, structures
 from benchmarks.peers.child import run_child
 from benchmarks.peers.install import SYSTEM_PYTHON
-from fecolumn.contact.friction import prepare_solver, solve_contact
+from fecolumn.contact.friction import solve_contact
 from fecolumn.foundation.atomic import write_json
 
 # Violation of the laws over max |q| below which a problem counts as solved: 1e-14 m on the tenth of
@@ -113,7 +113,8 @@ def compared(given: list[Problem], folder: Path) -> tuple[list[dict], str]:
     """A record a problem: what it is, and of every solver violation, seconds and iterations; and
     Siconos' remark.
     """
-    prepare_solver(lambda text: print(text, file=sys.stderr))
+    # compiled, so that the first problem costs what all cost
+    solve_contact(np.eye(3), np.zeros((1, 3)), 0.0, np.zeros((1, 3)))
     own = [ours(problem) for problem in given]
     others, remark = siconos(given, folder, [one["forces"] for one in own])
     records = []

@@ -5,10 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.fuzz.damage import BYTES
+from benchmarks.fuzz.network_files import all_files
 from fecolumn.case.sections import Motion
 from fecolumn.motions.load import load_motion
 
 _N, _DT = 120, 0.01
+# Ends of the names of networks' files
+_NETWORKS = [name[2:] for name in all_files()]
 _WORDS = [
     b"1e12",
     b"-1e12",
@@ -57,6 +60,8 @@ def prepare(folder) -> None:
         + "".join(f"{_DT * i:.2f}, {v:.6e}, {-v:.6e}\n" for i, v in enumerate(values))
     )
     (folder / "a.txt").write_text("".join(f"{_DT * i:.2f} {v:.6e}\n" for i, v in enumerate(values)))
+    for name, text in all_files().items():
+        (folder / name).write_text(text)
     (folder / "a.asc").write_text(
         f"EVENT_NAME: x\nSAMPLING_INTERVAL_S: {_DT}\nNDATA: {_N}\nUNITS: "
         "cm/s^2\nDATA_TYPE: ACCELERATION\n" + "".join(f"{v:.6e}\n" for v in values)
@@ -70,16 +75,17 @@ def sound(folder):
 
 def mutate(rng, folder):
     """One of the files changed, and keys that go with it or against it."""
-    path = folder / f"a.{rng.choice(['AT2', 'csv', 'txt', 'asc'])}"
+    path = folder / f"a.{rng.choice(['AT2', 'csv', 'txt', 'asc', *_NETWORKS])}"
     data = path.read_bytes()
     for _ in range(int(rng.integers(1, 4))):
         data = _changed(rng, data)
     path.write_bytes(data)
+    stated = path.name[2:] in _NETWORKS  # at another step than the others
     units, dt = "g" if path.suffix == ".txt" else "", 0.01
     keys = dict(
         rotation_deg=float(rng.choice([0.0, 30.0])),
         vertical=bool(rng.random() < 0.5),
-        dt_s=float(rng.choice([0.0, _DT])),
+        dt_s=0.0 if stated else float(rng.choice([0.0, _DT])),
         strong_part=(0.0, 1.0) if rng.random() < 0.5 else (0.01, 0.99),
         delay_s=float(rng.choice([0.0, 0.013])),
     )

@@ -25,7 +25,7 @@ def tables(structure: Structure, dt: float) -> dict:
     ValueError
         another outline, or faces that neither stand on one another nor look at one another.
     """
-    bodies, interfaces = {}, {}
+    bodies, joints = {}, {}
     depth = min(float(np.ptp(body.outline[:, 0])) for body in structure.bodies if not body.fixed)
     for body in structure.bodies:
         if body.fixed:
@@ -53,14 +53,14 @@ def tables(structure: Structure, dt: float) -> dict:
             )
         if not other.fixed and np.ptp(other.outline[:, 0]) < np.ptp(one.outline[:, 0]):
             one, other = other, one  # the narrower face has the points
-        interfaces[f"{name_of(one)}_{name_of(other)}"] = dict(
+        joints[f"{name_of(one)}_{name_of(other)}"] = dict(
             slave=name_of(one),
             on="ground" if other.fixed else name_of(other),
             friction_coefficient=joint.friction,
         )
     return dict(
         bodies=bodies,
-        interfaces=interfaces,
+        joints=joints,
         contact=dict(interior_points=0),
         integration=dict(engine="rigid", dt_s=dt, duration_s=600.0),
     )

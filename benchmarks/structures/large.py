@@ -44,7 +44,7 @@ def temple_case(size: float = SIZE, dt: float = 1e-3):
             tables,
             dict(
                 bodies=larger,
-                interfaces=joints,
+                joints=joints,
                 contact=dict(interior_points=0),
                 integration=dict(engine="full", dt_s=dt, duration_s=10.0),
             ),

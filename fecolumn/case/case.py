@@ -44,6 +44,9 @@ from fecolumn.foundation.toml_file import merge, nested, read_toml, stated
 
 # of which no number depends
 _IDLE = ("output", "mesh")
+#: Contact points inside a foot where neither its joint nor [contact] states them: of one of several
+#: bodies, and of one body alone
+POINTS_OF_SEVERAL, POINTS_OF_ONE = 9, 64
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -53,7 +56,7 @@ class Case:
         fecolumn.Case(
             bodies={"drum": fecolumn.Cylinder(outer_diameter_m=0.5, height_m=1.6)},
             joints={"foot": fecolumn.Joint(between=("drum", "ground"))},
-            motion=fecolumn.Motion("lick:1"),
+            motion=fecolumn.Motion("lick:1")
         )
 
     It is checked as a whole where it is made, as a file is. Relative paths are taken from the
@@ -147,6 +150,40 @@ class Case:
         """
         return case_from_tables(form.tables())
 
+    @staticmethod
+    def of_model(
+        model: Section,
+        *,
+        motion: Motion | None = None,
+        integration: Integration | None = None,
+        initial: Initial | None = None,
+        overturn: Overturn | None = None,
+        output: Output | None = None,
+        title: str = "",
+    ) -> Case:
+        """The case of a rocking model of rigid bodies: a BlockModel, FrameModel, WobblingModel,
+        WobblingFrameModel or PodiumModel, which gives the engine.
+
+            fecolumn.Case.of_model(
+                fecolumn.BlockModel(width_m=0.3, height_m=1.8), motion=fecolumn.Motion("lick:1")
+            )
+
+        Raises
+        ------
+        InputError
+            names key, value and range, or the parts that do not fit.
+        """
+        from fecolumn.case.model_table import tables_of_model
+
+        sections: dict[str, Section | None] = {
+            "motion": motion,
+            "integration": integration,
+            "initial": initial,
+            "overturn": overturn,
+            "output": output,
+        }
+        return case_from_tables(tables_of_model(model, sections, title))
+
     @property
     def id(self) -> str:
         """Twelve hexadecimal digits that name everything but title and output cadence; motions and
@@ -162,10 +199,21 @@ class Case:
         if self.grounds == {GROUND: Ground()}:
             # as of cases that are older than grounds
             del tables["grounds"]
+        if self.contact.interior_points is None and len(self.bodies) > 1:
+            tables["interior_points"] = POINTS_OF_SEVERAL  # it was another number before 0.11
         if self.own:
             tables["own"] = {key: section_table("", one) for key, one in self.own.items()}
         text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+    @property
+    def interior_points(self) -> int:
+        """Contact points inside a foot whose joint does not state them; those of several bodies
+        move within 1 % as with four times as many over their first impacts.
+        """
+        if self.contact.interior_points is not None:
+            return self.contact.interior_points
+        return POINTS_OF_SEVERAL if len(self.bodies) > 1 else POINTS_OF_ONE
 
     @property
     def n_modes(self) -> int:

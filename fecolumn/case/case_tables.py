@@ -19,6 +19,7 @@ from fecolumn.case.sections import (
     Output,
     Overturn,
 )
+from fecolumn.foundation.deprecated import warn_of_older_name
 
 #: Tables of tables by name, and the class of each.
 NAMED = {
@@ -43,7 +44,11 @@ COMMON = {
 def of_this_version(key: str) -> str:
     """A dotted key of earlier versions by its name in this one."""
     first, dot, rest = key.partition(".")
-    return f"joints{dot}{rest}" if first == "interfaces" else key
+    if first != "interfaces":
+        return key
+    newer = f"joints{dot}{rest}"
+    warn_of_older_name("case", key, newer)
+    return newer
 
 
 def type_of(key: str):

@@ -20,6 +20,7 @@ from fecolumn.case.bodies import (
 from fecolumn.case.body_keys import Solid, Stuff
 from fecolumn.case.polygon import crossing, signed_area
 from fecolumn.case.sections import Material
+from fecolumn.foundation.schema import meant
 
 # Of the square of a polygon's longest side: less area is none
 _FLAT = 1e-9
@@ -62,7 +63,8 @@ def check_body(key: str, body, materials: dict, refuse) -> None:
         refuse(
             f"{key}.material",
             body.material,
-            f"no such table of [materials]; known: {', '.join(materials) or 'none'}",
+            f"no such table of [materials]{meant(body.material, materials)}; known: "
+            f"{', '.join(materials) or f'none: state one as [materials.{body.material}]'}",
         )
     if body.mass_kg is not None and body.density_kg_m3 is not None:
         refuse(

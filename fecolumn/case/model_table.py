@@ -11,6 +11,7 @@ both is analysed: the name of a model, or an engine of bodies.
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 
 from fecolumn.case.check_step import check_step
@@ -118,6 +119,49 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
         title=tables.get("title", ""),
         own={table: build(SECTIONS[table], tables[table], file, f"{table}.")},
     )
+
+
+def tables_of_model(model: Section, sections: dict[str, Section | None], title: str) -> dict:
+    """Tables of the file of a rocking model's case.
+
+    Parameters
+    ----------
+    model
+        the model's own table, such as a FrameModel.
+    sections
+        by names of COMMON, None where its defaults are meant.
+
+    Raises
+    ------
+    InputError
+        `model` is no table of a model.
+    """
+    tables = {kind: table for table, kind in SECTIONS.items()}
+    if type(model) not in tables:
+        raise InputError(
+            "case",
+            "model",
+            model,
+            "must be a BlockModel, FrameModel, WobblingModel, WobblingFrameModel or PodiumModel",
+        )
+    for name, one in sections.items():
+        if one is not None and not isinstance(one, Section):
+            raise InputError("case", name, one, f"must be a {name.capitalize()}")
+    found = {
+        tables[type(model)]: _stated(model),
+        **{name: _stated(one) for name, one in sections.items() if one is not None},
+    }
+    return found | ({"title": title} if title else {})
+
+
+def _stated(section: Section) -> dict:
+    """Keys of a section that are not at their defaults."""
+    return {
+        field.name: value
+        for field in dataclasses.fields(section)
+        if (value := getattr(section, field.name)) is not None
+        and (field.default is dataclasses.MISSING or value != field.default)
+    }
 
 
 def _refuse(file, key: str, value, allowed: str) -> None:

@@ -5,6 +5,7 @@ slenderness and half diagonal; its friction, tendon and restitution.
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -16,6 +17,17 @@ class OutlineKeys(Section):
     """A body of a height and a size across."""
 
     ACROSS: ClassVar[str]
+
+    @classmethod
+    def section_name(cls) -> str:
+        """The table of a FrameSection is [frame], of a WobblingFrameSection [wobbling_frame]."""
+        words = re.findall("[A-Z][a-z]+", cls.__name__.removesuffix("Section"))
+        return "_".join(words).lower()
+
+    @classmethod
+    def public_name(cls) -> str:
+        """FrameModel of a FrameSection."""
+        return cls.__name__.removesuffix("Section") + "Model"
 
     height_m: float | None = parameter(
         None,

@@ -15,6 +15,7 @@ from fecolumn.case.sections import (
     located,
 )
 from fecolumn.case.short_form import full_tables, in_short_form, short_form
+from fecolumn.foundation.deprecated import warn_of_older_name
 from fecolumn.foundation.schema import InputError, build, meant
 from fecolumn.foundation.toml_file import stated
 
@@ -100,6 +101,7 @@ def _of_interfaces(tables: dict, file):
     if twice := set(joints) & set(older):
         key = f"joints.{min(twice)}"
         raise InputError(file, key, None, "stands in [interfaces], too: give it once")
+    warn_of_older_name(str(file), "[interfaces]", "[joints]")
     others = {name: table for name, table in tables.items() if name != "interfaces"}
 
     def named(text: str) -> str:

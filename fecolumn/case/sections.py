@@ -96,10 +96,10 @@ class Contact(Section):
     penalty_factor: float = parameter(
         100.0, doc="penalty stiffness per area as a multiple of E / fine_size_m", above=0, high=1e9
     )
-    interior_points: int = parameter(
-        64,
+    interior_points: int | None = parameter(
+        None,
         doc="contact points inside the outlines of the foot, evenly spread; all nodes on "
-        "the outlines are points",
+        "the outlines are points; left out: 64 of one body, 9 of each joint of several",
         low=0,
         high=10**6,
         since="0.2",

@@ -21,8 +21,8 @@ from fecolumn.contact.coupling import (
 )
 from fecolumn.contact.frozen_slips import halve_way, solve_frozen
 from fecolumn.contact.interior_point import approach, in_cones
-from fecolumn.contact.newton import newton_steps, solve_in_place
-from fecolumn.foundation._compiled import compiled, njit
+from fecolumn.contact.newton import NewtonLimits, newton_steps, solve_in_place
+from fecolumn.foundation._compiled import njit
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,11 @@ def frictionless(coupling, q, start):
     if len(coupling.whole) == 0:
         rho = stiffnesses(coupling, False)
         forces, _, _ = newton_steps(
-            coupling, q, np.zeros(len(q)), start, 0.0, rho, rho, 0.0, tolerances.ACTIVE_SETS, 5
+            coupling,
+            q,
+            np.zeros(len(q)),
+            start,
+            NewtonLimits(0.0, rho, rho, 0.0, tolerances.ACTIVE_SETS, 5),
         )
         for i in range(len(q)):
             forces[i, 0] = forces[i, 1] = 0.0
@@ -135,37 +139,45 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
                     q,
                     friction,
                     start,
-                    tolerance,
-                    together,
-                    rho,
-                    give,
-                    tolerances.NEWTON_STEPS,
-                    tolerances.NEWTON_STALLED,
+                    NewtonLimits(
+                        tolerance,
+                        together,
+                        rho,
+                        give,
+                        tolerances.NEWTON_STEPS,
+                        tolerances.NEWTON_STALLED,
+                    ),
                 )
                 iterations += made
                 if residual < least:
                     best, least = forces, residual
-    many = n > tolerances.MANY_POINTS and len(coupling.whole) == 0
+    by_levers = len(coupling.whole) == 0
+    many = by_levers and n > tolerances.MANY_POINTS
+    # cheap by levers: many small steps, each held by a compliance against change
+    held = NewtonLimits(
+        tolerance,
+        rho,
+        rho,
+        tolerances.HELD_GIVE / rho.min(),
+        tolerances.HELD_STEPS,
+        tolerances.HELD_STALLED,
+    )
+    if many and least > tolerance:
+        forces, residual, made, _ = by_frozen_slips(
+            coupling,
+            q,
+            friction,
+            best,
+            tolerance,
+            rho,
+            tolerances.FROZEN_ROUNDS + tolerances.FROZEN_MORE,
+        )
+        iterations += made
+        if residual < least:
+            best, least = forces, residual
     # of few points the whole matrix follows
-    for way in range((2 if many else 1) if len(coupling.whole) == 0 else 0):
-        if least <= tolerance:
-            break
-        if many == (way == 0):
-            forces, residual, made = by_frozen_slips(coupling, q, friction, best, tolerance, rho)
-        else:
-            # cheap by levers: many small steps, each held by a compliance against change
-            forces, residual, made = newton_steps(
-                coupling,
-                q,
-                friction,
-                best,
-                tolerance,
-                rho,
-                rho,
-                tolerances.HELD_GIVE / rho.min(),
-                tolerances.HELD_STEPS,
-                tolerances.HELD_STALLED,
-            )
+    if by_levers and least > tolerance:
+        forces, residual, made = newton_steps(coupling, q, friction, best, held)
         iterations += made
         if residual < least:
             best, least = forces, residual
@@ -228,52 +240,57 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
 
 
 @njit
-def by_frozen_slips(coupling, q, friction, start, tolerance, rho):
-    """As `_with_frozen_slips`, by levers, where each convex problem costs what the points are: many
-    blocks of a wall that is shaken, whose head joints touch and hardly carry. Best forces,
-    residual, steps of Newton.
+def by_frozen_slips(coupling, q, friction, start, tolerance, rho, turns):
+    """Forces by a fixed point on the sizes of the slips (Acary, Cadoux, Lemarechal and Malick 2011,
+    ZAMM 91): best forces, residual, steps of Newton, iterations of an interior point.
+
+    With these sizes frozen the problem is convex. By levers Newton finds its solution, at the cost
+    of what the points are: many blocks of a wall that is shaken, whose head joints touch and hardly
+    carry. By the whole matrix an interior point does, from no slips. Newton on the laws tries from
+    each solution, `turns` times at most.
     """
-    n, best, least, iterations, missed, give = len(q), start, np.inf, 0, np.inf, 0.0
-    slips, forces, slopes = np.empty(n), np.empty((n, 3)), np.empty((n, 3, 3))
-    relative, motion = slips_under(coupling, q, start), motion_by(coupling, start)
+    n, best, least, iterations, others, give = len(q), start, np.inf, 0, 0, 0.0
+    slips, forces, slopes = np.zeros(n), np.empty((n, 3)), np.empty((n, 3, 3))
+    by_levers, missed, motion = len(coupling.whole) == 0, np.inf, np.empty((0, 0))
+    A, Q = np.empty((0, 0)), np.empty((0, 3))
     for i in range(n):
-        slips[i] = friction[i] * np.hypot(relative[i, 0], relative[i, 1])
         give = max(give, tolerances.GIVE / rho[i])
-        if not coupling.own[i].min() > 0.0:
-            return best, least, 0
-    for turn in range(tolerances.FROZEN_ROUNDS + tolerances.FROZEN_MORE):
-        before = slips.copy()
-        made, missed = solve_frozen(
-            coupling,
-            q,
-            friction,
-            slips,
-            motion,
-            forces,
-            slopes,
-            max(tolerance, tolerances.FROZEN_SHARE * missed) if missed < np.inf else tolerance,
-        )
-        if turn >= tolerances.FROZEN_HALVED:
-            halve_way(before, slips)
-        iterations += made
-        found, residual, made = newton_steps(
-            coupling,
-            q,
-            friction,
-            forces,
-            tolerance,
-            rho,
-            rho,
-            give,
-            tolerances.NEWTON_STEPS,
-            tolerances.NEWTON_STALLED,
-        )
+    if by_levers:
+        relative, motion = slips_under(coupling, q, start), motion_by(coupling, start)
+        for i in range(n):
+            slips[i] = friction[i] * np.hypot(relative[i, 0], relative[i, 1])
+            if not coupling.own[i].min() > 0.0:
+                return best, least, 0, 0
+    else:
+        A, Q = in_cones(coupling.whole, q, friction)
+    steps, patience = tolerances.NEWTON_STALLED, 2
+    if by_levers:
+        steps, patience = tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED
+    limits = NewtonLimits(tolerance, rho, rho, give, steps, patience)
+    for turn in range(turns):
+        if by_levers:
+            before, exact = slips.copy(), tolerance
+            if missed < np.inf:
+                exact = max(tolerance, tolerances.FROZEN_SHARE * missed)
+            made, missed = solve_frozen(coupling, q, friction, slips, motion, forces, slopes, exact)
+            iterations += made
+            if turn >= tolerances.FROZEN_HALVED:
+                halve_way(before, slips)
+        else:
+            forces, inside = approach(
+                A, Q, friction, np.zeros((n, 3)), np.zeros((n, 3)), tolerances.FROZEN_INSIDE, slips
+            )
+            others += inside
+            relative = slips_under(coupling, q, forces)
+            for i in range(n):
+                slips[i] = np.hypot(relative[i, 0], relative[i, 1])
+        found, residual, made = newton_steps(coupling, q, friction, forces, limits)
         iterations += made
         if residual < least:
             best, least = found, residual
         if least <= tolerance:
             break
-    return best, least, iterations
+    return best, least, iterations, others
 
 
 @njit
@@ -352,7 +369,7 @@ def _find_some(coupling, q, friction, forces, start, listed, tolerance, sweeps, 
 @njit
 def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turns):
     """Forces (n, 3) by one way after the other, residual, Newton iterations and others; guess,
-    start: (n, 3) from which Newton is tried; turns: of `_with_frozen_slips`, 0 to leave it.
+    start: (n, 3) from which Newton is tried; turns: of `by_frozen_slips`, 0 to leave it.
     """
     n, stiffest, give = len(q), np.inf, 0.0
     if n == 0:
@@ -366,12 +383,7 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
         q,
         friction,
         guess,
-        tolerance,
-        rho,
-        rho,
-        0.0,
-        tolerances.FAR_STEPS,
-        tolerances.FAR_STALLED,
+        NewtonLimits(tolerance, rho, rho, 0.0, tolerances.FAR_STEPS, tolerances.FAR_STALLED),
     )
     if least > tolerance:
         forces, residual, made = newton_steps(
@@ -379,12 +391,14 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
             q,
             friction,
             start,
-            tolerance,
-            stiffnesses(coupling, True),
-            rho,
-            0.0,
-            tolerances.NEWTON_STEPS,
-            tolerances.NEWTON_STALLED,
+            NewtonLimits(
+                tolerance,
+                stiffnesses(coupling, True),
+                rho,
+                0.0,
+                tolerances.NEWTON_STEPS,
+                tolerances.NEWTON_STALLED,
+            ),
         )
         iterations += made
         if residual < least:
@@ -406,12 +420,7 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
                 q,
                 friction,
                 forces,
-                tolerance,
-                rho,
-                rho,
-                give,
-                tolerances.NEWTON_STALLED,
-                2,
+                NewtonLimits(tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2),
             )
             iterations += newtons
             if residual < least:
@@ -431,12 +440,9 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
             q,
             friction,
             forces,
-            tolerance,
-            rho,
-            rho,
-            give,
-            tolerances.NEWTON_STEPS,
-            tolerances.NEWTON_STALLED,
+            NewtonLimits(
+                tolerance, rho, rho, give, tolerances.NEWTON_STEPS, tolerances.NEWTON_STALLED
+            ),
         )
         iterations += made
         if residual < least:
@@ -451,54 +457,19 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
             q,
             friction,
             best,
-            tolerance,
-            rho,
-            rho,
-            held,
-            tolerances.HELD_STEPS,
-            tolerances.HELD_STALLED,
+            NewtonLimits(tolerance, rho, rho, held, tolerances.HELD_STEPS, tolerances.HELD_STALLED),
         )
         iterations += made
         if residual < least:
             best, least = forces, residual
     if least > tolerance and turns > 0 and n <= tolerances.FROZEN_POINTS:
-        forces, residual, made, inside = _with_frozen_slips(
-            coupling, q, friction, tolerance, rho, give, turns
+        forces, residual, made, inside = by_frozen_slips(
+            coupling, q, friction, best, tolerance, rho, turns
         )
         iterations += made
         others += inside
         if residual < least:
             best, least = forces, residual
-    return best, least, iterations, others
-
-
-@njit
-def _with_frozen_slips(coupling, q, friction, tolerance, rho, give, turns):
-    """Forces by a fixed point on the sizes of the slips (Acary, Cadoux, Lemarechal and Malick 2011,
-    ZAMM 91): best forces, residual, steps of Newton, iterations inside.
-
-    With these sizes frozen the problem is convex, and an interior point solves it to its end;
-    Newton tries from each solution, `turns` times at most.
-    """
-    n, slips, least, iterations, others = len(q), np.zeros(len(q)), np.inf, 0, 0
-    A, Q = in_cones(coupling.whole, q, friction)
-    best = np.zeros((n, 3))
-    for _ in range(turns):
-        forces, inside = approach(
-            A, Q, friction, np.zeros((n, 3)), np.zeros((n, 3)), tolerances.FROZEN_INSIDE, slips
-        )
-        relative = slips_under(coupling, q, forces)
-        for i in range(n):
-            slips[i] = np.hypot(relative[i, 0], relative[i, 1])
-        forces, residual, made = newton_steps(
-            coupling, q, friction, forces, tolerance, rho, rho, give, tolerances.NEWTON_STALLED, 2
-        )
-        iterations += made
-        others += inside
-        if residual < least:
-            best, least = forces, residual
-        if least <= tolerance:
-            break
     return best, least, iterations, others
 
 
@@ -531,16 +502,3 @@ def solve_contact(
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))
     friction = np.ascontiguousarray(np.broadcast_to(np.asarray(mu, float), len(q)))
     return ContactSolution(*iterate(coupling_of(W), q, friction, start, tolerance, True, sweeps))
-
-
-def prepare_solver(say=lambda text: None) -> None:
-    """Have the solver compiled, so that the first step costs what all cost.
-
-    Parameters
-    ----------
-    say
-        told why it takes long, if it does.
-    """
-    if not compiled(iterate):
-        say("compiling the contact solver, once on this machine: half a minute")
-    solve_contact(np.eye(3), np.zeros((1, 3)), 0.0, np.zeros((1, 3)))

@@ -13,7 +13,7 @@ from fecolumn.contact.arrays import flat, largest, put_points
 from fecolumn.contact.coupling import part_of, softened, stiffnesses
 from fecolumn.contact.friction import iterate
 from fecolumn.contact.frozen_slips import find_impulses
-from fecolumn.contact.newton import newton_steps
+from fecolumn.contact.newton import NewtonLimits, newton_steps
 from fecolumn.contact.problem import N_IMPACT_CONTACT
 from fecolumn.contact.tolerances import (
     FROZEN_ENDS,
@@ -124,12 +124,14 @@ def _softened_impulses(compliance, velocity, friction, guess, allowed, usable, n
             velocity,
             friction,
             guess,
-            SHARP * allowed,
-            stiffnesses(compliance, True),
-            stiffnesses(compliance, False),
-            0.0,
-            NEWTON_STEPS,
-            NEWTON_STALLED,
+            NewtonLimits(
+                SHARP * allowed,
+                stiffnesses(compliance, True),
+                stiffnesses(compliance, False),
+                0.0,
+                NEWTON_STEPS,
+                NEWTON_STALLED,
+            ),
         )
         if residual > allowed:
             impulses, residual, more = find_impulses(

@@ -22,8 +22,8 @@ from fecolumn.contact.separation import perpendicular
 from fecolumn.contact.tolerances import SAME_OUTLINE
 from fecolumn.foundation._compiled import njit
 
-#: Kinds of names: see `name_of`
-NO_NAME, CORNER_OF_FIRST, CORNER_OF_SECOND, CROSSING = range(4)
+#: Kinds of names: see `name_of`; 0 is that of no place
+CORNER_OF_FIRST, CORNER_OF_SECOND, CROSSING = 1, 2, 3
 
 
 #: A place. arm: (3,) from the slave's centre of mass in its frame, seat: (3,) from the master's in

@@ -6,7 +6,7 @@ In a step::
     find_boxes(hulls, centers, rotations, margins, boxes)
     found = find_pairs(hulls, boxes, left_out, pairs)
     found = add_grounds(hulls, boxes, ground_places, ground_axes, pairs, found)
-    # where found > len(pairs), or a row is missing: make room with `more_rows` and look again
+    # where found > len(pairs), or a row is missing: `meetings_for` more rows has to be asked
     missing = keep_rows(meetings, pairs[:found])
     changed = find_meetings(
         hulls, centers, rotations, ground_places, ground_axes, reach, meetings, room
@@ -100,14 +100,6 @@ def meetings_for(rows: int, slots: int = 8) -> Meetings:
     for row, places in zip(meetings.rows, meetings.places):
         interpreted(_free)(row, places)
     return meetings
-
-
-def more_rows(meetings: Meetings, rows: int) -> Meetings:
-    """The same pairs with `rows` rows."""
-    result = meetings_for(rows, meetings.places.shape[1])
-    result.rows[: len(meetings.rows)] = meetings.rows
-    result.places[: len(meetings.rows)] = meetings.places
-    return result
 
 
 @njit(alone=TOGETHER)

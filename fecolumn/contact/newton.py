@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from fecolumn.contact.arrays import put
@@ -12,28 +14,46 @@ from fecolumn.contact.tolerances import SINGULAR
 from fecolumn.foundation._compiled import njit
 
 
+class NewtonLimits(NamedTuple):
+    """How Newton steps are made, and when they end.
+
+    tolerance: residual [m] at which the laws are obeyed. rho: (n,) stiffness [N/m] by which stick
+    and slip are told, rho_alone: (n,) by which the residual is measured. give: as of `newton_step`
+    [m/N]. most: steps at most; patience: those without a better residual after which it ends.
+    """
+
+    tolerance: float
+    rho: np.ndarray
+    rho_alone: np.ndarray
+    give: float
+    most: int
+    patience: int
+
+
 @njit
-def newton_steps(coupling, q, friction, start, tolerance, rho, rho_alone, give, most, patience):
-    """Newton steps until the tolerance is met, or the residual has not fallen for more than
-    `patience`, or without `give` W proves singular: best forces, residual, steps made.
+def newton_steps(coupling, q, friction, start, limits):
+    """Newton steps until the tolerance is met, or the residual falls no more, or without give W
+    proves singular: best forces, residual, steps made.
     """
     forces, least, stalled, made = start, np.inf, 0, 0
     best = start
     while True:
         relative = slips_under(coupling, q, forces)
-        residual = violation(relative, forces, friction, rho_alone)
+        residual = violation(relative, forces, friction, limits.rho_alone)
         stalled += 1
         if residual < least:
             best, least, stalled = forces, residual, 0
         if (
-            residual <= tolerance
-            or stalled > patience
-            or made == most
-            or give == 0.0
+            residual <= limits.tolerance
+            or stalled > limits.patience
+            or made == limits.most
+            or limits.give == 0.0
             and not residual <= SINGULAR * least
         ):
             break
-        forces, regular = newton_step(coupling, q, forces, relative, friction, rho, give)
+        forces, regular = newton_step(
+            coupling, q, forces, relative, friction, limits.rho, limits.give
+        )
         if not regular:
             break
         made += 1

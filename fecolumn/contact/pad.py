@@ -121,12 +121,6 @@ def springs_of(points: np.ndarray, interfaces: np.ndarray, dt: float) -> Springs
     return Springs(points["law"] + give, give, kept, flow, np.zeros(len(points), bool))
 
 
-def no_pads(own: np.ndarray) -> Springs:
-    """Springs of points (n,) that alone give (n, 3) [m/N], without pads."""
-    n = len(own)
-    return Springs(own, np.zeros((n, 3)), np.zeros(n), np.zeros(n), np.zeros(n, bool))
-
-
 @njit
 def without_pads(interfaces, points, listed):
     """Those of the listed points (k,) below which there is no pad."""

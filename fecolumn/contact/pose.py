@@ -31,17 +31,6 @@ GROUND = record(
 SLAVE, MASTER = range(2)
 
 
-def poses_on_base(rotations: np.ndarray) -> np.ndarray:
-    """(n,) of POSE of interfaces on the base, whose slaves are turned by (n, 3, 3)."""
-    poses = np.zeros(len(rotations), POSE)
-    poses["frame"], poses["turned"][:, SLAVE], poses["turned"][:, MASTER] = (
-        np.eye(3),
-        rotations,
-        np.eye(3),
-    )
-    return poses
-
-
 def grounds_at(levels) -> np.ndarray:
     """(G,) of GROUND at heights (G,) [m], at rest."""
     grounds = np.zeros(len(levels), GROUND)

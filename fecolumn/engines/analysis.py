@@ -382,11 +382,27 @@ class Analysis:
             impact_iterations=record.impact_iterations,
             impacts=record.impacts,
             rigid_loss_share=self.rigid_loss_share(),
+            step_doubt=self._step_doubt(),
             cuts=record.cuts,
             parts=record.parts,
             factorizations=factorizations,
         )
         return self.write_results(ending, dofs, of_steps | self.results(ending))
+
+    def _step_doubt(self) -> str | None:
+        """Of the summary: what is doubtful of a step that the user states, in words."""
+        from fecolumn.engines.step_doubt import step_doubt
+
+        if self.dt_chosen:
+            return None
+        return step_doubt(
+            self.history.arrays(),
+            self.case.integration.dt_s,
+            self.rigid_loss_share(),
+            self.barrier_j,
+            self.limits()["critical_tilt_rad"],
+            len(self.case.bodies) <= 1,
+        )
 
     def write_results(self, ending: Ending, dofs: int, more: dict) -> dict:
         """Write the last history and the summary of any engine, with `more` entries of this one;

@@ -110,14 +110,9 @@ def window_of(rows: dict[str, np.ndarray], barrier_j: float) -> Window | None:
     barrier_j: energy to overturn [J].
     """
     now = rows["time"]
-    took = np.diff(-rows["energy/impact"], prepend=-rows["energy/impact"][0])
-    largest = took[now <= FIRST_S + OTHERS_S].max()
-    landings = now[took > max(_LANDS * barrier_j, _COUNTS * largest)]
-    if not landings.size or landings[0] > FIRST_S:
+    begins, ends = landings(rows, barrier_j, FIRST_S + OTHERS_S)
+    if not begins.size or begins[0] > FIRST_S:
         return None
-    first = np.flatnonzero(np.diff(landings, prepend=-np.inf) > _APART_S)
-    last = np.append(first[1:], landings.size) - 1
-    begins, ends = landings[first], landings[last]
     first_s = float(begins[0])
     limit = min(float(now[-1]), first_s + OTHERS_S)
     number = int(np.count_nonzero(begins <= limit))
@@ -128,3 +123,22 @@ def window_of(rows: dict[str, np.ndarray], barrier_j: float) -> Window | None:
         return Window(first_s, limit - _LEFT_OUT * (limit - first_s), limit, number)
     left_out = _LEFT_OUT * (limit - end)
     return Window(first_s, end + left_out, limit - left_out, number)
+
+
+def landings(
+    rows: dict[str, np.ndarray], barrier_j: float, until_s: float = np.inf
+) -> tuple[np.ndarray, np.ndarray]:
+    """Times (n,), (n,) [s] at which impacts begin and end; what is less than a hundredth of the
+    largest until a time counts for none.
+
+    barrier_j: energy to overturn [J].
+    """
+    now = rows["time"]
+    took = np.diff(-rows["energy/impact"], prepend=-rows["energy/impact"][0])
+    largest = took[now <= until_s].max(initial=0.0)
+    lands = now[took > max(_LANDS * barrier_j, _COUNTS * largest)]
+    if not lands.size:
+        return lands, lands
+    first = np.flatnonzero(np.diff(lands, prepend=-np.inf) > _APART_S)
+    last = np.append(first[1:], lands.size) - 1
+    return lands[first], lands[last]

@@ -8,6 +8,7 @@ import contextlib
 import dataclasses
 from typing import TYPE_CHECKING
 
+from fecolumn.case.case import POINTS_OF_SEVERAL
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.progress import clock
 
@@ -26,8 +27,6 @@ _TOLD_S, _LONG_S = 3.0, 30.0
 SLOW_S = 0.05
 # Slow steps are told again where they take so many times as long as those told last
 _SLOWER = 2.0
-# Points inside a face from which on fewer are advised, and how many
-FEW_POINTS = 9
 
 
 class Pace:
@@ -200,11 +199,11 @@ def cheaper(case) -> dict[str, dict]:
         "contact.interior_points"
         if one.interior_points is None
         else f"joints.{name}.interior_points": (
-            case.contact.interior_points if one.interior_points is None else one.interior_points
+            case.interior_points if one.interior_points is None else one.interior_points
         )
         for name, one in case.joints.items()
     }
-    many = {key: FEW_POINTS for key, value in given.items() if value > FEW_POINTS}
+    many = {key: POINTS_OF_SEVERAL for key, value in given.items() if value > POINTS_OF_SEVERAL}
     if many:
         found["interior_points"] = many
     if plan.engine == "reduced":

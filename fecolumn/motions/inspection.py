@@ -11,6 +11,7 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.motions.load import higher_between_rows
 from fecolumn.motions.processing import integrate, resample
 from fecolumn.motions.record import METRES_PER_S2, GroundMotion, Recording
+from fecolumn.motions.spike import spike_in
 
 # [g]: peaks of ground motions that are worth an analysis lie between; none was recorded beyond
 _LIKELY, _RECORDED = (0.005, 3.0), 5.0
@@ -87,6 +88,11 @@ def oddities(motion: GroundMotion) -> list[str]:
             found.append(f"a{name}: {peak / GRAVITY:.3g} g is hardly felt: another unit?")
         found += _drift(name, v, u)
         found += _stillness(name, a, motion.dt)
+        if (place := spike_in(a)) is not None:
+            found.append(
+                f"a{name}: a spike: {a[place]:.3g} m/s2 at t = {place * motion.dt:.4g} s, one "
+                "sample alone: is the file damaged?"
+            )
     fine = min(motion.dt / _FINER, motion.duration)
     return found + [one for one in [higher_between_rows(motion, resample(motion, fine))] if one]
 

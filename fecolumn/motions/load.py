@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +15,15 @@ from numpy.typing import NDArray
 from fecolumn.case.sections import GRAVITY, Motion
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions import lick
+from fecolumn.motions.afad import looks_like_afad, read_afad
 from fecolumn.motions.at2 import looks_like_at2, read_at2
 from fecolumn.motions.columns import read_columns
+from fecolumn.motions.cosmos import looks_like_cosmos, read_cosmos
+from fecolumn.motions.csmip import looks_like_csmip, read_csmip
 from fecolumn.motions.ensemble_file import file_and_number, read_member
 from fecolumn.motions.esm import looks_like_esm, read_esm
 from fecolumn.motions.fema_p695 import PREFIX, read_fema_p695
+from fecolumn.motions.geonet import looks_like_geonet, read_geonet
 from fecolumn.motions.processing import (
     delay,
     join,
@@ -38,6 +43,8 @@ from fecolumn.motions.record import (
     sound,
 )
 from fecolumn.motions.seismic import read_seismic, seismic_format
+from fecolumn.motions.smc import looks_like_smc, read_smc
+from fecolumn.motions.spike import spike_in
 from fecolumn.motions.text import read_text
 
 AXES = "xyz"
@@ -45,12 +52,22 @@ _DT_TOLERANCE = 1e-4
 _LENGTH_TOLERANCE = 0.01
 #: What files of motions may be.
 FORMATS = (
-    "PEER AT2, ESM ASC, columns of text (CSV, tabs, spaces; decimal comma or point); with the "
-    "extra records K-NET, KiK-net, SAC, miniSEED, GSE2"
+    "PEER AT2, ESM ASC, COSMOS, CSMIP V1 and V2, SMC, GeoNet V1A and V2A, AFAD, columns of text "
+    "(CSV, tabs, spaces; decimal comma or point); with the extra records K-NET, KiK-net, SAC, "
+    "miniSEED, GSE2"
+)
+# Of networks, by their first lines
+_NETWORKS = (
+    (looks_like_esm, read_esm),
+    (looks_like_cosmos, read_cosmos),
+    (looks_like_geonet, read_geonet),
+    (looks_like_csmip, read_csmip),
+    (looks_like_smc, read_smc),
+    (looks_like_afad, read_afad),
 )
 # [m/s2], 5 g: more was recorded nowhere, and a unit may be wrong
 _UNLIKELY = 50.0
-_SOURCES = f"a file (.AT2, .asc, .csv, .txt), ensemble.h5#NUMBER, lick:NUMBER or {PREFIX}SET/INDEX"
+_SOURCES = f"a file of a record, ensemble.h5#NUMBER, lick:NUMBER or {PREFIX}SET/INDEX"
 # Over a file's peak: sampled band-limited, a motion of few rows may peak higher between them
 _HIGHER = 0.02
 _LARGEST_RATIO = 20_000  # of steps: the filter between them has 128 times as many terms
@@ -210,6 +227,13 @@ def read_motion(motion: Motion, file: Path | str) -> GroundMotion:
                 "its unit right?",
                 stacklevel=2,
             )
+        for axis, column in columns.items():
+            if (place := spike_in(column)) is not None:
+                warnings.warn(
+                    f"{ground.name}: a{axis or 'x'} has a spike of {column[place]:.3g} m/s2 at "
+                    f"t = {place * dt:g} s, one sample alone: is the file damaged?",
+                    stacklevel=2,
+                )
         return ground
     except ValueError as error:
         raise InputError(file, "motion.source", motion.source, str(error)) from None
@@ -236,8 +260,8 @@ def recording_of(motion: Motion, key: str, file: Path | str) -> Recording:
             )
         elif kind := seismic_format(source):
             recording = read_seismic(source, kind)
-        elif looks_like_esm(text := read_text(source)):
-            recording = read_esm(source)
+        elif read := _network_reader(text := read_text(source)):
+            recording = read(source)
         elif looks_like_at2(source, text):
             recording = read_at2(source)
         else:
@@ -248,6 +272,11 @@ def recording_of(motion: Motion, key: str, file: Path | str) -> Recording:
         hint = f"; must be {_SOURCES}" if str(error) == "no such file" else ""
         raise InputError(file, f"motion.{key}", source, f"{error}{hint}") from None
     return recording
+
+
+def _network_reader(text: str) -> Callable[[str], Recording] | None:
+    """The reader of the network whose format a text has, if it has one."""
+    return next((read for looks_like, read in _NETWORKS if looks_like(text)), None)
 
 
 def _columns_of(source: str, dt_s: float) -> Recording:

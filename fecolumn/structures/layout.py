@@ -179,7 +179,7 @@ def _touching(
         interface = case.joints[meeting.interface]
         if meeting.slave[0] == body:
             interior = (
-                case.contact.interior_points
+                case.interior_points
                 if interface.interior_points is None
                 else interface.interior_points
             )

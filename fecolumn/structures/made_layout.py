@@ -60,7 +60,7 @@ def _geometry(case) -> dict:
             name: [getattr(one, key) for key in keys] + [one.stiffness_n_m3 is not None]
             for name, one in case.joints.items()
         },
-        "interior": case.contact.interior_points,
+        "interior": case.interior_points,
     } | ({"found": sorted({name for name, _ in case.found})} if case.found else {})
 
 

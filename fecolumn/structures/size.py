@@ -59,7 +59,7 @@ def _points(case, name: str, nodes: int) -> int:
         )
     ]
     inner = [
-        case.contact.interior_points if one.interior_points is None else one.interior_points
+        case.interior_points if one.interior_points is None else one.interior_points
         for one in touching
     ]
     return sum(round(min(face, 4 * math.sqrt(face) + each)) for each in inner)

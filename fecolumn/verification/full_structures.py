@@ -56,11 +56,11 @@ def _slab(length, width, thickness, size, **keys):
     )
 
 
-def _structure(bodies, interfaces, initial, seconds, **tables):
+def _structure(bodies, joints, initial, seconds, **tables):
     return merge(
         dict(
             bodies=bodies,
-            interfaces=interfaces,
+            joints=joints,
             initial=initial,
             contact=dict(friction_coefficient=0.7, interior_points=0),
             integration=dict(dt_s=1e-3, duration_s=seconds),

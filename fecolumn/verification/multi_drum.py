@@ -109,7 +109,7 @@ def drum_case(folder: Path):
     return case_from_tables(
         dict(
             bodies=bodies,
-            interfaces=joints,
+            joints=joints,
             contact=dict(friction_coefficient=_FRICTION, interior_points=0),
             integration=dict(engine="rigid", dt_s=DT, duration_s=20.0),
         ),

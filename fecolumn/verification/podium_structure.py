@@ -85,7 +85,7 @@ def podium_case(
                 | material
                 | (building or {}),
             ),
-            interfaces=dict(
+            joints=dict(
                 feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="building")
             ),
             contact=dict(friction_coefficient=0.7, interior_points=0),

@@ -100,7 +100,7 @@ def frame_case(frame: WobblingFrame, initial: dict, dt: float):
                 )
                 | body,
             ),
-            interfaces=dict(
+            joints=dict(
                 feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")
             ),
             links=dict(tendon=tendon) if stiffness else {},

@@ -139,13 +139,13 @@ class Rolling:
 
 
 def case_of(
-    bodies: dict, interfaces: dict, engine: str, dt: float, initial=None, friction: float = 0.7
+    bodies: dict, joints: dict, engine: str, dt: float, initial=None, friction: float = 0.7
 ):
     """Case of a structure that nothing shakes."""
     return case_from_tables(
         dict(
             bodies=bodies,
-            interfaces=interfaces,
+            joints=joints,
             initial=initial or {},
             contact=dict(friction_coefficient=friction, interior_points=4),
             integration=dict(dt_s=dt, duration_s=100.0, engine=engine)

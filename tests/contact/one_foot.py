@@ -3,14 +3,13 @@ which the answer is known.
 """
 
 import numpy as np
+from plain import no_pads, poses_on_base
 from two_blocks import Blocks, compliance
 
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.interface import interface_of, rims_at_rest
-from fecolumn.contact.pad import no_pads
 from fecolumn.contact.points import CONTACT, node_points
-from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import (
     N_COUNTS,
     OK,

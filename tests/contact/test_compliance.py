@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from plain import poses_on_base
 from two_blocks import NO_BASE, Blocks, compliance
 
 from fecolumn.contact.bodies import one_body
@@ -9,7 +10,6 @@ from fecolumn.contact.compliance import assemble
 from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import CONTACT, node_points
-from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.projection import base_of
 
 

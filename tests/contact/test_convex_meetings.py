@@ -12,7 +12,7 @@ from convex_bodies import box, frustum, on_bodies, row_of, step, turned, used_ro
 from scipy.spatial.transform import Rotation
 
 from fecolumn.contact.best_axis import largest_separation
-from fecolumn.contact.meetings import GROUND_NORMAL, keep_rows, meetings_for, more_rows
+from fecolumn.contact.meetings import GROUND_NORMAL, keep_rows, meetings_for
 from fecolumn.contact.separation import (
     FACE_OF_FIRST,
     FACE_OF_SECOND,
@@ -278,9 +278,6 @@ def test_rows_stay_while_their_pairs_are_near():
         rows = now
     pairs = np.array(every[:8])
     assert keep_rows(meetings, pairs) == 2
-    larger = more_rows(meetings, 10)
-    assert keep_rows(larger, pairs) == 0
-    assert (larger.rows["pair"][:6] == meetings.rows["pair"]).all()
 
 
 def history():

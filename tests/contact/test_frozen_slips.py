@@ -116,7 +116,7 @@ def test_forces_of_a_step_are_found_where_newton_alone_may_find_none(seed, along
     own = coupling.own * [along, along, 1.0]
     coupling = Coupling(coupling.whole, own, coupling.levers, coupling.bodies, coupling.blocks)
     rho = stiffnesses(coupling, False)
-    forces, residual, _ = by_frozen_slips(coupling, slips, friction, start, 1e-11, rho)
+    forces, residual, _, _ = by_frozen_slips(coupling, slips, friction, start, 1e-11, rho, 36)
     after = slips_under(coupling, slips, forces)
     assert violation(after, forces, friction, rho) == residual <= 1e-11
     assert (forces[:, 2] > 0).sum() >= 2

@@ -2,15 +2,14 @@
 
 import numpy as np
 import pytest
+from plain import no_pads, poses_on_base
 from two_blocks import NO_BASE
 
 from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact, landing_moment, mark_landing, touched
 from fecolumn.contact.interface import interface_of
-from fecolumn.contact.pad import no_pads
 from fecolumn.contact.points import BASE, CONTACT, node_points
-from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import N_COUNTS, OK
 from fecolumn.contact.tolerances import IMPACT_LEFT
 from fecolumn.contact.work import book_impulses

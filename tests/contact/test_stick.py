@@ -5,12 +5,12 @@ problem, and it knows where it holds.
 import numpy as np
 import pytest
 from one_foot import DEEP, answer, many
+from plain import poses_on_base
 
 from fecolumn.contact.factor import multiply, solve_factored
 from fecolumn.contact.friction import solve_contact
 from fecolumn.contact.interface import interface_of, rims_at_rest
 from fecolumn.contact.points import CONTACT
-from fecolumn.contact.pose import poses_on_base
 from fecolumn.contact.problem import N_ASSEMBLED
 from fecolumn.contact.stick import find_stick, holds, no_stick, operator_of, solve_sticking
 from fecolumn.contact.tolerances import PAD_TURN, STICK_TURN, STICK_WAY

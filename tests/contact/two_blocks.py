@@ -3,12 +3,12 @@ takes them; and the same by dense matrices.
 """
 
 import numpy as np
+from plain import no_pads, poses_on_base
 
 from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.interface import interface_of
-from fecolumn.contact.pad import no_pads
 from fecolumn.contact.points import CONTACT, node_points
-from fecolumn.contact.pose import MASTER, poses_on_base
+from fecolumn.contact.pose import MASTER
 from fecolumn.contact.projection import base_of
 from fecolumn.fem.rotation import rotation_matrix
 

@@ -34,7 +34,7 @@ VARIABLES = {"$SLURM_ARRAY_TASK_ID": "7"}
 # Pages of a minute and more, at small size
 LONG = ("examples", "jobs", "quick-start")
 # Programs outside of this package whose commands are read by the shell alone
-FOREIGN = ("alias", "dask", "docker", "apptainer", "pytest")
+FOREIGN = ("alias", "dask", "docker", "docs", "apptainer", "pytest")
 
 
 def words(command: str) -> list[str]:

@@ -6,8 +6,9 @@ import subprocess
 import sys
 
 import pytest
-from cells import code_cells
 from documents import ROOT
+
+from containers.docs.cells import code_cells
 
 TUTORIALS = sorted((ROOT / "fecolumn" / "case" / "manual" / "tutorials").glob("*.py"))
 
@@ -31,7 +32,7 @@ def test_tutorial_is_cells_of_python(tutorial):
 def test_tutorial_runs_cell_by_cell_and_shows_tables_and_figures(tutorial, tmp_path):
     path = os.pathsep.join([str(ROOT), os.environ.get("PYTHONPATH", "")])
     done = subprocess.run(
-        [sys.executable, str(ROOT / "tests" / "manual" / "cells.py"), str(tutorial), "shown"],
+        [sys.executable, str(ROOT / "containers" / "docs" / "cells.py"), str(tutorial), "shown"],
         cwd=tmp_path,
         env={**os.environ, "PYTHONPATH": path},
         capture_output=True,

@@ -16,7 +16,7 @@ from fecolumn.engines.dynamics.history import read_history
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.profile import THRESHOLD, effective_number, profiled_fit
 from fecolumn.statistics.rocking_test import read_rocking_test
-from fecolumn.study.questions.calibration import usual_ranges
+from fecolumn.study.questions.calibration import RockingCalibration, usual_ranges
 
 BLOCK = "[block]\nwidth_m = 0.25\nheight_m = 1.0\n[integration]\ndt_s = 0.005\n"
 RESTITUTION, TILT, NOISE = 0.925, 0.12, 0.002
@@ -100,6 +100,14 @@ def test_what_was_killed_goes_on_from_its_runs(test_of_block):
     assert answers[0] == answers[1]
     # what was done is not made again
     assert all(file.stat().st_mtime_ns == at for file, at in old.items())
+
+
+def test_a_range_of_decades_is_searched_in_logarithm(test_of_block):
+    ranges = {"grounds.ground.stiffness_n_m3": (1e6, 1e10), "bodies.a.edge_radius_m": (0.0, 0.1)}
+    test = read_rocking_test(test_of_block / "free.csv")
+    question = RockingCalibration({}, "case.toml", ranges, test, test_of_block / "none")
+    found = question.values(np.array([0.5, 0.5]))
+    assert found == {"grounds.ground.stiffness_n_m3": 1e8, "bodies.a.edge_radius_m": 0.05}
 
 
 def line(x, y):

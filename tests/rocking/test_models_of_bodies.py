@@ -25,7 +25,7 @@ FRAME = FOOT | dict(head=dict(between=["body", "slab"]))
 def case(engine, bodies, joints, **tables):
     plan = dict(engine=engine, dt_s=1e-3, duration_s=1.0)
     return case_from_tables(
-        dict(bodies=bodies, interfaces=joints, integration=plan) | tables, "case.toml"
+        dict(bodies=bodies, joints=joints, integration=plan) | tables, "case.toml"
     )
 
 
@@ -109,7 +109,7 @@ height_m = 1.6
 density_kg_m3 = 2700
 youngs_modulus_pa = 5e11
 element_size_m = 0.2
-[interfaces.foot]
+[joints.foot]
 between = ["block", "ground"]
 [initial.block]
 tilt_rad = 0.05

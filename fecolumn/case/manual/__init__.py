@@ -14,6 +14,7 @@ TOPICS = (
     "studies",
     "questions",
     "statistics",
+    "commands",
     "outputs",
     "pictures",
     "examples",

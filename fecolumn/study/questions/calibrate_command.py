@@ -119,13 +119,13 @@ def _write(question: Any, fit: Any, case: str, folder: Path) -> None:
     best = question.values(fit.best)
     rows: list[list[Any]] = [["key", "unit", "value", "low", "high", "identified"]]
     profiles: list[list[Any]] = [["key", "value", "deviance"]]
-    for (key, (low, high)), one in zip(question.ranges.items(), fit.parameters):
+    for key, one in zip(question.ranges, fit.parameters):
         ends = [
-            "" if end is None else f"{low + end * (high - low):.6g}" for end in (one.low, one.high)
+            "" if end is None else f"{question.at(key, end):.6g}" for end in (one.low, one.high)
         ]
         rows.append([key, axis_unit(key), f"{best[key]:.6g}", *ends, int(one.identified)])
         profiles += [
-            [key, f"{low + at * (high - low):.6g}", f"{deviance:.5g}"]
+            [key, f"{question.at(key, at):.6g}", f"{deviance:.5g}"]
             for at, deviance in zip(one.at, one.deviance)
         ]
     write_csv(folder / "calibrate.csv", rows)

@@ -17,6 +17,9 @@ from fecolumn.pictures.figures.axis_text import axis_unit
 from fecolumn.statistics.profile import ProfiledFit, ProfiledParameter
 from fecolumn.statistics.rocking_test import RockingTest
 
+# Ranges that span so many times their lower end are searched in logarithm: of a stiffness it is the
+# order of magnitude that is sought
+_DECADE = 10.0
 # A fit whose residuals are above this share of the tilt at the release is told to be none
 _POOR = 0.1
 
@@ -59,10 +62,14 @@ class RockingCalibration:
 
     def values(self, u: NDArray[Any]) -> dict[str, float]:
         """Values of the keys at shares (d,) of their ranges, to six digits."""
-        return {
-            key: float(f"{low + share * (high - low):.6g}")
-            for share, (key, (low, high)) in zip(u, self.ranges.items())
-        }
+        return {key: float(f"{self.at(key, share):.6g}") for share, key in zip(u, self.ranges)}
+
+    def at(self, key: str, share: float) -> float:
+        """Value of a key at a share of its range, in logarithm where that spans a decade."""
+        low, high = self.ranges[key]
+        if low > 0 and high >= _DECADE * low:
+            return float(low * (high / low) ** share)
+        return low + share * (high - low)
 
     def case(self, u: NDArray[Any]) -> Any:
         """The case at shares (d,) of the ranges."""
@@ -85,7 +92,7 @@ class RockingCalibration:
             for end in (0.0, 1.0):
                 ends = middle.copy()
                 ends[place] = end
-                self.case(ends)
+                self.tilt(ends)
         self.tilt(middle)
 
     def tilt(self, u: NDArray[Any]) -> NDArray[Any]:
@@ -133,7 +140,7 @@ class RockingCalibration:
         unit = "" if unit == "-" else f" {unit}"
 
         def at(share: float) -> str:
-            return f"{low + share * (high - low):.5g}"
+            return f"{self.at(key, share):.5g}"
 
         if one.free:
             return (
@@ -186,6 +193,9 @@ def usual_ranges(tables: dict[str, Any], file: str) -> dict[str, tuple[float, fl
             if isinstance(stiffness, (int, float)):
                 found[f"{table}.{name}.stiffness_n_m3"] = (0.1 * stiffness, 10.0 * stiffness)
     for name, body in (tables.get("bodies") or {}).items():
+        stiffness = body.get("contact_stiffness_n_m3") if isinstance(body, dict) else None
+        if isinstance(stiffness, (int, float)):
+            found[f"bodies.{name}.contact_stiffness_n_m3"] = (0.1 * stiffness, 10.0 * stiffness)
         radius = body.get("edge_radius_m") if isinstance(body, dict) else None
         if isinstance(radius, (int, float)) and radius > 0:
             found[f"bodies.{name}.edge_radius_m"] = (0.0, 3.0 * radius)

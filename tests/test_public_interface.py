@@ -1,0 +1,61 @@
+"""The public interface: names of `fecolumn` with their signatures, in public_interface.txt.
+
+Where it is meant to change: `python tests/test_public_interface.py` writes the file anew, and the
+changelog tells what changed.
+"""
+
+import inspect
+import re
+import types
+from pathlib import Path
+
+import fecolumn
+
+FILE = Path(__file__).with_name("public_interface.txt")
+
+
+def interface() -> str:
+    """One line for each public name, and for each method and property of a class."""
+    lines = []
+    for name in fecolumn.__all__:
+        found = getattr(fecolumn, name)
+        call = found.__init__ if inspect.isclass(found) else found
+        own = isinstance(call, types.FunctionType)  # not that of Python's exceptions
+        lines.append(f"{name}{inspect.signature(found) if own else ''}")
+        if inspect.isclass(found):
+            lines += [f"    {line}" for line in _members(found)]
+    return re.sub(" at 0x[0-9a-f]+", "", "\n".join(lines)) + "\n"
+
+
+def _members(cls) -> list[str]:
+    """Public methods and properties that a class of this package defines."""
+    found = {}
+    for base in reversed(cls.__mro__):
+        if base.__module__.startswith("fecolumn"):
+            found |= {name: one for name, one in vars(base).items() if not name.startswith("_")}
+    lines = []
+    for name, one in sorted(found.items()):
+        if isinstance(one, property) or type(one).__name__ == "cached_property":
+            lines.append(name)
+        elif isinstance(one, types.FunctionType | classmethod | staticmethod):
+            lines.append(f"{name}{inspect.signature(getattr(cls, name))}")
+    return lines
+
+
+def test_public_names_and_signatures_are_those_that_are_written_down():
+    written = FILE.read_text(encoding="utf-8").splitlines()
+    now = interface().splitlines()
+    gone = [line for line in written if line not in now]
+    new = [line for line in now if line not in written]
+    assert written == now, (
+        f"gone: {gone}; new: {new}; see the head of {Path(__file__).name}, and tell it in the "
+        "changelog"
+    )
+
+
+def test_every_public_name_has_a_docstring():
+    assert [name for name in fecolumn.__all__ if not getattr(fecolumn, name).__doc__] == []
+
+
+if __name__ == "__main__":
+    FILE.write_text(interface(), encoding="utf-8")
