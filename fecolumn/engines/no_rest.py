@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.case.bodies import Matrices
 from fecolumn.case.case import Case
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
-from fecolumn.structures.size import plan_of
+from fecolumn.structures.size import extent_in_plan
 
 # Names of joints that are told, at most
 _TOLD = 3
@@ -53,7 +53,8 @@ def _far_apart(case: Case, copies) -> str:
         return ""
     middles = np.array(
         [
-            np.mean(plan_of(case.bodies[name]), axis=0) + case.bodies[name].places[number][:2]
+            np.mean(extent_in_plan(case.bodies[name]), axis=0)
+            + case.bodies[name].places[number][:2]
             for name, number in shaped
         ]
     )

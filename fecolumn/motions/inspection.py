@@ -17,8 +17,9 @@ from fecolumn.motions.spike import spike_in
 _LIKELY, _RECORDED = (0.005, 3.0), 5.0
 # Of the peak velocity: what may be left at the end of a record without drift
 _LEFT = 0.1
-# Of a record's step: a step at which its peak between its rows is looked for
-_FINER = 10
+# Of a record's step, a step at which its peak between its rows is looked for, of so many samples at
+# most
+_FINER, _MANY = 10, 1_000_000
 # Seconds of one value without change that are a gap, and of the peak that are a clipped record
 _GAP_S, _CLIPPED = 0.5, 4
 
@@ -93,8 +94,10 @@ def oddities(motion: GroundMotion) -> list[str]:
                 f"a{name}: a spike: {a[place]:.3g} m/s2 at t = {place * motion.dt:.4g} s, one "
                 "sample alone: is the file damaged?"
             )
-    fine = min(motion.dt / _FINER, motion.duration)
-    return found + [one for one in [higher_between_rows(motion, resample(motion, fine))] if one]
+    if len(motion.acceleration) * _FINER > _MANY:
+        return found
+    told = higher_between_rows(motion, resample(motion, motion.dt / _FINER))
+    return found + [told] if told else found
 
 
 def _drift(name: str, v: NDArray[Any], u: NDArray[Any]) -> list[str]:

@@ -118,13 +118,13 @@ def _feet(case, ground: str) -> list[np.ndarray]:
             body = case.bodies[name]
             if isinstance(body, Matrices):
                 continue
-            low, high = plan_of(body)
+            low, high = extent_in_plan(body)
             corners = np.array([[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])])
             found.append(corners + np.array(body.places[number]))
     return found
 
 
-def plan_of(body) -> tuple[np.ndarray, np.ndarray]:
+def extent_in_plan(body) -> tuple[np.ndarray, np.ndarray]:
     """Lowest and highest corner (2,) [m] of the foot of a body that is not of matrices."""
     if isinstance(body, Meshed):
         own = own_mesh(body.drawn)
