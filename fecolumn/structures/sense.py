@@ -8,12 +8,13 @@ import warnings
 
 import numpy as np
 
-from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.case.bodies import Matrices, Prism, Storeys
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import GRAVITY
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import GROUND, StructureModel
 from fecolumn.structures.place import loads
+from fecolumn.structures.size import LARGE, largest_side
 
 # Mean strain of a body at rest below one of its faces: what elements are made for is a tenth of it
 _STRAIN = 0.1
@@ -51,6 +52,20 @@ def check_sense(case, structure: StructureModel, standing, extents, file) -> Non
     _check_forces(case, structure, file)
     if case.integration.engine != "rigid":
         _check_strains(case, structure, standing, file)
+
+
+def tell_of_lengths(case, file) -> None:
+    """Warn, once, of a prism so large that its lengths are likely not in metres."""
+    sides = {
+        name: largest_side(body) for name, body in case.bodies.items() if isinstance(body, Prism)
+    }
+    if sides and max(sides.values()) > LARGE:
+        name = max(sides, key=sides.__getitem__)
+        warnings.warn(
+            f'{file}: bodies.{name}: "{name}" is {sides[name]:g} m large, which looks like '
+            "millimetres: lengths are in metres",
+            stacklevel=2,
+        )
 
 
 def tell_of_densities(case, bodies: dict, outlines: dict, file) -> None:

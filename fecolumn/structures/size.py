@@ -14,9 +14,9 @@ from fecolumn.mesh.imported import own_mesh
 from fecolumn.structures.ground import sized_ground
 from fecolumn.structures.shapes import counts_of, element_size
 
-# [m]: the largest element size that a key takes, and size of a body from which its lengths are
-# likely not in metres
-_MOST = 100.0
+#: [m]: the largest element size that a key takes, and size of a body from which its lengths are
+#: likely not in metres
+LARGE = 100.0
 
 
 def size_of(case, file, spots=None, bodies=None) -> Estimate:
@@ -176,7 +176,7 @@ def refuse_too_large(case, file, spots=None) -> None:
             body.mesh_file,
             f"{too_many}; take a coarser mesh, or a higher mesh.limit_dofs",
         )
-    if isinstance(body, Prism) and (size := largest_side(body)) > _MOST:
+    if isinstance(body, Prism) and (size := largest_side(body)) > LARGE:
         side = "width_m" if size == body.width_m else "outline_m"
         raise InputError(
             file,
@@ -215,7 +215,7 @@ def _largest(body) -> float:
     if isinstance(body, Block):
         return min(body.length_m, body.width_m)
     if isinstance(body, Prism):
-        return min(largest_side(body), _MOST)
+        return min(largest_side(body), LARGE)
     return (
         max(body.length_m, body.width_m)
         if isinstance(body, (Plate, Storeys))

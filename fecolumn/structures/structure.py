@@ -26,7 +26,7 @@ from fecolumn.structures.made_layout import layout_on_disk
 from fecolumn.structures.model import BodyModel, Part, StructureModel
 from fecolumn.structures.pads import with_pads
 from fecolumn.structures.place import Standing, placed
-from fecolumn.structures.sense import check_sense, tell_of_densities
+from fecolumn.structures.sense import check_sense, tell_of_densities, tell_of_lengths
 from fecolumn.structures.store import (
     kept_body,
 )
@@ -130,6 +130,7 @@ def assembled(
     )
     replaced = structure.replaced
     tell_of_gaps([one for n, one in enumerate(joints) if n not in replaced], standing, file)
+    tell_of_lengths(case, file)
     tell_of_densities(case, bodies, layout["outlines"], file)
     check_sense(case, structure, standing, extents, file)
     check_rest(case, structure, standing, file)

@@ -261,7 +261,7 @@ def test_column_named_for_another_axis_is_refused(tmp_path):
         (
             "gone.AT2",
             None,
-            "no such file; must be a file (.AT2, .asc, .csv, .txt), "
+            "no such file; must be a file of a record, "
             "ensemble.h5#NUMBER, lick:NUMBER or fema-p695:SET/INDEX",
         ),
         (".", None, "is a directory"),

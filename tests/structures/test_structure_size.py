@@ -142,6 +142,10 @@ def test_a_prism_drawn_in_millimetres_is_told_so(outline, width, key):
     with pytest.raises(InputError, match="of 900 m, which looks like millimetres") as caught:
         structure_model(case, "small.toml")
     assert caught.value.key == f"bodies.a.{key}" and "\n" not in str(caught.value)
+    coarse = dict(a=body | dict(element_size_m=100.0, rigid=True))
+    case = structure(bodies=coarse, joints=dict(foot=dict(slave="a", on="ground")))
+    with pytest.warns(UserWarning, match='bodies.a: "a" is 900 m large, which looks like millim'):
+        structure_model(case, "small.toml")
 
 
 def test_coarse_size_alone_is_named_where_it_is_the_cause():
