@@ -143,7 +143,8 @@ def test_a_prism_drawn_in_millimetres_is_told_so(outline, width, key):
         structure_model(case, "small.toml")
     assert caught.value.key == f"bodies.a.{key}" and "\n" not in str(caught.value)
     coarse = dict(a=body | dict(element_size_m=100.0, rigid=True))
-    case = structure(bodies=coarse, joints=dict(foot=dict(slave="a", on="ground")))
+    foot, drawn = dict(foot=dict(slave="a", on="ground")), dict(start="drawn")
+    case = structure(bodies=coarse, joints=foot, integration=drawn)
     with pytest.warns(UserWarning, match='bodies.a: "a" is 900 m large, which looks like millim'):
         structure_model(case, "small.toml")
 
