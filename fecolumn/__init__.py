@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from fecolumn.foundation.version import __version__
+from fecolumn.foundation.version import __version__ as __version__
 
 if TYPE_CHECKING:
     from fecolumn.case.bodies import (
@@ -133,7 +133,6 @@ __all__ = [
     "Tube",
     "WobblingFrameModel",
     "WobblingModel",
-    "__version__",
     "calibrate",
     "case_from_tables",
     "design",

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from fecolumn.case.case import case_from_tables, read_case, type_of
+from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case_tables import type_of
 from fecolumn.case.sections import DEFAULT
 from fecolumn.case.short_form import finished
 from fecolumn.cli import main

@@ -44,9 +44,6 @@ from fecolumn.foundation.toml_file import merge, nested, read_toml, stated
 
 # of which no number depends
 _IDLE = ("output", "mesh")
-#: Contact points inside a foot where neither its joint nor [contact] states them: of one of several
-#: bodies, and of one body alone
-POINTS_OF_SEVERAL, POINTS_OF_ONE = 9, 64
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
@@ -200,7 +197,7 @@ class Case:
             # as of cases that are older than grounds
             del tables["grounds"]
         if self.contact.interior_points is None and len(self.bodies) > 1:
-            tables["interior_points"] = POINTS_OF_SEVERAL  # it was another number before 0.11
+            tables["interior_points"] = self.interior_points  # it was another number before 0.11
         if self.own:
             tables["own"] = {key: section_table("", one) for key, one in self.own.items()}
         text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
@@ -208,12 +205,8 @@ class Case:
 
     @property
     def interior_points(self) -> int:
-        """Contact points inside a foot whose joint does not state them; those of several bodies
-        move within 1 % as with four times as many over their first impacts.
-        """
-        if self.contact.interior_points is not None:
-            return self.contact.interior_points
-        return POINTS_OF_SEVERAL if len(self.bodies) > 1 else POINTS_OF_ONE
+        """Contact points inside a foot whose joint does not state them."""
+        return self.contact.points_inside(len(self.bodies))
 
     @property
     def n_modes(self) -> int:

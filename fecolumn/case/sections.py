@@ -78,6 +78,11 @@ class Material(Section):
     )
 
 
+#: Contact points inside a foot where neither its joint nor [contact] states them: of one of several
+#: bodies, and of one body alone
+POINTS_OF_SEVERAL, POINTS_OF_ONE = 9, 64
+
+
 @section_class()
 class Contact(Section):
     """Interface between the column's foot and the base."""
@@ -123,6 +128,15 @@ class Contact(Section):
         high=0.1,
         since="0.2",
     )
+
+    def points_inside(self, bodies: int) -> int:
+        """Contact points inside a foot, in a case of so many bodies, whose joint does not state
+        them; those of several bodies move within 1 % as with four times as many over their first
+        impacts.
+        """
+        if self.interior_points is not None:
+            return self.interior_points
+        return POINTS_OF_SEVERAL if bodies > 1 else POINTS_OF_ONE
 
 
 @section_class()

@@ -8,7 +8,7 @@ import contextlib
 import dataclasses
 from typing import TYPE_CHECKING
 
-from fecolumn.case.case import POINTS_OF_SEVERAL
+from fecolumn.case.sections import POINTS_OF_SEVERAL
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.progress import clock
 

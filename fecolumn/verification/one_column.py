@@ -166,4 +166,4 @@ def footprint_of(case: ShortForm, specimen: SpecimenMesh, column: Body) -> Footp
         [ends[:, 0] + t * (ends[:, 1] - ends[:, 0]) for t in np.arange(column.order) / column.order]
     )
     on_outline = np.isin(foot, column.find_nodes(outline, part))
-    return footprint(foot, column.all_X[foot], areas, on_outline, case.interior_points)
+    return footprint(foot, column.all_X[foot], areas, on_outline, case.contact.points_inside(1))
