@@ -154,9 +154,9 @@ def main(job_file):
     for step in range(steps):
         t = (step + 1) * job["dt"]
         model.opt.gravity[0] = -job["amplitude"] * math.sin(2 * math.pi * job["rate"] * t)
-        began = time.perf_counter()
+        began = time.process_time()
         mujoco.mj_step(model, data)
-        times[step] = time.perf_counter() - began
+        times[step] = time.process_time() - began
         iterations += int(data.solver_niter[0])
         peak = max(peak, float(np.linalg.norm(data.xpos[body][:2] - start[:2])))
     cpu = times[first:]

@@ -308,9 +308,11 @@ def check_rest(case, structure, standing, file) -> None:
         bounds.append((None if link.pushes else 0, None if link.pulls else 0))
     load = np.zeros(rows)
     load[2::6] = weights * free
-    scale = np.repeat(weights, 6)
+    # forces in weights of the heaviest, each row over its body's: the solver takes 1e-9 for nothing
+    unit, scale = weights[free].max(initial=1.0), np.repeat(weights, 6)
     missing = np.eye(rows)
-    pushes = np.reshape(columns, (-1, rows)).T / scale[:, None]
+    pushes = unit * np.reshape(columns, (-1, rows)).T / scale[:, None]
+    bounds = [tuple(one if one is None else one / unit for one in pair) for pair in bounds]
     matrix = np.column_stack([pushes, missing, -missing])
     cost = np.concatenate([np.zeros(len(columns)), np.ones(2 * rows)])
     found = linprog(

@@ -2,9 +2,10 @@
 
 import numpy as np
 import pytest
-from small_structures import block, frame, stack, structure
+from small_structures import BLOCK, block, frame, stack, structure
 
 from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.toml_file import merge
 from fecolumn.structures.barrier import least_barrier
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.structure import standing_of, structure_model
@@ -173,3 +174,20 @@ def test_a_face_is_known_to_contact_where_points_of_a_slave_may_come():
         head = layout_of(case, "case").patches["drum"]["head, master"]
         reach[points], known[points] = np.hypot(*head.positions[:, :2].T).min(), len(head.positions)
     assert reach[0] > 0.8 - 0.05 - 2 * 0.1 and reach[60] < 0.1 and known[0] < known[60] / 2
+
+
+def test_a_block_of_a_million_tonnes_stands_and_so_does_a_gram_on_it():
+    """Forces are found in weights, whatever these are."""
+    heavy = dict(length_m=90.0, width_m=90.0, height_m=45.0, element_size_m=45.0)
+    light = BLOCK | dict(length_m=0.01, width_m=0.01, height_m=0.01, element_size_m=0.01)
+    case = structure(
+        **merge(
+            block(**heavy, rigid=True),
+            dict(
+                bodies=dict(light=light | dict(at_m=[0.0, 0.0, 45.0], rigid=True)),
+                joints=dict(upper=dict(slave="light", on="block")),
+            ),
+        ),
+        contact=dict(interior_points=0),
+    )
+    structure_model(case)
