@@ -170,6 +170,26 @@ def test_bodies_of_another_geometry_are_refused_with_the_reason(made, told):
         assert told in str(one.value)
 
 
+@pytest.mark.parametrize(
+    "tables, told",
+    [
+        (dict(grounds=dict(ground=dict(kind="pad", stiffness_n_m3=1e7))), "grounds.ground.kind"),
+        (
+            dict(
+                grounds=dict(ground=dict(motion=dict(source="lick:2"))),
+                motion=dict(source="lick:1"),
+            ),
+            "grounds.ground.motion.source",
+        ),
+        (dict(joints=dict(foot=FOOT["foot"] | dict(stiffness_n_m3=1e7))), "joints.foot.stiff"),
+    ],
+)
+def test_grounds_and_pads_that_a_model_does_not_know_are_refused(tables, told):
+    with pytest.raises(InputError, match=told):
+        made = dict(bodies=dict(body=BLOCK), joints=FOOT) | tables
+        model_of(case("housner", **made), "case.toml")
+
+
 def test_columns_of_a_model_start_alike():
     leaning = dict(tilt_rad=0.02, direction_deg=180.0)
     start = start_of(frame("rocking_frame", PIER, SLAB, initial=dict(body=leaning)), "")

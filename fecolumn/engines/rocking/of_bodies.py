@@ -135,8 +135,24 @@ class _Reader:
                     f"must be left out where integration.engine = {self.engine!r}: a rigid model "
                     "with an impact law of its own, on flat feet along x and y",
                 )
+        self._refuse_grounds()
         if self.case.links:
             self._lacks("knows no links: leave them out, or choose the reduced or rigid engine")
+
+    def _refuse_grounds(self) -> None:
+        """Refuse pads and grounds with a motion of their own."""
+        engine = f"where integration.engine = {self.engine!r}"
+        for name, ground in self.case.grounds.items():
+            if ground.kind == "pad":
+                allowed = f"must be rigid, plate or unbounded {engine}: it stands on rigid ground"
+                self._refuse(f"grounds.{name}.kind", ground.kind, allowed)
+            if ground.motion is not None:
+                allowed = f"must be left out {engine}, which knows one motion, that of [motion]"
+                self._refuse(f"grounds.{name}.motion.source", ground.motion.source, allowed)
+        for name, joint in self.case.joints.items():
+            if joint.stiffness_n_m3 is not None:
+                allowed = f"must be left out {engine}, which knows no pads"
+                self._refuse(f"joints.{name}.stiffness_n_m3", joint.stiffness_n_m3, allowed)
 
     def _joints(self) -> set[tuple[str, str]]:
         """Pairs of bodies, or a body and the ground, between which there are interfaces."""
