@@ -1,8 +1,8 @@
 """Finite elements beside the models: forces and free motion of the restrained wobbling frame,
 impacts of the rocking podium; and what a step costs.
 
-    ./containers/run python -m benchmarks.structures [forces planar rolled impacts rocking speed
-        growth apart walls large] [-o DIR]
+    ./containers/run python -m benchmarks.structures [forces planar rolled impacts rocking shaken
+        speed growth apart walls large] [-o DIR]
     ./containers/run mpirun -n 2 python -m benchmarks.structures large
 
 Writes the rows of what was asked for into DIR as CSV, draws structures.png (and .pdf) from all that
@@ -19,7 +19,7 @@ from mpi4py import MPI
 
 from benchmarks.structures import apart, frame, large, podium
 from benchmarks.structures.figure import draw
-from benchmarks.structures.speed_tables import growths, speeds
+from benchmarks.structures.speed_tables import growths, shaken, speeds
 from fecolumn.case.model_sections import LAWS
 from fecolumn.foundation.atomic import write_csv
 
@@ -211,6 +211,7 @@ def large_costs(folder: Path) -> None:
 
 PARTS = dict(
     speed=speeds,
+    shaken=shaken,
     growth=growths,
     apart=apart_costs,
     walls=wall_costs,

@@ -29,6 +29,8 @@ KINDS, NUMBERS, FACTORS = ("frame", "drums"), (1, 2, 4, 8, 16), (0.1, 0.5, 1.5, 
 #: Structure, number of columns or drums, and what shakes it over what lifts or moves a foot; 0: let
 #: go
 ROWS = [(kind, number, factor) for kind in KINDS for number in NUMBERS for factor in FACTORS]
+#: What RESULTS prints
+PRINTED = (("frame", 4), ("drums", 8))
 SECONDS, POINTS, FRICTION, FIRST = 2.0, 24, 0.7, 20
 # Steps that are timed together: their median tells what most steps take, their mean what an
 # analysis takes

@@ -10,17 +10,29 @@ from benchmarks.structures import speed
 from fecolumn.foundation.atomic import write_csv
 
 
+def shaken(folder: Path) -> None:
+    """Of the frame of four columns and of eight drums alone: the rows that RESULTS prints."""
+    _costs(folder / "shaken.csv", [row for row in speed.ROWS if row[:2] in speed.PRINTED])
+
+
 def speeds(folder: Path) -> None:
-    """Of structures that stand, slide, lift and land, rigid and with ten modes a body, beside
-    MuJoCo; and what the time buys.
+    """Of structures of 1 to 16 columns or drums that stand, slide, lift and land, rigid and with
+    ten modes a body, beside MuJoCo; and what the time buys.
     """
+    _costs(folder / "speed.csv", speed.ROWS)
+    _exact()
+
+
+def _costs(file: Path, asked) -> None:
+    """Print and write the rows that are asked for."""
     print(
         "\n| structure | rigid [us] | rigid, median [us] | ten modes [us] | ten modes, median [us] "
         "| MuJoCo [us] | MuJoCo, stiff [us] | peak, rigid [m] | peak, ten modes [m] "
-        "| peak, MuJoCo [m] | peak, MuJoCo, stiff [m] | closure, rigid | closure, ten modes |\n" + "|---" * 13 + "|"
+        "| peak, MuJoCo [m] | peak, MuJoCo, stiff [m] | closure, rigid "
+        "| closure, ten modes |\n" + "|---" * 13 + "|"
     )
     table = []
-    for kind, number, factor in speed.ROWS:
+    for kind, number, factor in asked:
         rigid, elastic = (
             speed.cost(kind, number, factor, engine) for engine in ("rigid", "reduced")
         )
@@ -46,7 +58,11 @@ def speeds(folder: Path) -> None:
     head = ["rigid_us", "rigid_median_us", "modes_us", "modes_median_us", "mujoco_us"]
     head += ["mujoco_stiff_us", *(f"{name}_peak_m" for name in names)]
     head += ["rigid_closure", "modes_closure"]
-    write_csv(folder / "speed.csv", [["structure", "number", "factor", *head], *table])
+    write_csv(file, [["structure", "number", "factor", *head], *table])
+
+
+def _exact() -> None:
+    """Print how far a cube slides and a stack creeps."""
     print(
         "\n| exact or wanted | rigid | ten modes | MuJoCo | MuJoCo, stiff |\n|---|---|---|---|---|"
     )
