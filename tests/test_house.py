@@ -95,12 +95,16 @@ def test_functions_have_few_arguments():
 
 
 def test_a_public_name_is_defined_once():
-    """Functions and classes of modules, whatever the folder."""
+    """Functions, classes and aliases of types of modules, whatever the folder."""
     homes = collections.defaultdict(list)
     for file, tree in _modules():
         for node in tree.body:
             if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name[0] != "_":
                 homes[node.name].append(str(file))
+            elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+                name = node.targets[0].id  # constants are written in capitals
+                if name[0].isupper() and not name.isupper():
+                    homes[name].append(str(file))
     twice = {
         name: files
         for name, files in homes.items()

@@ -25,7 +25,8 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
     """
     joints = list(structure.joints)
     found, supports = stances(structure, standing), supports_of(standing, joints)
-    held = {place for link in structure.links for place in (link.a, link.b)}
+    linked = {place for link in structure.links for place in (link.a, link.b)}
+    held = set(linked)
     for joint in joints:
         if not is_level(standing, joint):
             held |= {joint.slave, joint.master}
@@ -40,6 +41,8 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
             continue
         if place in held:
             steepest = stance.critical + np.arctan(stance.friction)
+            if place in linked and stance.critical > FAR:
+                steepest = np.pi / 2
             tilts[place] = max(FAR, min(steepest, np.pi / 2))
             continue
         below = [one for one, _ in supports[place]]

@@ -19,7 +19,7 @@ from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.alpha import ALPHA, alpha_note
 from fecolumn.study.plan import Plan, member_of
 from fecolumn.study.store import DONE
-from fecolumn.study.substeps import Setting, substeps_note
+from fecolumn.study.substeps import SettingTables, substeps_note
 
 # of fewer no p-value can fall below 0.05: there are 2^n ways to swap two settings within n motions,
 # two of them extreme
@@ -72,12 +72,12 @@ def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
     return " ".join(part for part in (*parts, parts_made) if part)
 
 
-def settings_of(plan: Plan, rows: list[dict[str, Any]]) -> list[Setting]:
+def settings_of(plan: Plan, rows: list[dict[str, Any]]) -> list[SettingTables]:
     """Axis values and, by motion, the summary of what is done, of each setting with anything
     done.
     """
     states = {row["id"]: row for row in rows}
-    groups: dict[tuple[Any, ...], Setting] = {}
+    groups: dict[tuple[Any, ...], SettingTables] = {}
     for analysis in plan.analyses:
         row = states.get(analysis.id)
         if row and row["state"] == DONE:
@@ -89,10 +89,10 @@ def settings_of(plan: Plan, rows: list[dict[str, Any]]) -> list[Setting]:
     return list(groups.values())
 
 
-def _overturns(settings: list[Setting]) -> str:
+def _overturns(settings: list[SettingTables]) -> str:
     """P(overturn) of the setting, or of those in which it is least and most."""
 
-    def said(setting: Setting) -> str:
+    def said(setting: SettingTables) -> str:
         values, runs = setting
         k = sum(bool(run["overturned"]) for run in runs.values())
         low, high = proportion_interval(k, len(runs))
@@ -102,7 +102,7 @@ def _overturns(settings: list[Setting]) -> str:
             f"of {len(runs)})"
         )
 
-    def share(setting: Setting) -> float:
+    def share(setting: SettingTables) -> float:
         return statistics.fmean([bool(run["overturned"]) for run in setting[1].values()])
 
     ranked = sorted(settings, key=share)
@@ -119,7 +119,7 @@ def _overturns(settings: list[Setting]) -> str:
     )
 
 
-def pairs_of(settings: list[Setting], confidence: float = 0.95) -> list[SettingPair]:
+def pairs_of(settings: list[SettingTables], confidence: float = 0.95) -> list[SettingPair]:
     """Settings that differ in one axis alone, over the motions done in both; confidence: of the
     bound of their distance.
     """
@@ -167,7 +167,7 @@ def _peak(summary: dict[str, Any]) -> float:
     return float(summary["u_max_m"])
 
 
-def _differences(pairs: list[SettingPair], settings: list[Setting]) -> str:
+def _differences(pairs: list[SettingPair], settings: list[SettingTables]) -> str:
     """Whether the distributions of the peak displacement differ, and by what."""
     corrected = holm([pair.p for pair in pairs])
     widest = max(

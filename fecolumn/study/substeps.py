@@ -14,10 +14,10 @@ _ROLLING = "rolling"  # a case's default
 _CAUSES = {_ROLLING: "in which a round rim rolls fast", "impacts": "in which a point lands"}
 
 #: Axis values of a setting, and the summary of each of its analyses by motion
-Setting = tuple[dict[str, Any], dict[tuple[str, ...], dict[str, Any]]]
+SettingTables = tuple[dict[str, Any], dict[tuple[str, ...], dict[str, Any]]]
 
 
-def substeps_note(tables: dict[str, Any], settings: Iterable[Setting]) -> str:
+def substeps_note(tables: dict[str, Any], settings: Iterable[SettingTables]) -> str:
     """That the step is not always the one that is asked for, where settings of several
     integration.dt_s made parts of steps; else "".
 

@@ -25,7 +25,7 @@ _JAMMED, _JAMS = 1e3, (10.0, 20.0)
 # Young's modulus [Pa] of elastic wedges and of stiff ones, area [m2] of a face where they touch
 _STONE, _STIFF, _FACE = 200e9, 50e12, 0.4 * 0.4
 #: Slope [rad], friction, thrust over the weight, and 1 where the wedge sinks, -1 where it rises
-Trial = tuple[float, float, float, int]
+WedgeTrial = tuple[float, float, float, int]
 
 
 def wedge_rows(engine: str):
@@ -44,7 +44,7 @@ def thrust_limits(slope: float, friction: float) -> tuple[float, float]:
     return 1 / (2 * np.tan(slope + phi)) if slope + phi > 0 else np.inf, up
 
 
-def _by_thrust(off: float) -> Iterator[Trial]:
+def _by_thrust(off: float) -> Iterator[WedgeTrial]:
     """Wedges whose thrust is within the limit at which they move by a share of it."""
     for kinds, way in ((_SINKING, 1), (_SQUEEZED, -1)):
         for degrees, friction in kinds:
@@ -53,7 +53,7 @@ def _by_thrust(off: float) -> Iterator[Trial]:
             yield float(slope), friction, limit * (1 - way * off), way
 
 
-def _by_friction(off: float) -> Iterator[Trial]:
+def _by_friction(off: float) -> Iterator[WedgeTrial]:
     """As `_by_thrust`, whose friction is within the limit: widening downwards a wedge falls below
     mu = tan(theta) and a little, narrowing it is squeezed up below mu = tan(theta) less a little.
     """
@@ -148,12 +148,12 @@ def _jam_rows(engine: str):
     )
 
 
-def _two(kinds: Callable, first: float, second: float) -> Iterator[tuple[Trial, Trial]]:
+def _two(kinds: Callable, first: float, second: float) -> Iterator[tuple[WedgeTrial, WedgeTrial]]:
     """Pairs of wedges that are so far within their limits."""
     return zip(kinds(first), kinds(second))
 
 
-def _limit(engine: str, two: tuple[Trial, Trial], each: float, modulus: float) -> float:
+def _limit(engine: str, two: tuple[WedgeTrial, WedgeTrial], each: float, modulus: float) -> float:
     """By how much the limit of two wedges is off, where their accelerations, on a line, say that it
     is; they are a thousandth and two within it. modulus: Young's [Pa].
     """
@@ -186,7 +186,7 @@ def _limit_rows(engine: str, kinds: Callable, label: str, what: str):
     )
 
 
-def _upwards(made, each: float, trial: Trial) -> float:
+def _upwards(made, each: float, trial: WedgeTrial) -> float:
     """Acceleration [m/s2] of the wedge the way it goes."""
     return float(acceleration_of(made, "wedge", each)[2] * -trial[3])
 

@@ -78,18 +78,14 @@ def test_a_block_of_a_stack_is_judged_by_its_tilt_from_what_it_stands_on():
 
 
 def test_a_tendon_decides_whether_a_body_comes_back():
-    """It is lost at 45 degrees or, wider than high, at its critical tilt and the angle of
-    friction.
-    """
+    """It is lost at 45 degrees or, wider than high, on its side."""
     tendon = dict(kind="tendon", body="block", to="ground", stiffness_n_m=1e5)
     for length, height in ((0.2, 1.0), (1.0, 0.5)):
         held = dict(tendon, point_m=[0.0, 0.0, height], to_point_m=[0.0, 0.0, 0.0])
         case = alone(length, height, 0.0)
         rows, tilts = limits(case.replace({f"links.held.{key}": one for key, one in held.items()}))
-        most = min(math.atan2(length, height) + math.pi / 4, math.pi / 2)
-        assert tilts[0] == pytest.approx(max(math.pi / 4, most)) and np.isinf(
-            rows["block"]["critical"]
-        )
+        most = math.pi / 2 if length > height else math.pi / 4
+        assert tilts[0] == pytest.approx(most) and np.isinf(rows["block"]["critical"])
 
 
 def test_the_upper_of_two_blocks_ends_the_analysis_when_it_tips_off(tmp_path):
@@ -108,3 +104,23 @@ def test_the_upper_of_two_blocks_ends_the_analysis_when_it_tips_off(tmp_path):
     critical = math.atan2(0.1, 0.6)
     assert summary["overturned"] and summary["ended_by"].startswith('point of no return: "upper"')
     assert summary["tilt_max_rad"] == pytest.approx(critical + math.atan(0.6), abs=0.03)
+
+
+def test_a_tendon_pulls_a_wide_block_back_from_beyond_its_critical_tilt(tmp_path):
+    """4800 N/m at 0.5 m from the edge over which a block of 12 kN leans by 83.7 degrees."""
+    case = alone(1.0, 0.5, 1.46).replace(
+        {
+            "bodies.block.density_kg_m3": 2500.0,
+            "contact.friction_coefficient": 0.35,
+            "links.tendon.kind": "tendon",
+            "links.tendon.body": "block",
+            "links.tendon.to": "ground",
+            "links.tendon.point_m": [-0.5, 0.0, 0.5],
+            "links.tendon.to_point_m": [-0.5, 0.0, 0.0],
+            "links.tendon.stiffness_n_m": 4800.0,
+            "integration.duration_s": 4.0,
+        }
+    )
+    summary = run(case, tmp_path, quiet=True)
+    assert not summary["overturned"] and summary["energy_closure_rel"] < 1e-12
+    assert summary["outcome"] == "at rest"
