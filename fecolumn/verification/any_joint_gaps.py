@@ -75,6 +75,10 @@ _TILTS = {
 }
 
 
+# What an impact may leave of its approach, over what is kept: see tolerances.IMPACT_LEFT
+_IMPACT_LEFT = 1e-3
+
+
 def gap_rows(engine: str):
     """Rows of one engine; single histories and the share of one impact are those of rigid bodies:
     what elastic faces store at an impact, and give back, moves them by per cent.
@@ -123,7 +127,7 @@ def _slide_rows():
                 f"{told}: velocity of the {name} one after over that before",
                 share,
                 (way[1] - way[0]) / dt / speed,
-                2e-4,
+                _IMPACT_LEFT,
             )
         yield Row(f"{told}: how far either is lifted [m]", 0.0, lifted, 1e-7)
 
