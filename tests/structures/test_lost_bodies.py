@@ -78,13 +78,13 @@ def test_a_block_of_a_stack_is_judged_by_its_tilt_from_what_it_stands_on():
 
 
 def test_a_tendon_decides_whether_a_body_comes_back():
-    """It is lost at 45 degrees or, wider than high, on its side."""
+    """It is lost at its critical tilt and the angle of friction; wider than high, on its side."""
     tendon = dict(kind="tendon", body="block", to="ground", stiffness_n_m=1e5)
     for length, height in ((0.2, 1.0), (1.0, 0.5)):
         held = dict(tendon, point_m=[0.0, 0.0, height], to_point_m=[0.0, 0.0, 0.0])
         case = alone(length, height, 0.0)
         rows, tilts = limits(case.replace({f"links.held.{key}": one for key, one in held.items()}))
-        most = math.pi / 2 if length > height else math.pi / 4
+        most = math.pi / 2 if length > height else math.atan2(length, height) + math.pi / 4
         assert tilts[0] == pytest.approx(most) and np.isinf(rows["block"]["critical"])
 
 
