@@ -66,16 +66,16 @@ def _exact() -> None:
     print(
         "\n| exact or wanted | rigid | ten modes | MuJoCo | MuJoCo, stiff |\n|---|---|---|---|---|"
     )
-    for told, exact, own, peer in (
-        (f"a cube slides at {speed.SLIDES:g} m/s [m]", speed.slid_exactly(), speed.slid, "slid"),
+    stands = f"{speed.CREEPS} drums stand for {speed.STANDS:g} s and move [m]"
+    for told, exact, own, theirs in (
         (
-            f"{speed.CREEPS} drums stand for {speed.STANDS:g} s and move [m]",
-            0.0,
-            speed.crept,
-            "crept",
+            f"a cube slides at {speed.SLIDES:g} m/s [m]",
+            speed.slid_exactly(),
+            speed.slid,
+            speed.mujoco_slid,
         ),
+        (stands, 0.0, speed.crept, speed.mujoco_crept),
     ):
-        theirs = dict(slid=speed.mujoco_slid, crept=speed.mujoco_crept)[peer]
         found = [*map(own, ("rigid", "reduced")), *map(theirs, ("default", "stiff"))]
         print(f"| {told}: {exact:.5g} | " + " | ".join(f"{value:.6g}" for value in found) + " |")
 

@@ -11,14 +11,13 @@ both is analysed: the name of a model, or an engine of bodies.
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 
 from fecolumn.case.check_step import check_step
 from fecolumn.case.model_names import TABLES, model_engine_of
 from fecolumn.case.model_sections import SECTIONS
 from fecolumn.case.sections import Contact, Initial, Integration, Motion, Output, Overturn, located
-from fecolumn.foundation.schema import InputError, Section, build, parameter
+from fecolumn.foundation.schema import InputError, Section, build, parameter, table_of
 from fecolumn.foundation.section_class import section_class
 
 #: Tables of a structure of [bodies] that a model of the same file passes over, [interfaces] as the
@@ -148,20 +147,10 @@ def tables_of_model(model: Section, sections: dict[str, Section | None], title: 
         if one is not None and not isinstance(one, Section):
             raise InputError("case", name, one, f"must be a {name.capitalize()}")
     found = {
-        tables[type(model)]: _stated(model),
-        **{name: _stated(one) for name, one in sections.items() if one is not None},
+        tables[type(model)]: table_of(model, False),
+        **{name: table_of(one, False) for name, one in sections.items() if one is not None},
     }
     return found | ({"title": title} if title else {})
-
-
-def _stated(section: Section) -> dict:
-    """Keys of a section that are not at their defaults."""
-    return {
-        field.name: value
-        for field in dataclasses.fields(section)
-        if (value := getattr(section, field.name)) is not None
-        and (field.default is dataclasses.MISSING or value != field.default)
-    }
 
 
 def _refuse(file, key: str, value, allowed: str) -> None:
