@@ -35,9 +35,9 @@ from fecolumn.contact.stick import find_stick, operator_of, part_of_stick, solve
 from fecolumn.contact.tolerances import (
     CLOSE,
     EXACT,
+    FORCE_SHARE,
     NEAR,
     PENETRATION,
-    SHARE,
     SHARP,
     SOLVED,
     SWEEPS_MOST,
@@ -95,7 +95,7 @@ class Problem(NamedTuple):
     flags: np.ndarray
 
 
-ASSEMBLED, STICKS_STILL, WORTH_STICK, STIFF = range(4)
+ASSEMBLED, STICKS_STILL, WORTH_STICK, _STIFF = range(4)
 
 
 def room(points: np.ndarray) -> Problem:
@@ -284,7 +284,7 @@ def find_residual(
             problem.allowed[i] = SOLVED * width
             if most > 0.0:
                 problem.allowed[i] = min(
-                    problem.allowed[i], max(SHARE * most / problem.rho[i], EXACT * width)
+                    problem.allowed[i], max(FORCE_SHARE * most / problem.rho[i], EXACT * width)
                 )
             error = law_error(
                 after[i].force[0],
@@ -352,8 +352,8 @@ def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, pos
             problem.evened[i] = True
         for a in range(3):
             arms[i, a] = points[i].arm[a]
-    problem.flags[STIFF] = are_stiff(bodies, base, points, listed)
-    if problem.flags[STIFF]:
+    problem.flags[_STIFF] = are_stiff(bodies, base, points, listed)
+    if problem.flags[_STIFF]:
         coupling = couple(bodies, points, arms, listed, poses, rigid, 1.0, springs.own, 0)
         alone = stiffnesses(coupling, False)
         for j in range(count):
@@ -382,7 +382,7 @@ def _coupling(problem, stick):
         for n in range(len(near)):
             taken[n] = problem.active[near[n]]
         return part_of_stick(stick, len(near), marked(taken))
-    if problem.flags[STIFF]:
+    if problem.flags[_STIFF]:
         return coupling_by_levers(
             problem.own[:count], problem.levers[:count], problem.moved[:count]
         )

@@ -18,7 +18,7 @@ CLOSE = 4e-5
 SOLVED = 1e-11
 #: Force over the strongest one that a residual may stand for, where that is less: the same
 #: thousandth, which a stiff, light or short-stepped foot passes within a far shorter length.
-SHARE = 1e-3
+FORCE_SHARE = 1e-3
 #: Residual that is always small enough: 400 times the rounding of a position, so that a column
 #: twenty times as high as wide reaches it.
 EXACT = 1e-13
@@ -203,7 +203,7 @@ FIRMER_TIMES = 2
 LINKS_FIRM = 4.0
 #: Displacement of an iteration, over the column's height, below which the column is at rest: ten
 #: thousand times the rounding of a position.
-REST = 1e-11
+REST_WAY = 1e-11
 #: Iterations to equilibrium within which the displacement of one must fall to this share, else none
 #: is found: a slender column needs a pad whose stiffness against tilting is 1.6 times its weight
 #: times the height of its centre.
@@ -223,7 +223,7 @@ SLIDES_KEPT = 20
 #: Way beyond the outline of a surface, over the width of the foot on it, within which a point still
 #: stands on it: feet as wide as what they stand on would else lose their outline to the first slip.
 #: On a base plate over the width of its last brick.
-EDGE = 2e-3
+EDGE_REACH = 2e-3
 
 # --- Joints with two sides, over the larger side of the slave's face
 # ----------------------------------------------------------------------------

@@ -12,7 +12,7 @@ from fecolumn.simulation import AnalysisFailed, run
 
 @pytest.mark.parametrize("engine", ["rigid", "full"])
 def test_no_equilibrium_names_body_joints_and_way_out(engine, tmp_path, monkeypatch):
-    monkeypatch.setattr(gravity, "REST", 0.0)
+    monkeypatch.setattr(gravity, "REST_WAY", 0.0)
     monkeypatch.setattr(gravity, "REST_ITERATIONS", 4)
     monkeypatch.setattr(gravity, "REST_PROGRESS", 0.0)
     elastic = dict(rigid=False, element_size_m=0.4, coarse_size_m=0.4)

@@ -11,7 +11,7 @@ import numpy as np
 from fecolumn.contact.arrays import put_matrix
 from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.pad import begin_yielding, find_yielding
-from fecolumn.contact.points import BASE, CONTACT, OVER, UNPREPARED
+from fecolumn.contact.points import CONTACT, GROUND, OVER, UNPREPARED
 from fecolumn.contact.pose import POSE, SLAVE, find_poses
 from fecolumn.contact.problem import (
     ASSEMBLED,
@@ -160,7 +160,7 @@ def find_positions(structure, work, start, end):
         # a point of the rim moves with nodes near to its own, which may reach farther, but not
         # twice as far
         low = CLOSE * interfaces[k].width + 2 * reach[point.slave] * structure.reach[point.node]
-        if point.master != BASE:
+        if point.master != GROUND:
             low += reach[point.master] * interfaces[k].reach
         if (
             positions[i, 2] > low
@@ -174,7 +174,7 @@ def find_positions(structure, work, start, end):
             )
         find_elastic(structure, points, i, end, elastic, END)
         find_position(points, i, end, elastic, END, positions[i])
-        if point.master != BASE:
+        if point.master != GROUND:
             find_on_master(structure, points, i, end, poses, elastic, END, positions[i])
             known &= points[i].beyond != UNPREPARED
     return known
@@ -242,7 +242,7 @@ def find_arms(structure, work, end):
     for i in near_points(work.problem):
         if end.contact[i].force[2] > 0:
             find_elastic(structure, points, i, end, elastic, END)
-            if points[i].master != BASE:
+            if points[i].master != GROUND:
                 find_position(points, i, end, elastic, END, place)
                 find_on_master(structure, points, i, end, poses, elastic, END, place)
 
@@ -298,7 +298,7 @@ def find_equilibrium(
     put_matrix(advance, work.action.turn)
     for i in near_points(problem):
         find_elastic(structure, points, i, start, elastic, START)
-        if points[i].master != BASE:
+        if points[i].master != GROUND:
             find_position(points, i, start, elastic, START, work.places[0])
             find_on_master(
                 structure, points, i, start, poses[START], elastic, START, work.places[0]
