@@ -309,9 +309,10 @@ def _jump(mobility, impulses):
 
 
 @njit
-def plastic_impact(mobility, friction, holds, start, end, given, moment):
+def plastic_impact(mobility, friction, holds, start, end, given, moment, known):
     """Kinetic energy [J] that a plastic impact of points (k,) takes at a moment in a step, and the
-    fastest approach before it [m/s]; both up to IMPACT_TOLD.
+    fastest approach before it [m/s], both up to IMPACT_TOLD; no energy where that is not above the
+    approach `known` [m/s].
 
     mobility: by levers. holds: (k,) mask of those that carry until then. start, end: (3 k,)
     velocities at the ends of the step [m/s], end with the impulses `given` (3 k,) [N s]. moment:
@@ -329,6 +330,8 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment):
         velocity[j] += jump[j]
     for j in range(k):
         approach = max(approach, -velocity[3 * j + 2])
+    if approach <= known:
+        return 0.0, approach
     landing = rough_impulses(mobility, velocity, friction, np.arange(k), given)
     return -_work(landing, velocity, _jump(mobility, landing)), approach
 

@@ -30,9 +30,7 @@ def lintel_on_two_posts():
             )
             | STONE,
         ),
-        joints=dict(
-            feet=dict(between=["post", "ground"]), heads=dict(between=["post", "lintel"])
-        ),
+        joints=dict(feet=dict(between=["post", "ground"]), heads=dict(between=["post", "lintel"])),
         contact=dict(friction_coefficient=0.7, interior_points=0),
         integration=dict(engine="reduced", dt_s=DT),
     )

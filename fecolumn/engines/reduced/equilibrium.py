@@ -305,7 +305,9 @@ def find_equilibrium(
             problem.near[carrying] = i
             carrying += 1
     problem.count[0] = carrying
-    still = holds(work.stick, interfaces, rims, scheme.half, poses[START], reach)
+    # where most points are open, those that carry are cheaper alone
+    mostly = not in_place or carrying == 0 or 2 * carrying > problem.count[2]
+    still = mostly and holds(work.stick, interfaces, rims, scheme.half, poses[START], reach)
     put_matrix(advance, work.action.turn)
     for i in near_points(problem):
         find_elastic(structure, points, i, start, elastic, START)
@@ -323,7 +325,8 @@ def find_equilibrium(
     begin_problem(
         problem,
         still,
-        not still
+        mostly
+        and not still
         and stays(
             interfaces, points, before, poses[START], start, rims, free_center, advance, reach
         ),

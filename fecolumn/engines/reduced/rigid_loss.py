@@ -220,6 +220,7 @@ def begin_impact(structure, work, start, end, dt, moment, touched, booked, ledge
         _velocities(J, work.points, listed, end),
         given,
         moment,
+        ledger[SPEED],
     )
     if ledger[SPEED] > 0.0:
         ledger[IMPACT_LOSS], ledger[SPEED] = (
