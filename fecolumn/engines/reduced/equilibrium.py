@@ -284,9 +284,6 @@ def find_equilibrium(
         work.poses,
     )
     carrying, foreseen, found = 0, False, structure.found.interface
-    # several elastic bodies bend at their joints by more than a foot on the ground turns
-    in_place = len(interfaces) > 1 and start.modal.shape[2] > 0
-    reach = IN_PLACE_TURN if in_place else 1.0
     last, again, anew = np.inf, False, False
     # of joints they are known
     find_poses(
@@ -305,9 +302,16 @@ def find_equilibrium(
             problem.near[carrying] = i
             carrying += 1
     problem.count[0] = carrying
-    # where most points are open, those that carry are cheaper alone
-    mostly = not in_place or carrying == 0 or 2 * carrying > problem.count[2]
-    still = mostly and holds(work.stick, interfaces, rims, scheme.half, poses[START], reach)
+    # several elastic bodies bend at their joints by more than a foot on the ground turns; where
+    # most points are open, those that carry are cheaper alone
+    bends = len(interfaces) > 1 and start.modal.shape[2] > 0 and 2 * carrying > problem.count[2]
+    reach = IN_PLACE_TURN if bends else 1.0
+    still = holds(work.stick, interfaces, rims, scheme.half, poses[START], 1.0)
+    in_place = (
+        bends
+        and not still
+        and holds(work.stick, interfaces, rims, scheme.half, poses[START], reach)
+    )
     put_matrix(advance, work.action.turn)
     for i in near_points(problem):
         find_elastic(structure, points, i, start, elastic, START)
@@ -324,9 +328,9 @@ def find_equilibrium(
     find_sunk(structure, base, work, start, rims)
     begin_problem(
         problem,
-        still,
-        mostly
-        and not still
+        still or in_place,
+        not still
+        and not in_place
         and stays(
             interfaces, points, before, poses[START], start, rims, free_center, advance, reach
         ),
@@ -350,7 +354,7 @@ def find_equilibrium(
             work.action,
         ):
             return ITERATIONS_SPENT
-        if iteration == 1 and len(interfaces) > 1 and not problem.flags[STICKS_STILL]:
+        if iteration == 1 and len(interfaces) > 1 and (in_place or not problem.flags[STICKS_STILL]):
             # the first forces found in the step bend the bodies: with the arms that these then
             # have, else there would be one iteration more
             find_arms(structure, work, end)
@@ -406,7 +410,7 @@ def find_equilibrium(
                 problem, points, interfaces, scheme.springs, before, end.contact
             )
             return OK
-        slow = iteration > 1 and residual > max(IN_PLACE_SLOW * last, 1.0)
+        slow = iteration > 2 and residual > max(IN_PLACE_SLOW * last, 1.0)
         again, last = residual <= 1.0, residual
         if iteration == 0 and problem.flags[STICKS_STILL]:
             predict_slips(work.secant, near_points(problem), problem.slack)
