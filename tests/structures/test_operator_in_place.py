@@ -1,11 +1,13 @@
-"""The operator of feet that stick, in structures of elastic bodies, says how forces change and not
-where points are.
+"""The operator of feet that stick, in structures of elastic bodies: the motion depends on when it
+was found by no more than its compliance changes, and where bodies bend it serves on.
 """
 
 import numpy as np
 import pytest
 from small_structures import STONE, structure
 
+from fecolumn.contact.problem import IN_PLACE
+from fecolumn.contact.tolerances import STICK_TURN
 from fecolumn.engines.reduced.observe import column_index
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
@@ -13,12 +15,13 @@ from fecolumn.structures.structure import structure_model
 DT, STEPS = 1e-3, 160
 
 
-def lintel_on_two_posts():
-    """A stone on two posts, all with ten modes."""
+def lintel_on_two_posts(soft: bool):
+    """A stone on two posts, all with ten modes; soft: posts that bend by more than STICK_TURN."""
+    modulus = dict(youngs_modulus_pa=1e9) if soft else {}
     post = dict(kind="block", length_m=0.3, width_m=0.3, height_m=1.6, element_size_m=0.15)
     return structure(
         bodies=dict(
-            post=post | STONE | dict(modes=10, copies_m=[[0.7, 0, 0], [-0.7, 0, 0]]),
+            post=post | STONE | modulus | dict(modes=10, copies_m=[[0.7, 0, 0], [-0.7, 0, 0]]),
             lintel=dict(
                 kind="block",
                 length_m=2.0,
@@ -36,28 +39,29 @@ def lintel_on_two_posts():
     )
 
 
-def histories(share: float, anew: bool):
-    """Rows of a sine of 3 Hz of so much of what lifts a foot; anew: with an operator that is
-    found in each step in which any would do. And the times that a compliance was assembled.
+def ways(soft: bool, anew: bool):
+    """Ways (STEPS, 3) of the top under a sine of 3 Hz of half of what lifts a foot; anew: with an
+    operator that is found in each step in which any would do. Times that a compliance was
+    assembled, and steps of which an operator told only how forces change.
     """
-    case = lintel_on_two_posts()
+    case = lintel_on_two_posts(soft)
     engine = engine_of(case, structure_model(case), "posts")
     t = DT * np.arange(1, STEPS + 1)
-    ground = np.outer(share * 9.80665 * 0.3 / 1.6 * np.sin(6 * np.pi * t), [1.0, 0.3, 0.0])
-    rows = []
+    ground = np.outer(0.5 * 9.80665 * 0.3 / 1.6 * np.sin(6 * np.pi * t), [1.0, 0.3, 0.0])
+    rows, in_place = [], 0
     for one in ground:
         if anew:
             engine.work.stick.key[1] = 0.0
         rows.append(engine.advance(one[None])[0][0].copy())
-    return np.array(rows), engine.counts[-1]
-
-
-@pytest.mark.parametrize("share", [0.5, 1.2])
-def test_the_motion_does_not_depend_on_when_the_operator_was_found(share):
-    """Up to what a step may leave of the laws, over the largest way."""
-    held, few = histories(share, False)
-    found, many = histories(share, True)
-    assert few < many / 2
+        in_place += engine.work.problem.flags[IN_PLACE]
     at = column_index("u_top")
-    ways = [rows[:, at : at + 3] for rows in (held, found)]
-    assert np.abs(ways[0] - ways[1]).max() < 1e-9 * np.abs(ways[1]).max()
+    return np.array(rows)[:, at : at + 3], engine.counts[-1], in_place
+
+
+@pytest.mark.parametrize("soft", [False, True])
+def test_the_motion_does_not_depend_on_when_the_operator_was_found(soft):
+    """Up to STICK_TURN, by which it may be wrong within that turn; in place it is not wrong."""
+    held, few, in_place = ways(soft, False)
+    found, many, none = ways(soft, True)
+    assert few < many / 4 and none == 0 and (in_place > STEPS / 4) == soft
+    assert np.abs(held - found).max() < STICK_TURN * np.abs(found).max()
