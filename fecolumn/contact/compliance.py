@@ -247,6 +247,9 @@ def even_out(bodies, base, points, i, poses):
                 - C[second + a, first - start + c]
             )
     _add_turned(block, pose.turned[SLAVE], target)
+    if points[i].count < 4:
+        # laid on an edge, which may bring it to a node, where it has none of the master's
+        return
     block[:] = 0.0
     for q in range(4):
         row, u = 3 * points[i].below[q], points[i].shares[q]

@@ -87,6 +87,13 @@ SWEEPS_FIRST, SWEEPS_MOST = 50, 800
 #: Rotation [rad] and horizontal way, within which the compliance of a foot changes by 1e-4 of
 #: itself.
 STICK_TURN, STICK_WAY = 1e-4, 5e-5
+#: Several elastic bodies bend at their joints by more. Their operator serves within so many times
+#: that turn and way, but tells only how forces change: displacement and laws are found where the
+#: points are, so that a step's answer does not depend on when the operator was found. What an
+#: iteration then leaves always lies the same way: it ends at this share of what is allowed, or one
+#: iteration later. Where one leaves more than the last share of what the one before left, the
+#: operator is found anew: as long as some eight iterations.
+IN_PLACE_TURN, IN_PLACE_LEFT, IN_PLACE_SLOW = 10.0, 0.05, 0.3
 #: Cosine of the angle between the normal of a face and the vertical from which on it is level.
 LEVEL = 0.999999999
 #: Rotation [rad] on a pad, whose springs are nearly all of the compliance and the same everywhere.
@@ -161,6 +168,9 @@ POINTS_A_LEVER = 1.5
 #: counts, over the least weight of a body and width of a foot: that of a column which rocks at a
 #: thousandth of its critical tilt.
 APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS = 0.1, 4.0, 1e-5
+#: What the impulses of the rigid loss may miss the laws by, over the largest velocity: they move
+#: nothing, and energy is off by less.
+IMPACT_TOLD = 1e-3
 
 # --- Rolling rim
 # --------------------------------------------------------------------------------------------------

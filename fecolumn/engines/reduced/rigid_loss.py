@@ -17,7 +17,7 @@ from fecolumn.contact.coupling import coupling_by_levers, put_root
 from fecolumn.contact.impact import plastic_impact
 from fecolumn.contact.points import GROUND, OVER
 from fecolumn.contact.pose import find_poses
-from fecolumn.contact.problem import N_COUNTS, present_points
+from fecolumn.contact.problem import present_points
 from fecolumn.contact.tolerances import APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS, NEAR
 from fecolumn.engines.dynamics.links import strain_of_links
 from fecolumn.engines.reduced.elastic import END
@@ -220,7 +220,7 @@ def begin_impact(structure, work, start, end, dt, moment, touched, booked, ledge
         _velocities(J, work.points, listed, end),
         given,
         moment,
-        np.zeros(N_COUNTS, np.int64),
+        ledger[APPROACH_SPEED],
     )
     if ledger[APPROACH_SPEED] > 0.0:
         ledger[IMPACT_LOSS], ledger[APPROACH_SPEED] = (
