@@ -204,6 +204,14 @@ LINKS_FIRM = 4.0
 #: Displacement of an iteration, over the column's height, below which the column is at rest: ten
 #: thousand times the rounding of a position.
 REST = 1e-11
+#: Forces that are not balanced at rest, over the weight of all bodies: reactions are then as exact.
+#: An iteration of much inertia moves a body by little wherever it is. Displacement, over the
+#: height, which rounding of positions and of links' lengths may leave whatever the forces.
+BALANCED, REST_ROUNDING = 1e-8, 1e-14
+#: Iteration to equilibrium from which on the next begins where the ones before lead
+#: (`dynamics.anderson`), and of how many: most structures are at rest by then. A soft body that
+#: stiff links hold has some tens of modes that inertia for the links slows down.
+HASTEN_FROM, HASTEN_MEMORY = 8, 60
 #: Iterations to equilibrium within which the displacement of one must fall to this share, else none
 #: is found: a slender column needs a pad whose stiffness against tilting is 1.6 times its weight
 #: times the height of its centre.
