@@ -208,10 +208,11 @@ REST = 1e-11
 #: An iteration of much inertia moves a body by little wherever it is. Displacement, over the
 #: height, which rounding of positions and of links' lengths may leave whatever the forces.
 BALANCED, REST_ROUNDING = 1e-8, 1e-14
-#: Iteration to equilibrium from which on the next begins where the ones before lead
-#: (`dynamics.anderson`), and of how many: most structures are at rest by then. A soft body that
-#: stiff links hold has some tens of modes that inertia for the links slows down.
-HASTEN_FROM, HASTEN_MEMORY = 8, 60
+#: Iteration to equilibrium from which on the next begins where Newton's step with the stiffness of
+#: modes, links and contact leads: most structures are at rest by then. Times that the way there is
+#: tried, each half as long as the last; inertia beside that stiffness, over that of the iteration,
+#: for what nothing holds.
+HASTEN_FROM, HASTEN_TRIES, LEAST_FIRM = 8, 4, 1e-9
 #: Iterations to equilibrium within which the displacement of one must fall to this share, else none
 #: is found: a slender column needs a pad whose stiffness against tilting is 1.6 times its weight
 #: times the height of its centre.

@@ -144,7 +144,7 @@ def fastest(
     """
     if not len(linked.links):
         return 0.0, 0
-    rows, places = _rows_of_links(linked, stiffness, bodies, shrinks)
+    rows, places = rows_of_links(linked, stiffness, bodies, shrinks)
     if len(rows) <= rows.shape[1]:
         squares, shapes = np.linalg.eigh(rows @ rows.T)
         most = shapes[:, -1]
@@ -163,7 +163,7 @@ def fastest_of_each(
     That of each body while the others stay, at most 2 times as much, as a link has two ends.
     Arguments as of `fastest`.
     """
-    rows, _ = _rows_of_links(linked, stiffness, bodies, shrinks)
+    rows, _ = rows_of_links(linked, stiffness, bodies, shrinks)
     modes = linked.ends.shape[3]
     owners = np.concatenate([np.repeat(np.arange(len(bodies)), count) for count in (6, modes)])
     alone = np.array([np.linalg.norm(rows[:, owners == b], 2) ** 2 for b in range(len(bodies))])
@@ -171,7 +171,7 @@ def fastest_of_each(
     return np.linalg.norm(scaled, 2) ** 2 * alone
 
 
-def _rows_of_links(linked, stiffness, bodies, shrinks) -> tuple[np.ndarray, list[int]]:
+def rows_of_links(linked, stiffness, bodies, shrinks) -> tuple[np.ndarray, list[int]]:
     """Rows (k, 6 nb + nb m) of which the squares add up to the stiffness of links over the masses,
     first of the bodies' rigid motion, then of their modes; places (k,) of their links; arguments as
     of `fastest`.

@@ -9,19 +9,20 @@ from fecolumn.contact.problem import FAR_BASE, NO_ROOM, OK, near_points
 from fecolumn.contact.tolerances import (
     BALANCED,
     HASTEN_FROM,
-    HASTEN_MEMORY,
+    HASTEN_TRIES,
+    LEAST_FIRM,
     REST,
     REST_ROUNDING,
     SLIDES_KEPT,
 )
 from fecolumn.contact.work import move_anchors
-from fecolumn.engines.dynamics.anderson import Anderson
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.elastic import COORDINATE, END, START
 from fecolumn.engines.reduced.firmness import with_masses
 from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.model import resting_scheme
+from fecolumn.engines.reduced.tangent import coordinates_of, masses_of, parts_of, tangent_of
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation._compiled import interpreted
 
@@ -46,8 +47,7 @@ class Settling:
         self.structure = with_masses(engine.structure, shares)
         self._scheme = resting_scheme(self.structure, engine.points, self._firmness)
         bodies, arms = engine.structure.bodies.body, engine.structure.bodies.arms
-        self._masses = bodies["mass"] * shares
-        self._inertia = bodies["inertia"] * shares[:, None, None]
+        self._masses = masses_of(self.structure)
         self._weight = bodies["mass"].sum() * np.linalg.norm(engine.structure.gravity)
         self._sizes = np.array(
             [
@@ -68,7 +68,7 @@ class Settling:
         self._start.frames["center"] = centers
         self._start.contact["anchor"] = engine.places(centers, self._start.rotation)[:, :2]
         self._start.ties["length"] = engine.link_lengths(self._start)
-        self._haste, self._change = Anderson(HASTEN_MEMORY), np.inf
+        self._change = np.inf
         self.steps, self.mover = 0, None
         self.moved, self.unbalanced = np.inf, np.inf
 
@@ -82,12 +82,8 @@ class Settling:
             contact does not converge. NoRoom: more pairs of bodies are near each other than there
             is room for.
         """
-        if self._hasten():
-            if self._made(hastened=True):
-                return self._done()
-            motions.copy(self._kept, self._start)
-            self._haste.forget()
-        self._made(hastened=False)
+        if self.steps < HASTEN_FROM or not self._hastened():
+            self._made(hastened=False)
         return self._done()
 
     def motion(self) -> motions.MotionState:
@@ -122,17 +118,19 @@ class Settling:
                 f"gravity equilibrium: contact does not converge in iteration {self.steps + 1}"
             )
         change = self._coordinates(end) - self._coordinates(start)
-        size = np.linalg.norm(change)
-        if hastened and (size > self._change or self._is_used_up()):
+        if hastened and (
+            np.linalg.norm(change) > np.linalg.norm(self._change) or self._is_used_up()
+        ):
             return False
         carrying = (work.before["force"][:, 2] > 0) | (end.contact["force"][:, 2] > 0)
         points = np.abs(work.elastic.point[END] - work.elastic.point[START])[carrying]
-        self.mover, self._change = int(np.argmax(of_each)), size
+        self.mover, self._change = int(np.argmax(of_each)), change
         self.moved = float(max(of_each.max(), points.max(initial=0.0)))
-        forces = self._masses * np.linalg.norm(ways, axis=1)
-        moments = np.linalg.norm(np.einsum("bac,bc->ba", self._inertia, turns), axis=1)
-        bent = np.sqrt(self._masses * (modal**2).sum(axis=1))
-        largest = max(forces.max(), (moments / self._sizes).max(), bent.max())
+        masses = self._masses
+        forces = masses.mass * np.linalg.norm(ways, axis=1)
+        moments = np.linalg.norm(np.einsum("bac,bc->ba", masses.inertia, turns), axis=1)
+        bent = np.sqrt(masses.mass * (modal**2).sum(axis=1))
+        largest = np.max([forces, moments / self._sizes, bent], where=masses.free, initial=0.0)
         self.unbalanced = self._firmness * largest / self._weight
         self.steps += 1
         if self.steps > SLIDES_KEPT:
@@ -146,9 +144,6 @@ class Settling:
             )
         else:
             end.contact["anchor"] = work.before["anchor"]
-        if self.steps == SLIDES_KEPT:
-            self._haste.forget()
-        self._haste.note(self._coordinates(end), change)
         motions.copy(end, start)
         return True
 
@@ -158,18 +153,29 @@ class Settling:
             return self.moved
         return max(self.moved, self.unbalanced / BALANCED * REST * self.height)
 
-    def _hasten(self) -> bool:
-        """Take the start of the next step to where the last ones lead; whether it is there."""
-        if self.steps < HASTEN_FROM or (place := self._haste.place()) is None:
-            return False
-        start = self._start
+    def _hastened(self) -> bool:
+        """Make the next step from where the last one leads; whether that serves.
+
+        From x0 it went to x1, so that k M (x0 - x1) is not balanced at x1; K being the stiffness
+        there, x1 + (K + k e M)^-1 k M (x1 - x0) would be at rest (Newton). Where contact changes
+        too much on the way, a half of it, and so on.
+        """
+        start, engine, masses = self._start, self.engine, self._masses
+        tangent = tangent_of(self.structure, self._scheme.springs, engine.work, masses, start)
+        tangent[np.diag_indices_from(tangent)] += LEAST_FIRM * self._firmness
+        place = self._coordinates(start)
+        further = np.linalg.solve(tangent, self._firmness * self._change)
         motions.copy(start, self._kept)
-        ways, turns, modal = self._parted(place)
-        start.frames["center"] = self.engine.view.center + ways
-        start.rotation[:] = [rotation_matrix(turn) for turn in turns]
-        start.modal[:, COORDINATE] = modal
-        start.ties["length"] = self.engine.link_lengths(start, self.structure)
-        return True
+        for halved in range(HASTEN_TRIES):
+            ways, turns, modal = parts_of(masses, place + further / 2**halved)
+            start.frames["center"] = engine.view.center + ways
+            start.rotation[:] = [rotation_matrix(turn) for turn in turns]
+            start.modal[:, COORDINATE] = modal
+            start.ties["length"] = engine.link_lengths(start, self.structure)
+            if self._made(hastened=True):
+                return True
+            motions.copy(self._kept, start)
+        return False
 
     def _is_used_up(self) -> bool:
         """Whether the last step yields, breaks or settles anything, which stays."""
@@ -179,29 +185,7 @@ class Settling:
         ) or bool((before.contact["settled"] != after.contact["settled"]).any())
 
     def _coordinates(self, motion) -> np.ndarray:
-        """Displacements (n,) of a motion, times the roots of the masses of the search."""
+        """Displacements of a motion, as of `tangent.coordinates_of`."""
         ways = motion.frames["center"] - self.engine.view.center
         turns = Rotation.from_matrix(motion.rotation).as_rotvec()
-        return np.concatenate(
-            [
-                (np.sqrt(self._masses)[:, None] * ways).ravel(),
-                (self._radii()[:, None] * turns).ravel(),
-                motion.modal[:, COORDINATE].ravel(),
-            ]
-        )
-
-    def _parted(self, coordinates: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Ways (nb, 3) [m], turns (nb, 3) [rad] and modal coordinates (nb, m) of `_coordinates`;
-        bodies that grounds hold stay.
-        """
-        count = 3 * len(self._masses)
-        ways, turns = coordinates[:count].reshape(-1, 3), coordinates[count : 2 * count]
-        masses, radii = np.sqrt(self._masses)[:, None], self._radii()[:, None]
-        with np.errstate(invalid="ignore"):
-            ways = np.where(masses > 0, ways / masses, 0.0)
-            turns = np.where(radii > 0, turns.reshape(-1, 3) / radii, 0.0)
-        return ways, turns, coordinates[2 * count :].reshape(len(self._masses), -1)
-
-    def _radii(self) -> np.ndarray:
-        """Roots (nb,) of the bodies' mean moments of inertia in the search."""
-        return np.sqrt(np.trace(self._inertia, axis1=1, axis2=2) / 3)
+        return coordinates_of(self._masses, ways, turns, motion.modal[:, COORDINATE])
