@@ -83,7 +83,7 @@ class Settling:
             is room for.
         """
         if self.steps < HASTEN_FROM or not self._hastened():
-            self._made(hastened=False)
+            self._made()
         return self._done()
 
     def motion(self) -> motions.MotionState:
@@ -93,8 +93,11 @@ class Settling:
         self._start.modal[:, COORDINATE] /= self._roots[:, None]
         return self._start
 
-    def _made(self, hastened: bool) -> bool:
-        """Make a step; whether it serves, of one that was hastened."""
+    def _made(self, tangent=None) -> bool:
+        """Make a step; whether it serves, of one that was hastened by the stiffness `tangent`: what
+        is not balanced then has less energy in that than before (Deuflhard 2011, natural
+        monotonicity).
+        """
         engine, start, end, work = self.engine, self._start, self._end, self.engine.work
         while (answer := engine.settle(self.structure, self._scheme, start, end)) == FAR_BASE:
             engine.extend_base(end)
@@ -110,7 +113,7 @@ class Settling:
             self._reach * np.sqrt((self.structure.squares * modal**2).sum(axis=1)),
         )
         if answer != OK:
-            if hastened:
+            if tangent is not None:
                 return False
             if np.isfinite(of_each).all():
                 self.mover = int(np.argmax(of_each))
@@ -118,8 +121,8 @@ class Settling:
                 f"gravity equilibrium: contact does not converge in iteration {self.steps + 1}"
             )
         change = self._coordinates(end) - self._coordinates(start)
-        if hastened and (
-            np.linalg.norm(change) > np.linalg.norm(self._change) or self._is_used_up()
+        if tangent is not None and (
+            _energy(tangent, change) > _energy(tangent, self._change) or self._is_used_up()
         ):
             return False
         carrying = (work.before["force"][:, 2] > 0) | (end.contact["force"][:, 2] > 0)
@@ -172,7 +175,7 @@ class Settling:
             start.rotation[:] = [rotation_matrix(turn) for turn in turns]
             start.modal[:, COORDINATE] = modal
             start.ties["length"] = engine.link_lengths(start, self.structure)
-            if self._made(hastened=True):
+            if self._made(tangent):
                 return True
             motions.copy(self._kept, start)
         return False
@@ -189,3 +192,8 @@ class Settling:
         ways = motion.frames["center"] - self.engine.view.center
         turns = Rotation.from_matrix(motion.rotation).as_rotvec()
         return coordinates_of(self._masses, ways, turns, motion.modal[:, COORDINATE])
+
+
+def _energy(tangent: np.ndarray, change: np.ndarray) -> float:
+    """Twice the energy of forces (n,) in a stiffness (n, n)."""
+    return float(change @ np.linalg.solve(tangent, change))

@@ -104,9 +104,9 @@ def _contact_rows(structure, springs, work, masses, motion) -> np.ndarray:
                 if masses.free[b]:
                     at = moved[place, :, 6 * b : 6 * b + 6]
                     at[:, :3] += sign * turned[place] / np.sqrt(masses.mass[b])
-                    at[:, 3:] += sign * np.linalg.solve(
-                        masses.factor[b], np.cross(arm, turned[place]).T
-                    ).T
+                    at[:, 3:] += (
+                        sign * np.linalg.solve(masses.factor[b], np.cross(arm, turned[place]).T).T
+                    )
         if not shares.any():
             continue
         flat = shares.reshape(3 * len(carrying), 3 * body["count"])
