@@ -211,8 +211,8 @@ BALANCED, REST_ROUNDING = 1e-8, 1e-14
 #: Iteration to equilibrium from which on the next begins where Newton's step with the stiffness of
 #: modes, links and contact leads: most structures are at rest by then. Times that the way there is
 #: tried, each half as long as the last; inertia beside that stiffness, over that of the iteration,
-#: for what nothing holds.
-HASTEN_FROM, HASTEN_TRIES, LEAST_FIRM = 8, 4, 1e-9
+#: for what nothing holds; compliance of contact in it, over the largest, where that is rounding.
+HASTEN_FROM, HASTEN_TRIES, LEAST_FIRM, LEAST_COMPLIANCE = 8, 4, 1e-9, 1e-9
 #: Iterations to equilibrium within which the displacement of one must fall to this share, else none
 #: is found: a slender column needs a pad whose stiffness against tilting is 1.6 times its weight
 #: times the height of its centre.

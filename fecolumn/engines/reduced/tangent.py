@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.tolerances import STICKS
+from fecolumn.contact.tolerances import LEAST_COMPLIANCE, STICKS
 from fecolumn.engines.dynamics.links_of_model import rows_of_links
 from fecolumn.engines.reduced.elastic import END
 
@@ -120,5 +120,7 @@ def _contact_rows(structure, springs, work, masses, motion) -> np.ndarray:
     limit = STICKS * points["friction"][carrying] * contact["force"][carrying, 2]
     sticks = np.hypot(*contact["force"][carrying, :2].T) < limit
     kept = np.column_stack([sticks, sticks, np.ones(len(carrying), bool)]).ravel()
-    factor = np.linalg.cholesky(compliance[np.ix_(kept, kept)])
-    return np.linalg.solve(factor, moved.reshape(3 * len(carrying), -1)[kept])
+    squares, shapes = np.linalg.eigh(compliance[np.ix_(kept, kept)])
+    # points between the same nodes move as one but for rounding
+    squares = np.maximum(squares, LEAST_COMPLIANCE * squares[-1:])
+    return (shapes / np.sqrt(squares)).T @ moved.reshape(3 * len(carrying), -1)[kept]
