@@ -168,6 +168,8 @@ class Settling:
         tangent[np.diag_indices_from(tangent)] += LEAST_FIRM * self._firmness
         place = self._coordinates(start)
         further = np.linalg.solve(tangent, self._firmness * self._change)
+        if not np.isfinite(further).all():
+            return False
         motions.copy(start, self._kept)
         for halved in range(HASTEN_TRIES):
             ways, turns, modal = parts_of(masses, place + further / 2**halved)

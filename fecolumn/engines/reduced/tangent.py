@@ -83,7 +83,10 @@ def _contact_rows(structure, springs, work, masses, motion) -> np.ndarray:
     carrying = np.flatnonzero(contact["force"][:, 2] > 0)
     count, modes = len(masses.mass), structure.squares.shape[1]
     axes = work.poses[END]["frame"][points["interface"][carrying]].transpose(0, 2, 1)
-    compliance = np.diag(springs.own[carrying].ravel())
+    gives = np.append(bodies.body["gives"], 0.0)
+    own = springs.own[carrying]
+    own = own + gives[[points[end][carrying] for end in ("slave", "master")]].sum(axis=0)[:, None]
+    compliance = np.diag(own.ravel())
     moved = np.zeros((len(carrying), 3, (6 + modes) * count))
     for b, body in enumerate(bodies.body):
         # shares of the nodes of a body in what the points move, along their axes
@@ -110,17 +113,19 @@ def _contact_rows(structure, springs, work, masses, motion) -> np.ndarray:
         if not shares.any():
             continue
         flat = shares.reshape(3 * len(carrying), 3 * body["count"])
-        own = slice(3 * body["first"], 3 * (body["first"] + body["count"]))
+        rows = slice(3 * body["first"], 3 * (body["first"] + body["count"]))
         if not body["stiff"]:
-            compliance += flat @ bodies.static[own, : 3 * body["count"]] @ flat.T
+            compliance += flat @ bodies.static[rows, : 3 * body["count"]] @ flat.T
         if modes:
             at = slice(6 * count + modes * b, 6 * count + modes * (b + 1))
-            pushes = bodies.pushes.reshape(-1, modes)[own]
+            pushes = bodies.pushes.reshape(-1, modes)[rows]
             moved[..., at] = (flat @ pushes).reshape(len(carrying), 3, modes)
     limit = STICKS * points["friction"][carrying] * contact["force"][carrying, 2]
     sticks = np.hypot(*contact["force"][carrying, :2].T) < limit
     kept = np.column_stack([sticks, sticks, np.ones(len(carrying), bool)]).ravel()
     squares, shapes = np.linalg.eigh(compliance[np.ix_(kept, kept)])
+    if not (squares > 0.0).any():
+        return np.zeros((0, moved.shape[2]))
     # points between the same nodes move as one but for rounding
     squares = np.maximum(squares, LEAST_COMPLIANCE * squares[-1:])
     return (shapes / np.sqrt(squares)).T @ moved.reshape(3 * len(carrying), -1)[kept]
