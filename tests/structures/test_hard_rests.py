@@ -56,6 +56,7 @@ def heavy_on_light(engine: str, density: float, modulus: float):
     )
 
 
+@pytest.mark.filterwarnings("ignore:.*density_kg_m3")
 @pytest.mark.parametrize(
     "engine, density, modulus",
     [("rigid", 400.0, 1e9), ("rigid", 0.4, 1e9), ("reduced", 20.0, 1e8), ("reduced", 0.4, 2e10)],

@@ -22,7 +22,7 @@ from fecolumn.engines.reduced.elastic import COORDINATE, END, START
 from fecolumn.engines.reduced.firmness import with_masses
 from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.model import resting_scheme
-from fecolumn.engines.reduced.tangent import coordinates_of, masses_of, parts_of, tangent_of
+from fecolumn.engines.reduced.tangent import coordinates_of, displacements_of, masses_of, tangent_of
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation._compiled import interpreted
 
@@ -172,7 +172,7 @@ class Settling:
             return False
         motions.copy(start, self._kept)
         for halved in range(HASTEN_TRIES):
-            ways, turns, modal = parts_of(masses, place + further / 2**halved)
+            ways, turns, modal = displacements_of(masses, place + further / 2**halved)
             start.frames["center"] = engine.view.center + ways
             start.rotation[:] = [rotation_matrix(turn) for turn in turns]
             start.modal[:, COORDINATE] = modal

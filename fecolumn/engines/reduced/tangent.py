@@ -42,7 +42,9 @@ def coordinates_of(masses: Masses, ways, turns, modal) -> np.ndarray:
     return np.concatenate([rigid.ravel(), modal.ravel()])
 
 
-def parts_of(masses: Masses, coordinates: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def displacements_of(
+    masses: Masses, coordinates: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Ways, turns and modal coordinates of `coordinates_of`."""
     count = len(masses.mass)
     rigid, modal = coordinates[: 6 * count].reshape(count, 6), coordinates[6 * count :]
