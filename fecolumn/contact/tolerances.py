@@ -214,6 +214,15 @@ LINKS_FIRM = 4.0
 #: Displacement of an iteration, over the column's height, below which the column is at rest: ten
 #: thousand times the rounding of a position.
 REST_WAY = 1e-11
+#: Forces that are not balanced at rest, over the weight of all bodies: reactions are then as exact.
+#: An iteration of much inertia moves a body by little wherever it is. Displacement, over the
+#: height, which rounding of positions and of links' lengths may leave whatever the forces.
+BALANCED, REST_ROUNDING = 1e-8, 1e-14
+#: Iteration to equilibrium from which on the next begins where Newton's step with the stiffness of
+#: modes, links and contact leads: most structures are at rest by then. Times that the way there is
+#: tried, each half as long as the last; inertia beside that stiffness, over that of the iteration,
+#: for what nothing holds; compliance of contact in it, over the largest, where that is rounding.
+HASTEN_FROM, HASTEN_TRIES, LEAST_FIRM, LEAST_COMPLIANCE = 8, 4, 1e-9, 1e-9
 #: Iterations to equilibrium within which the displacement of one must fall to this share, else none
 #: is found: a slender column needs a pad whose stiffness against tilting is 1.6 times its weight
 #: times the height of its centre.

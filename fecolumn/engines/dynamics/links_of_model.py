@@ -147,9 +147,41 @@ def fastest(
         of each body, how much less its modes (m,) move in a step than were they free; without
         them bodies are rigid.
     """
-    links, ends = linked.links, linked.ends
-    if not len(links):
+    if not len(linked.links):
         return 0.0, 0
+    rows, places = rows_of_links(linked, stiffness, bodies, shrinks)
+    if len(rows) <= rows.shape[1]:
+        squares, shapes = np.linalg.eigh(rows @ rows.T)
+        most = shapes[:, -1]
+    else:
+        squares, shapes = np.linalg.eigh(rows.T @ rows)
+        most = rows @ shapes[:, -1]
+    return float(squares[-1]), places[int(np.argmax(np.abs(most)))]
+
+
+def fastest_of_each(
+    linked, stiffness: np.ndarray, bodies: list[tuple], shrinks: list[np.ndarray]
+) -> np.ndarray:
+    """Squares (nb,) of frequencies [1/s2] of which none of the bodies swings faster, were their
+    masses times these: with such inertia together they answer their links as strongly as each.
+
+    That of each body while the others stay, at most 2 times as much, as a link has two ends.
+    Arguments as of `fastest`.
+    """
+    rows, _ = rows_of_links(linked, stiffness, bodies, shrinks)
+    modes = linked.ends.shape[3]
+    owners = np.concatenate([np.repeat(np.arange(len(bodies)), count) for count in (6, modes)])
+    alone = np.array([np.linalg.norm(rows[:, owners == b], 2) ** 2 for b in range(len(bodies))])
+    scaled = rows / np.sqrt(np.where(alone > 0.0, alone, 1.0))[owners]
+    return np.linalg.norm(scaled, 2) ** 2 * alone
+
+
+def rows_of_links(linked, stiffness, bodies, shrinks) -> tuple[np.ndarray, list[int]]:
+    """Rows (k, 6 nb + nb m) of which the squares add up to the stiffness of links over the masses,
+    first of the bodies' rigid motion, then of their modes; places (k,) of their links; arguments as
+    of `fastest`.
+    """
+    links, ends = linked.links, linked.ends
     modes, rigid = ends.shape[3] if shrinks is not None else 0, 6 * len(bodies)
     pulls, places = [], []
     for place, (link, its) in enumerate(zip(links, stiffness)):
@@ -175,11 +207,4 @@ def fastest(
                         row[at : at + count] += sign * moved * np.sqrt(shrinks[b])
             pulls.append(np.sqrt(its) * row)
             places.append(place)
-    rows = np.array(pulls)
-    if len(rows) <= rows.shape[1]:
-        squares, shapes = np.linalg.eigh(rows @ rows.T)
-        most = shapes[:, -1]
-    else:
-        squares, shapes = np.linalg.eigh(rows.T @ rows)
-        most = rows @ shapes[:, -1]
-    return float(squares[-1]), places[int(np.argmax(np.abs(most)))]
+    return np.array(pulls), places

@@ -153,20 +153,22 @@ class Engine:
         table = centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
         return np.einsum("pba,pb->pa", poses["frame"], table - poses["origin"])
 
-    def link_lengths(self, motion: motions.MotionState) -> np.ndarray:
-        """Lengths (nl,) [m] of the links of a motion."""
+    def link_lengths(self, motion: motions.MotionState, structure=None) -> np.ndarray:
+        """Lengths (nl,) [m] of the links of a motion; structure: as of `settle`."""
+        structure = self.structure if structure is None else structure
         return np.array(
             [
-                interpreted(span)(self.structure, n, motion, np.empty(3))
-                for n in range(len(self.structure.links))
+                interpreted(span)(structure, n, motion, np.empty(3))
+                for n in range(len(structure.links))
             ]
         )
 
-    def settle(self, scheme, motion, end) -> int:
+    def settle(self, structure, scheme, motion, end) -> int:
         """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way
-        to end.
+        to end; structure: this one's, with masses for the search.
         """
-        return advance(*self._arguments((scheme,) * LENGTHS, motion, end))[1]
+        arguments = self._arguments((scheme,) * LENGTHS, motion, end)
+        return advance(structure, *arguments[1:])[1]
 
     def _arguments(
         self,

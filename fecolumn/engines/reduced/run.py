@@ -165,7 +165,9 @@ def advance(structure, base, schemes, work, view, course, chunk):
             for a in range(3):
                 fall[b, a] = motion.frames[b].center[a]
                 if structure.bodies.body[b].held < 0 and not structure.bodies.body[b].airborne:
-                    fall[b, a] += scheme.half * structure.gravity[a]
+                    # its weight over the mass that the search for rest gives it
+                    heavier = structure.bodies.body[b].mass * structure.bodies.body[b].inverse_mass
+                    fall[b, a] += scheme.half * structure.gravity[a] * heavier
         return 0, proximal_step(
             structure, base, scheme, work, motion, fall, bent, still, spare, counts
         )
