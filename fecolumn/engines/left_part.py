@@ -20,8 +20,8 @@ def way_out(case: Case, structure: StructureModel, names: tuple[str, ...]) -> st
         key = name.partition(":")[0].removesuffix(", edge")
         found[key] = f"joints.{key}.allowance_m {_told(case, structure, key, joints[name])}"
     return (
-        f"{', '.join(found.values())} must be larger than the slide, {_LEAST} to {_MOST} m: more of "
-        "the face is then prepared"
+        f"{', '.join(found.values())} must be larger than the slide, {_LEAST} to {_MOST} m: more "
+        "of the face is then prepared"
     )
 
 

@@ -29,9 +29,10 @@ from scipy.stats import chi2, qmc
 
 #: Twice the difference of log-likelihoods at the ends of a 95 % interval
 THRESHOLD = float(chi2.ppf(0.95, 1))
-# Trials over the whole range for each parameter, doubled so many times at most; at each stage the
-# best few of their minima are starts of a descent
-_TRIALS, _DOUBLINGS, _STARTS = 32, 3, 4
+# Trials over the whole range for each parameter, doubled so many times at most; at each stage
+# descents start at the best of their minima, until so many have led to worse fits, or so many all
+# in all
+_TRIALS, _DOUBLINGS, _STARTS, _MOST_STARTS = 32, 3, 3, 12
 _DESCENT = 40  # runs of a descent for each parameter
 _INNER = 15  # the same, of the others along a profile
 _REACH = 11  # steps of a profile, each twice the one before, the last to the end of the range
@@ -40,6 +41,8 @@ _SETTLED = 1e-4  # of the range: descents end
 _APART = 1e-3  # of the range: minima that are nearer are one
 # Deviance by which a fit has to be better to be another one
 _BETTER = 0.1
+# Correlation from which on two parameters trade
+_TRADED = 0.8
 
 #: Residuals (n,) at parameters (d,), each from 0 to 1 over its range
 Residuals = Callable[[NDArray[Any]], NDArray[Any]]
@@ -98,6 +101,25 @@ class ProfiledFit:
     def rms(self) -> float:
         """Root mean square of the residuals."""
         return float(np.sqrt(np.mean(self.residuals**2)))
+
+    def trades(self) -> list[tuple[int, int]]:
+        """Pairs of parameters that hang together: along either's interval the other, fitted anew,
+        goes through most of its own. Of a normal distribution the share is their correlation.
+        """
+        d = len(self.parameters)
+        return [
+            (a, b)
+            for a in range(d)
+            for b in range(a + 1, d)
+            if min(self._followed(a, b), self._followed(b, a)) >= _TRADED
+        ]
+
+    def _followed(self, place: int, other: int) -> float:
+        """Share of another parameter's interval through which it goes along that of `place`."""
+        one, two = self.parameters[place], self.parameters[other]
+        path = one.fitted[one.deviance <= THRESHOLD, other]
+        low, high = 0.0 if two.low is None else two.low, 1.0 if two.high is None else two.high
+        return float(np.ptp(path) / max(high - low, _SETTLED))
 
 
 class _Squares:
@@ -165,8 +187,14 @@ def _minima(squares: _Squares, residuals: Residuals, d: int) -> list[NDArray[Any
             trials = np.vstack([trials, sequence.random(len(trials))])
         spacing = len(trials) ** (-1 / d)
         before = minima[0] if minima else None
-        for start in _starts(squares, trials, minima, spacing):
+        worse = 0
+        for start in _starts(squares, trials, minima, spacing)[:_MOST_STARTS]:
             minima.append(_descent(squares, start, _DESCENT * d, spacing / 4))
+            best = min(minima, key=squares)
+            number = effective_number(residuals(best))
+            worse += squares.deviance(minima[-1], best, number) > THRESHOLD
+            if worse == _STARTS:
+                break
         minima.sort(key=squares)
         number = effective_number(residuals(minima[0]))
         if before is not None and squares.deviance(minima[0], before, number) > -_BETTER:
@@ -177,18 +205,17 @@ def _minima(squares: _Squares, residuals: Residuals, d: int) -> list[NDArray[Any
 def _starts(
     squares: _Squares, trials: NDArray[Any], minima: list[NDArray[Any]], spacing: float
 ) -> list[NDArray[Any]]:
-    """The best trials (n, d) that are better than their neighbours, none so near to a minima
-    that is known that a descent would lead there again.
+    """Of trials (n, d) those that are better than their neighbours, the best first; none so near to
+    a minimum that is known that a descent would lead there again.
     """
     values = np.array([squares(trial) for trial in trials])
     _, near = cKDTree(trials).query(trials, k=2 * trials.shape[1] + 1)
     lowest = [k for k in np.argsort(values, kind="stable") if values[k] <= values[near[k]].min()]
-    found = [
+    return [
         trials[k]
         for k in lowest
         if not any(np.abs(trials[k] - one).max() <= spacing for one in minima)
     ]
-    return found[:_STARTS]
 
 
 def effective_number(residuals: NDArray[Any]) -> float:

@@ -2,11 +2,13 @@
 
 import csv
 import os
+import re
 import signal
 import subprocess
 import sys
 import time
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +17,7 @@ from fecolumn.cli import main
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.profile import THRESHOLD, effective_number, profiled_fit
-from fecolumn.statistics.rocking_test import read_rocking_test
+from fecolumn.statistics.rocking_test import RockingTest, read_rocking_test
 from fecolumn.study.questions.calibration import RockingCalibration, usual_ranges
 
 BLOCK = "[block]\nwidth_m = 0.25\nheight_m = 1.0\n[integration]\ndt_s = 0.005\n"
@@ -145,6 +147,65 @@ def test_parameters_that_only_their_sum_matters_are_not_identified():
     y = 0.9 * x + np.random.default_rng(2).normal(0, 0.01, x.size)
     fit = profiled_fit(lambda u: y - (u[0] + u[1]) * x, 2)
     assert all(not one.identified for one in fit.parameters)
+    assert fit.trades() == [(0, 1)]
+    test = RockingTest(x, np.full(x.size, 0.1))
+    ranges = {"block.tendon_n_m": (0.0, 1e5), "block.spring_n_m": (0.0, 1e5)}
+    *_, told, _ = RockingCalibration({}, "case.toml", ranges, test, Path()).sentences(fit)
+    found = re.fullmatch(
+        r"block.tendon_n_m and block.spring_n_m trade: block.tendon_n_m = (\S+) N/m with "
+        r"block.spring_n_m = (\S+) N/m fits as well as block.tendon_n_m = (\S+) N/m with "
+        r"block.spring_n_m = (\S+) N/m; state one of them in the case to find the other.",
+        told,
+    )
+    a, b, c, d = map(float, found.groups())
+    assert a + b == pytest.approx(9e4, rel=0.02) and c + d == pytest.approx(9e4, rel=0.02)
+    assert c - a > 7e4
+
+
+def test_parameters_told_apart_by_the_test_do_not_trade():
+    x = np.linspace(-1, 1, 40)
+    y = 0.3 + 0.6 * x + np.random.default_rng(2).normal(0, 0.01, x.size)
+    assert profiled_fit(lambda u: y - u[0] - u[1] * x, 2).trades() == []
+
+
+def waves(at, noise=0.02):
+    """Residuals of one parameter with ten minima, the least of them at `at`."""
+    scatter = scatter_of(noise)
+
+    def residuals(u):
+        away = u[0] - at
+        return scatter + 0.5 * np.sin(10 * np.pi * away) + 0.3 * away * np.resize([1, -1], 50)
+
+    return residuals
+
+
+def scatter_of(noise):
+    """Random numbers (50,) without what would shift a fit of `waves`."""
+    found = np.random.default_rng(5).normal(0, noise, 50)
+    for shape in (np.ones(50), np.resize([1, -1], 50)):
+        found -= found @ shape / 50 * shape
+    return found
+
+
+def test_the_least_of_many_minima_is_found():
+    for at in np.linspace(0.04, 0.97, 12):
+        (one,) = profiled_fit(waves(at), 1).parameters
+        assert one.low < at < one.high and one.high - one.low < 0.01 and not one.apart
+
+
+def test_minima_as_good_as_the_best_belong_to_the_interval():
+    """Residuals of sin(10 pi u) have zeros a tenth apart: all of them fit alike."""
+    scatter = scatter_of(0.02)
+    fit = profiled_fit(lambda u: scatter + 0.5 * np.sin(10 * np.pi * (u[0] - 0.05)), 1)
+    (one,) = fit.parameters
+    assert one.low < 0.05 and one.high > 0.95 and len(one.apart) == 9
+    assert one.apart == pytest.approx(
+        [at for at in np.linspace(0.05, 0.95, 10) if abs(at - one.best) > 0.05], abs=0.005
+    )
+    test = RockingTest(np.arange(50.0), np.full(50, 0.1))
+    ranges = {"grounds.ground.stiffness_n_m3": (0.0, 1e3)}
+    told, _ = RockingCalibration({}, "case.toml", ranges, test, Path()).sentences(fit)
+    assert "The interval has gaps: values near" in told and "longer test" in told
 
 
 def test_neighbours_alike_count_for_fewer_samples():
@@ -171,8 +232,8 @@ def test_usual_keys_are_those_that_the_case_has():
         usual_ranges({"frame": {}}, "frame.toml")
 
 
-def samples(*, unit="tilt_rad", change=None):
-    lines = [f"{0.1 * n:.1f},{0.1 * np.exp(-0.1 * n):.5f}" for n in range(30)]
+def samples(*, unit="tilt_rad", change=None, step=0.1):
+    lines = [f"{step * n:g},{0.1 * np.exp(-0.1 * n):.5f}" for n in range(30)]
     for place, text in (change or {}).items():
         lines[place] = text
     return "\n".join([f"time_s,{unit}", *lines]) + "\n"
@@ -188,9 +249,11 @@ def samples(*, unit="tilt_rad", change=None):
         (samples(change={5: "0.5,nan"}), "line 7, tilt_rad = 'nan': must be a finite number"),
         (samples(change={5: "0.5,0_1"}), "line 7, tilt_rad = '0_1': must be a finite number"),
         (samples(change={5: "0.5,7.2"}), "must be below a quarter of a turn: check its unit"),
-        (samples(change={0: "0.0,0"}), "line 2, tilt_rad = 0.0: must not be 0"),
+        (samples(change={0: "0.0,0"}), "line 2, tilt_rad = '0': must not be below 1e-05 rad"),
         (samples(change={5: "0.5"}), "line 7: has 1 columns where the header has 2"),
         ("time_s,tilt_rad\n0,0.1\n1,0.1\n", "has 2 samples; at least 20 are needed"),
+        (samples(step=100), "time_s: half of the samples are 100 s or more apart, which must be"),
+        (samples(step=1e-4), "time_s: the test lasts 0.0029 s, which must be 0.05 to 3600 s: ch"),
     ],
 )
 def test_test_that_cannot_be_used_is_refused_in_a_line(tmp_path, text, said):
@@ -208,8 +271,9 @@ def test_test_that_cannot_be_used_is_refused_in_a_line(tmp_path, text, said):
         ([("block.restitution", "1:0.5")], "did you mean 0.5:1?"),
         ([("block.restitution", "0.5:1.5")], "block.restitution = "),
         ([("block.restitution", "-0.5:1")] * 2, "--fit = 'block.restitution': stands twice"),
-        ([("block.sides", "1:2")], "must be a number that varies continuously"),
-        ([("motion.scale", "1:2")], "must be a number that varies continuously"),
+        ([("block.sides", "1:2")], "a number of the object or of its start that varies contin"),
+        ([("motion.scale", "1:2")], "a number of the object or of its start"),
+        ([("integration.duration_s", "1:2")], "such as block.restitution"),
     ],
 )
 def test_keys_that_cannot_be_fitted_are_refused_in_a_line(test_of_block, capsys, fits, said):

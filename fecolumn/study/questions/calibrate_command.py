@@ -13,6 +13,8 @@ from typing import Any
 
 _COMMAND = "fecolumn calibrate"
 _MOST = 4  # keys: each one more doubles the runs
+# Sections of which no key belongs to the object
+_NO_PART = ("motion", "integration", "output", "overturn", "mesh")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -97,9 +99,13 @@ def _ranges(args: argparse.Namespace, tables: dict[str, Any]) -> dict[str, tuple
         if key in found:
             raise InputError(_COMMAND, "--fit", key, "stands twice")
         low, high, kind = read_range(key, text, "--fit", _COMMAND)
-        if kind is not float or key.partition(".")[0] == "motion":
+        if kind is not float or key.partition(".")[0] in _NO_PART:
             raise InputError(
-                _COMMAND, f"--fit {key}", text, "must be a number that varies continuously"
+                _COMMAND,
+                f"--fit {key}",
+                text,
+                "must be a number of the object or of its start that varies continuously, such as "
+                "block.restitution, joints.foot.friction_coefficient or initial.tilt_rad",
             )
         found[key] = low, high
     if len(found) > _MOST:
