@@ -30,8 +30,7 @@ def _told(case: Case, structure: StructureModel, key: str, joint: Joint) -> str:
     stated = case.joints[key].allowance_m
     if stated is not None:
         return f"= {stated:g}"
-    if not joint.outlines:
-        return "(left out)"
-    surface = structure.parts[joint.slave].model.surfaces[joint.slave_surface]
-    sides = np.ptp(surface.plane(joint.outlines[0].reshape(-1, 3))[:, :2], axis=0)
+    model = structure.parts[joint.slave].model
+    surface = model.surfaces[joint.slave_surface]
+    sides = np.ptp(surface.plane(model.arms[surface.nodes])[:, :2], axis=0)
     return f"(left out: {sides.max() if joint.gap else sides.min() / 4:.3g} m)"
