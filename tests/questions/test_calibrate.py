@@ -104,6 +104,75 @@ def test_what_was_killed_goes_on_from_its_runs(test_of_block):
     assert all(file.stat().st_mtime_ns == at for file, at in old.items())
 
 
+BODY = """
+[bodies.block]
+kind = "block"
+length_m = {size}
+width_m = {size}
+height_m = {height}
+mass_kg = 200
+element_size_m = 0.1
+{body}
+[joints.foot]
+between = ["block", "ground"]
+friction_coefficient = 0.8
+[contact]
+interior_points = 4
+[integration]
+engine = "rigid"
+dt_s = 1e-3
+{more}
+"""
+PAD = '[grounds.ground]\nkind = "pad"\nstiffness_n_m3 = 1e8\n'
+# Key, its true value and range, tilt at the release, the block, and how far the interval reaches
+RECOVERED = [
+    # stocky enough to slide while it rocks
+    pytest.param(
+        ("joints.foot.friction_coefficient", 0.35, "0.1:0.9", 0.3),
+        dict(size=0.4, height=0.5, body="rigid = true", more=""),
+        id="friction",
+    ),
+    pytest.param(
+        ("bodies.block.edge_radius_m", 0.02, "0:0.04", 0.1),
+        dict(size=0.3, height=0.9, body="edge_radius_m = 0.01", more=""),
+        id="edge radius",
+        marks=pytest.mark.slow,
+    ),
+    # of many minima: after an impact the tilt depends on the phase of the pad's bounces
+    pytest.param(
+        ("grounds.ground.stiffness_n_m3", 4e8, "1e7:1e9", 0.1),
+        dict(size=0.3, height=0.9, body="rigid = true", more=PAD),
+        id="contact stiffness",
+        marks=pytest.mark.slow,
+    ),
+]
+
+
+@pytest.mark.parametrize("known, block", RECOVERED)
+def test_a_known_value_is_found_in_the_record_of_a_run_with_it(tmp_path, capsys, known, block):
+    """Of tilts each 10 ms with a scatter of 0.5 mrad."""
+    key, true, allowed, tilt = known
+    (tmp_path / "case.toml").write_text(BODY.format(**block))
+    (tmp_path / "true.toml").write_text(
+        f'extends = "case.toml"\n{key} = {true}\n[initial.block]\ntilt_rad = {tilt}\n'
+        "[integration]\nduration_s = 0.6\n"
+    )
+    assert main(["run", str(tmp_path / "true.toml"), "-o", str(tmp_path / "true"), "-q"]) == 0
+    found, times = read_history(tmp_path / "true" / "history.h5"), np.arange(0, 0.6, 0.01)
+    angle = np.interp(times, found["time"], np.abs(found["tilt"]))
+    angle += np.random.default_rng(7).normal(0, 5e-4, times.size)
+    (tmp_path / "free.csv").write_text(
+        "time_s,tilt_rad\n" + "".join(f"{t:.4f},{y:.7f}\n" for t, y in zip(times, angle))
+    )
+    fit = ["calibrate", str(tmp_path / "case.toml"), "--test", str(tmp_path / "free.csv")]
+    assert main([*fit, "--fit", key, allowed, "-o", str(tmp_path / "fit")]) == 0
+    (row,) = rows(tmp_path / "fit" / "calibrate.csv")
+    low, value, high = (float(row[name]) for name in ("low", "value", "high"))
+    assert row["identified"] == "1" and low < value < high
+    assert abs(value - true) < high - low < 0.05 * true
+    assert "The fit leaves 0.4" in capsys.readouterr().out  # mrad: the scatter, less what is fitted
+
+
 def test_a_range_of_decades_is_searched_in_logarithm(test_of_block):
     ranges = {"grounds.ground.stiffness_n_m3": (1e6, 1e10), "bodies.a.edge_radius_m": (0.0, 0.1)}
     test = read_rocking_test(test_of_block / "free.csv")

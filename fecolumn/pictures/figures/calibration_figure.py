@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from fecolumn.pictures.figures.axis_text import axis_unit
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.statistics.profile import THRESHOLD, ProfiledFit
 from fecolumn.statistics.rocking_test import RockingTest
@@ -18,6 +20,7 @@ def calibration_figure(
     test: RockingTest,
     fitted: Any,
     ranges: dict[str, tuple[float, float]],
+    value: Callable[[str, float], float],
     fit: ProfiledFit,
     path: Path,
 ) -> list[Path]:
@@ -31,6 +34,8 @@ def calibration_figure(
         (n,) tilt of the best fit at its times [rad].
     ranges
         of the keys, in the order of the fit's parameters.
+    value
+        of a key at a share of its range.
     path
         file name without suffix.
     """
@@ -43,13 +48,19 @@ def calibration_figure(
     def threshold(axes: Any) -> None:
         axes.axhline(THRESHOLD, color="0.35", linewidth=0.8, linestyle=":", label="95 %")
 
+    labels = [f"{key}, {low:g} to {high:g}" for key, (low, high) in ranges.items()]
+    places, across = [one.at for one in fit.parameters], "share of the range [-]"
+    if len(ranges) == 1:  # in its own unit
+        (key,) = ranges
+        labels, across = ["profile"], f"{key} [{axis_unit(key)}]"
+        places = [np.array([value(key, float(at)) for at in places[0]])]
     profiles = [
-        Curve(f"{key}, {low:g} to {high:g}", one.at, one.deviance, markers=True)
-        for (key, (low, high)), one in zip(ranges.items(), fit.parameters)
+        Curve(label, at, one.deviance, markers=True)
+        for label, at, one in zip(labels, places, fit.parameters)
     ]
-    near = [one.at[one.deviance <= 3 * THRESHOLD] for one in fit.parameters]
+    near = [at[one.deviance <= 3 * THRESHOLD] for at, one in zip(places, fit.parameters)]
     least, most = (float(pick([pick(at) for at in near])) for pick in (np.min, np.max))
-    spread = 0.1 * (most - least) + 1e-3
+    spread = 0.1 * (most - least) or 1e-3 * max(abs(most), 1.0)
     return line_figure(
         [
             CurvePanel(
@@ -61,7 +72,7 @@ def calibration_figure(
                 legend="upper right",
             ),
             CurvePanel(
-                "share of the range [-]",
+                across,
                 r"deviance $n\,\ln(S/S_{\min})$",
                 profiles,
                 {"ylim": (0, 3 * THRESHOLD), "xlim": (least - spread, most + spread)},

@@ -141,5 +141,10 @@ def _write(question: Any, fit: Any, case: str, folder: Path) -> None:
         fitted = merge(fitted, nested(key, value))
     write_bytes(folder / "fitted.toml", tomli_w.dumps(fitted).encode())
     calibration_figure(
-        question.test, question.tilt(fit.best), question.ranges, fit, folder / "calibrate"
+        question.test,
+        question.tilt(fit.best),
+        question.ranges,
+        question.at,
+        fit,
+        folder / "calibrate",
     )
