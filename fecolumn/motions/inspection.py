@@ -31,9 +31,9 @@ def file_lines(recording: Recording, dt: float) -> list[str]:
     axes = ", ".join(f"a{axis}" for axis in recording.axes if axis)
     told = f" ({axes})" if axes else "; its axis is that of the key it stands under"
     kind = recording.format or "record of an ensemble"
+    step = f"dt {dt:g} s, {(len(recording.values) - 1) * dt:g} s long" if dt else "dt not stated"
     lines = [
-        f"{recording.name}: {kind}, {len(recording.values)} samples, dt {dt:g} s, "
-        f"{(len(recording.values) - 1) * dt:g} s long",
+        f"{recording.name}: {kind}, {len(recording.values)} samples, {step}",
         f"components: {len(recording.axes)}{told}",
         f"unit: {recording.units or 'not stated'}",
     ]
