@@ -156,7 +156,7 @@ def _statue(args) -> dict[str, str]:
         f"{own.foot[1]:.4g} m, {len(own.mesh.cells)} elements"
     )
     if not args.unit and not _LOWEST <= own.height <= _HIGHEST:
-        print("its unit was taken for the metre: --unit mm, cm or in says another")
+        print("its unit was taken for the metre: --unit mm, cm, in or ft says another")
     path = os.path.relpath(Path(args.drawn).resolve(), Path(args.folder).resolve())
     stated = {'"FILE"    ': json.dumps(path)}
     if args.unit:
