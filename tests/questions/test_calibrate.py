@@ -219,7 +219,8 @@ def test_parameters_that_only_their_sum_matters_are_not_identified():
     assert fit.trades() == [(0, 1)]
     test = RockingTest(x, np.full(x.size, 0.1))
     ranges = {"block.tendon_n_m": (0.0, 1e5), "block.spring_n_m": (0.0, 1e5)}
-    *_, told, _ = RockingCalibration({}, "case.toml", ranges, test, Path()).sentences(fit)
+    started = {"initial": {"tilt_rad": 0.1}}
+    *_, told, _ = RockingCalibration(started, "case.toml", ranges, test, Path()).sentences(fit)
     found = re.fullmatch(
         r"block.tendon_n_m and block.spring_n_m trade: block.tendon_n_m = (\S+) N/m with "
         r"block.spring_n_m = (\S+) N/m fits as well as block.tendon_n_m = (\S+) N/m with "
@@ -273,7 +274,8 @@ def test_minima_as_good_as_the_best_belong_to_the_interval():
     )
     test = RockingTest(np.arange(50.0), np.full(50, 0.1))
     ranges = {"grounds.ground.stiffness_n_m3": (0.0, 1e3)}
-    told, _ = RockingCalibration({}, "case.toml", ranges, test, Path()).sentences(fit)
+    told, _, start = RockingCalibration({}, "case.toml", ranges, test, Path()).sentences(fit)
+    assert "--fit initial.tilt_rad 0.095:0.105 fits it, too" in start
     assert "The interval has gaps: values near" in told and "longer test" in told
 
 

@@ -59,6 +59,10 @@ class RockingCalibration:
         every_row = {"states_every_s": 0, "history_every_s": 0, "fields_every_s": 0}
         tables = merge(tables, {"integration": {"duration_s": end}, "output": every_row})
         self.tables = _start(tables, float(test.tilt[0]))
+        #: Key of the tilt at the release where that is the test's first line and not fitted.
+        self.taken = "" if tables.get("initial") else _tilt_key(tables)
+        if self.taken in ranges:
+            self.taken = ""
         self.runs = 0
 
     def values(self, u: NDArray[Any]) -> dict[str, float]:
@@ -134,7 +138,14 @@ class RockingCalibration:
                 " It does not describe the test: intervals mean nothing; other keys, the case or "
                 "the moment of release are wrong."
             )
-        return [*told, whole]
+        if not self.taken:
+            return [*told, whole]
+        tilt = self.test.tilt[0]
+        start = (
+            f"The case starts from the tilt of the test's first line, {tilt:.4g} rad, as if that "
+            f"were exact; --fit {self.taken} {0.95 * tilt:.3g}:{1.05 * tilt:.3g} fits it, too."
+        )
+        return [*told, whole, start]
 
     def _traded(self, one: ProfiledParameter, place: int, other: int) -> str:
         """That two keys trade, by the ends of the first one's interval."""
@@ -193,14 +204,18 @@ def _unit(key: str) -> str:
 
 def _start(tables: dict[str, Any], tilt: float) -> dict[str, Any]:
     """Tables with the tilt at the release, where they state none."""
-    stated = tables.get("initial")
-    if stated:
+    if tables.get("initial"):
         return tables
+    return merge(tables, nested(_tilt_key(tables), tilt))
+
+
+def _tilt_key(tables: dict[str, Any]) -> str:
+    """Key of the tilt at the release, of several bodies that of the observed or the last one."""
     bodies = tables.get("bodies")
     if not isinstance(bodies, dict):
-        return merge(tables, nested("initial.tilt_rad", tilt))
+        return "initial.tilt_rad"
     name = str(tables.get("observed", "")).partition(".")[0] or next(reversed(bodies), "")
-    return merge(tables, {"initial": {name: {"tilt_rad": tilt}}})
+    return f"initial.{name}.tilt_rad"
 
 
 def usual_ranges(tables: dict[str, Any], file: str) -> dict[str, tuple[float, float]]:
