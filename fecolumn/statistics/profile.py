@@ -304,7 +304,8 @@ class _Profile:
 
     def _end(self, start: NDArray[Any], side: float) -> float | None:
         """End of the interval towards a side of the range; None where the range ends first."""
-        inside, outside, near = float(start[self._place]), None, start
+        inside, near = float(start[self._place]), start
+        outside: float | None = None
         for power in range(_REACH - 1, -1, -1):
             value = float(start[self._place]) + (side - float(start[self._place])) / 2**power
             if value == inside:
