@@ -68,11 +68,13 @@ def main(args: argparse.Namespace) -> int:
     with written(args.output, "calibrate", names=names) as draft:
         question = RockingCalibration(tables, args.case, ranges, test, Path(args.output) / "runs")
         question.check()
-        progress = CountProgress(most_runs(len(ranges)), "runs at most")
+        progress = CountProgress(most_runs(len(ranges)), "runs")
 
         def residuals(u: Any) -> Any:
             found = question.residuals(u)
-            progress.show(min(question.runs, int(progress.total)))
+            if question.runs > progress.total:  # many minima
+                progress.total = int(1.5 * progress.total)
+            progress.show(question.runs)
             return found
 
         fit = profiled_fit(residuals, len(ranges))

@@ -126,7 +126,7 @@ class RockingCalibration:
     def sentences(self, fit: ProfiledFit) -> list[str]:
         """One sentence a key, one of each two that trade, and one on the fit as a whole."""
         told = [self._told(key, one) for key, one in zip(self.ranges, fit.parameters, strict=True)]
-        told += [self._traded(fit.parameters[a], a, b) for a, b in fit.trades()]
+        told += [self._traded(fit, a, b) for a, b in fit.trades()]
         share = fit.rms / self.test.tilt[0]
         whole = (
             f"The fit leaves {1e3 * fit.rms:.3g} mrad rms, {100 * share:.2g} % of the tilt at the "
@@ -147,8 +147,9 @@ class RockingCalibration:
         )
         return [*told, whole, start]
 
-    def _traded(self, one: ProfiledParameter, place: int, other: int) -> str:
+    def _traded(self, fit: ProfiledFit, place: int, other: int) -> str:
         """That two keys trade, by the ends of the first one's interval."""
+        one = fit.parameters[place]
         a, b = (list(self.ranges)[k] for k in (place, other))
         inside = one.fitted[one.deviance <= THRESHOLD]
         ends = [
@@ -156,10 +157,10 @@ class RockingCalibration:
             f"{_unit(b)}"
             for u in (inside[0], inside[-1])
         ]
-        return (
-            f"{a} and {b} trade: {ends[0]} fits as well as {ends[1]}; state one of them in the "
-            "case to find the other."
-        )
+        told = f"{a} and {b} trade: {ends[0]} fits as well as {ends[1]}"
+        if one.identified and fit.parameters[other].identified:
+            return f"{told}; both intervals allow for it."
+        return f"{told}; state one of them in the case to find the other."
 
     def _told(self, key: str, one: ProfiledParameter) -> str:
         low, high = self.ranges[key]
