@@ -10,7 +10,7 @@ import numpy as np
 
 from fecolumn.pictures.figures.axis_text import axis_unit
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
-from fecolumn.statistics.profile import THRESHOLD, ProfiledFit
+from fecolumn.statistics.profile import THRESHOLD, ProfiledFit, ProfiledParameter
 from fecolumn.statistics.rocking_test import RockingTest
 
 _POINTS = 150  # of the measured tilt
@@ -49,11 +49,13 @@ def calibration_figure(
         axes.axhline(THRESHOLD, color="0.35", linewidth=0.8, linestyle=":", label="95 %")
 
     labels = [f"{key}, {low:g} to {high:g}" for key, (low, high) in ranges.items()]
-    places, across = [one.at for one in fit.parameters], "share of the range [-]"
+    # several of them side by side, whatever their intervals
+    places = [(one.at - one.best) / _half(one) for one in fit.parameters]
+    across = "from the best fit, over half of the 95 % interval [-]"
     if len(ranges) == 1:  # in its own unit
         (key,) = ranges
         labels, across = ["profile"], f"{key} [{axis_unit(key)}]"
-        places = [np.array([value(key, float(at)) for at in places[0]])]
+        places = [np.array([value(key, float(at)) for at in fit.parameters[0].at])]
     profiles = [
         Curve(label, at, one.deviance, markers=True)
         for label, at, one in zip(labels, places, fit.parameters)
@@ -82,3 +84,9 @@ def calibration_figure(
         ],
         path,
     )
+
+
+def _half(one: ProfiledParameter) -> float:
+    """Half of a parameter's interval, in shares of its range."""
+    low, high = 0.0 if one.low is None else one.low, 1.0 if one.high is None else one.high
+    return max((high - low) / 2, 1e-9)
