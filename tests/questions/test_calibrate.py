@@ -322,6 +322,8 @@ def samples(*, unit="tilt_rad", change=None, step=0.1):
         (samples(change={5: "0.5,7.2"}), "must be below a quarter of a turn: check its unit"),
         (samples(change={0: "0.0,0"}), "line 2, tilt_rad = '0': must not be below 1e-05 rad"),
         (samples(change={5: "0.5"}), "line 7: has 1 columns where the header has 2"),
+        (samples(change={5: '0.5,"0.1'}), "cannot be read as CSV"),
+        (samples(change={5: "0.5," + "9" * 200_000}), "field larger than field limit"),
         ("time_s,tilt_rad\n0,0.1\n1,0.1\n", "has 2 samples; at least 20 are needed"),
         (samples(step=100), "time_s: half of the samples are 100 s or more apart, which must be"),
         (samples(step=1e-4), "time_s: the test lasts 0.0029 s, which must be 0.05 to 3600 s: ch"),
@@ -333,6 +335,14 @@ def test_test_that_cannot_be_used_is_refused_in_a_line(tmp_path, text, said):
     with pytest.raises(InputError) as error:
         read_rocking_test(tmp_path / "test.csv")
     assert said in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.timeout(30)
+def test_a_pipe_or_a_device_in_place_of_a_test_holds_nothing_up(tmp_path):
+    os.mkfifo(tmp_path / "test.csv")
+    for file in (tmp_path / "test.csv", Path("/dev/zero")):
+        with pytest.raises(InputError, match="is a device or a pipe; a file is needed"):
+            read_rocking_test(file)
 
 
 @pytest.mark.parametrize(
