@@ -127,7 +127,7 @@ WRONG = [
     (
         stack(links=dict(tie=LINK | dict(to="lower"))),
         "links.tie.to_point_m",
-        'a point of "lower": it lies 0.917 m outside, counted from the foot of "upper" as point_m',
+        'm outside, counted from the foot of "upper" as point_m is',
     ),
     (
         stack(links=dict(tie=LINK | dict(stiffness_n_m=0))),
