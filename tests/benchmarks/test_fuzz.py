@@ -22,7 +22,7 @@ def test_three_hundred_mutants_of_calibrations_and_of_classes(subject):
     ends = list(watch.watched(subject, list(range(320)), seed=36))
     assert len(ends) == 320 and not [end for end in ends if end.verdict in watch.BAD]
     verdicts = collections.Counter(end.verdict for end in ends)
-    assert verdicts["refused"] >= 100 and verdicts["used"] >= 20
+    assert verdicts["refused"] >= 100 and verdicts["used"] >= 10
 
 
 @pytest.mark.parametrize(
