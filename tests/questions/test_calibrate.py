@@ -138,19 +138,13 @@ RECOVERED = [
         id="edge radius",
         marks=pytest.mark.slow,
     ),
-    # of many minima: after an impact the tilt depends on the phase of the pad's bounces
-    pytest.param(
-        ("grounds.ground.stiffness_n_m3", 4e8, "1e7:1e9", 0.1),
-        dict(size=0.3, height=0.9, body="rigid = true", more=PAD),
-        id="contact stiffness",
-        marks=pytest.mark.slow,
-    ),
 ]
 
 
-@pytest.mark.parametrize("known, block", RECOVERED)
-def test_a_known_value_is_found_in_the_record_of_a_run_with_it(tmp_path, capsys, known, block):
-    """Of tilts each 10 ms with a scatter of 0.5 mrad."""
+def recovered(tmp_path, known, block):
+    """Low end, value and high end of a key, fitted to tilts each 10 ms of a run with its true
+    value, with a scatter of 0.5 mrad.
+    """
     key, true, allowed, tilt = known
     (tmp_path / "case.toml").write_text(BODY.format(**block))
     (tmp_path / "true.toml").write_text(
@@ -167,10 +161,29 @@ def test_a_known_value_is_found_in_the_record_of_a_run_with_it(tmp_path, capsys,
     fit = ["calibrate", str(tmp_path / "case.toml"), "--test", str(tmp_path / "free.csv")]
     assert main([*fit, "--fit", key, allowed, "-o", str(tmp_path / "fit")]) == 0
     (row,) = rows(tmp_path / "fit" / "calibrate.csv")
-    low, value, high = (float(row[name]) for name in ("low", "value", "high"))
-    assert row["identified"] == "1" and low < value < high
-    assert abs(value - true) < high - low < 0.05 * true
+    assert row["identified"] == "1"
+    return tuple(float(row[name]) for name in ("low", "value", "high"))
+
+
+@pytest.mark.parametrize("known, block", RECOVERED)
+def test_a_known_value_is_found_in_the_record_of_a_run_with_it(tmp_path, capsys, known, block):
+    low, value, high = recovered(tmp_path, known, block)
+    assert low < value < high
+    assert abs(value - known[1]) < high - low < 0.05 * known[1]
     assert "The fit leaves 0.4" in capsys.readouterr().out  # mrad: the scatter, less what is fitted
+
+
+@pytest.mark.slow
+def test_the_stiffness_of_a_pad_is_found_among_many_minima(tmp_path, capsys):
+    """After an impact on a pad the tilt depends on the phase of its bounces: 2.8e8 N/m3 fits the
+    half second nearly as well (deviance 3.6), which the answer says.
+    """
+    known = ("grounds.ground.stiffness_n_m3", 4e8, "1e7:1e9", 0.1)
+    block = dict(size=0.3, height=0.9, body="rigid = true", more=PAD)
+    low, value, high = recovered(tmp_path, known, block)
+    assert value == pytest.approx(4e8, rel=0.01) and 2.7e8 < low < 4e8 < high < 4.1e8
+    said = capsys.readouterr().out
+    assert "The interval has gaps: values near 2.8" in said and "a longer test" in said
 
 
 def test_a_range_of_decades_is_searched_in_logarithm(test_of_block):
