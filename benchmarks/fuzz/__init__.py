@@ -9,4 +9,4 @@ A subject is a module with
     use(mutant)              does what a command would do with it
 """
 
-SUBJECTS = ("cases", "studies", "motions", "ensembles", "folders")
+SUBJECTS = ("cases", "studies", "motions", "ensembles", "folders", "calibrations", "classes")

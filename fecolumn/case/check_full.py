@@ -35,8 +35,8 @@ def check_full(case, refuse) -> None:
             refuse(
                 f"joints.{name}.tension_pa",
                 joint.tension_pa,
-                'must be left out with integration.engine = "full", which holds no joint by wax or '
-                "mortar: the reduced and the rigid engine compute it",
+                'must be left out with integration.engine = "full", whose contact pushes but '
+                'never pulls: integration.engine = "reduced" or "rigid" computes wax and mortar',
             )
     if case.contact.impact == "none":
         _check_no_impacts(case, refuse)

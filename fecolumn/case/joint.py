@@ -39,13 +39,17 @@ class Interface(Section):
     )
     penalty_factor: float | None = parameter(
         None,
-        doc="penalty stiffness per area as a multiple of E / element size of the slave; "
-        "left out: that of [contact]",
+        doc="penalty stiffness per area as a multiple of E / element size of the body with the "
+        "smaller face; left out: that of [contact]",
         above=0,
         high=1e9,
     )
     restitution: float | None = parameter(
-        None, doc="velocity after over before an impact; left out: that of [contact]", low=0, high=1
+        None,
+        doc="ratio of the normal velocity after an impact to that before it; left out: that of "
+        "[contact]",
+        low=0,
+        high=1,
     )
     rolling_resistance: float | None = parameter(
         None,
@@ -132,7 +136,7 @@ class Interface(Section):
     )
     interior_points: int | None = parameter(
         None,
-        doc="contact points inside the outlines of the slave's face; left out: that of [contact]",
+        doc="contact points inside the outlines of the smaller face; left out: that of [contact]",
         low=0,
         high=10**6,
     )
@@ -144,8 +148,9 @@ class Interface(Section):
     )
     allowance_m: float | None = parameter(
         None,
-        doc="how far the slave may slide on a body before its compliance ends; left out: a "
-        "quarter of the slave's smaller side, its larger one across a gap",
+        doc="how far the body with the smaller face may slide on the other before what is known of "
+        "that one's compliance ends; left out: a quarter of the smaller face's smaller side, its "
+        "larger one across a gap",
         unit="m",
         low=0,
         high=1000,

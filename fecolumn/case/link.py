@@ -44,8 +44,8 @@ class LinkKeys(Section):
     )
     to: str = parameter(GROUND_NAME, doc="body at the other end, or a ground")
     to_point_m: tuple[float, ...] = required(
-        doc="point [x, y, z] of the other end at the start, from the same place of "
-        "`body` as point_m, so that it holds for each copy",
+        doc="point [x, y, z] of the other end at the start, from the middle of the foot of "
+        "`body`, not of `to`, as point_m: it then holds for each copy",
         unit="m",
         low=-1e4,
         high=1e4,

@@ -143,6 +143,8 @@ def tables_of_model(model: Section, sections: dict[str, Section | None], title: 
             model,
             "must be a BlockModel, FrameModel, WobblingModel, WobblingFrameModel or PodiumModel",
         )
+    if not isinstance(title, str):
+        raise InputError("case", "title", title, "must be text in quotes")
     for name, one in sections.items():
         if one is not None and not isinstance(one, Section):
             raise InputError("case", name, one, f"must be a {name.capitalize()}")

@@ -121,8 +121,8 @@ class RockingKeys(RestraintKeys, RectangleKeys):
 
     restitution: float | None = parameter(
         None,
-        doc="ratio of the angular velocity after an impact to that before it; left out: of the "
-        "plastic impact",
+        doc="ratio of the angular velocity after an impact to that before it; left out: that "
+        "of an impact without bounce",
         low=0,
         high=1,
     )

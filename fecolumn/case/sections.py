@@ -116,7 +116,7 @@ class Contact(Section):
     )
     restitution: float = parameter(
         0.0,
-        doc="velocity after over before an impact; 0 is the plastic impact",
+        doc="ratio of the normal velocity after an impact to that before it; 0: no bounce",
         low=0,
         high=1,
         since="0.2",

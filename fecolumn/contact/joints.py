@@ -31,14 +31,11 @@ class Joints(NamedTuple):
     overlaps: Overlaps = no_overlaps()
 
 
-def left_faces(names, points: np.ndarray) -> str:
-    """Of which interfaces, with `names`, some of the points (P,) of POINT have left the face that
-    is prepared for them, and what helps.
+def left_faces(names, points: np.ndarray) -> tuple[str, ...]:
+    """Of `names` of interfaces those of which some of the points (P,) of POINT have left the face
+    that is prepared for them.
     """
-    found = sorted({names[k] for k in points["interface"][points["beyond"] == UNPREPARED]})
-    # "joint, edge: lower on upper" has the keys of interfaces.joint
-    key = found[0].partition(":")[0].removesuffix(", edge")
-    return f"{', '.join(found)}; a larger joints.{key}.allowance_m prepares more of it"
+    return tuple(sorted({names[k] for k in points["interface"][points["beyond"] == UNPREPARED]}))
 
 
 def joints_of(parts, joints, replaced=frozenset()) -> Joints:

@@ -13,6 +13,7 @@ from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
 from fecolumn.engines.dynamics.bonds import bonded
 from fecolumn.engines.ending import AT_REST, OVERTURNED, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.engines.fallen_bodies import FallenBodies
+from fecolumn.engines.left_part import way_out
 from fecolumn.engines.peak_acceleration import peak_acceleration
 from fecolumn.engines.reduced.observe import (
     COLUMNS,
@@ -139,7 +140,10 @@ class OfStructure:
         off = self.off_base(failure)
         if off is None:
             self._save()
-            raise AnalysisFailed(f"{failure}; state saved in {self.folder / CHECKPOINT}") from None
+            told = [str(failure), f"state saved in {self.folder / CHECKPOINT}"]
+            if failure.joints:
+                told.insert(1, way_out(self.case, self.structure, failure.joints))
+            raise AnalysisFailed("; ".join(told)) from None
         return off
 
     def off_ground(self, failure, bases, grounds, foot) -> Ending | None:

@@ -71,7 +71,12 @@ class _Shown(reprlib.Repr):
         return f"{'-' if value < 0 else ''}1e{round(value.bit_length() * math.log10(2))} or so"
 
 
-shown = _Shown().repr
+_repr = _Shown().repr
+
+
+def shown(value) -> str:
+    """A value as Python writes it, in one line; long ones shortened."""
+    return re.sub(r"\s*\n\s*", " ", _repr(value))
 
 
 def in_text(words: str) -> str:

@@ -24,18 +24,18 @@ _FINER, _MANY = 10, 1_000_000
 _GAP_S, _CLIPPED = 0.5, 4
 
 
-def file_lines(recording: Recording, dt: float) -> list[str]:
-    """Lines on a file: format, samples, components, unit; and, where it states none, the peak in
-    each unit.
+def file_lines(recording: Recording, dt: float, units: str = "") -> list[str]:
+    """Lines on a file: format, samples, components, unit; where it states none, that which the user
+    says in `units`.
     """
     axes = ", ".join(f"a{axis}" for axis in recording.axes if axis)
     told = f" ({axes})" if axes else "; its axis is that of the key it stands under"
     kind = recording.format or "record of an ensemble"
+    step = f"dt {dt:g} s, {(len(recording.values) - 1) * dt:g} s long" if dt else "dt not stated"
     lines = [
-        f"{recording.name}: {kind}, {len(recording.values)} samples, dt {dt:g} s, "
-        f"{(len(recording.values) - 1) * dt:g} s long",
+        f"{recording.name}: {kind}, {len(recording.values)} samples, {step}",
         f"components: {len(recording.axes)}{told}",
-        f"unit: {recording.units or 'not stated'}",
+        f"unit: {recording.units or (f'{units}, as --units says' if units else 'not stated')}",
     ]
     if recording.source and recording.source != recording.name:
         lines.append(f"source: {recording.source[:300]}")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from fecolumn.foundation.files import Unreadable, read_bytes
 from fecolumn.foundation.schema import InputError
 
 
@@ -21,20 +23,25 @@ def read_csv(path: Path, needed: str) -> tuple[list[str], list[tuple[int, list[s
     Raises
     ------
     InputError
-        no such file, not text in UTF-8, no line below the header.
+        no such file, not text in UTF-8, no line below the header, quotes that do not end.
     """
     try:
-        with open(path, encoding="utf-8-sig", newline="") as file:
-            lines = [
-                (number, line)
-                for number, line in enumerate(file, 1)
-                if line.strip() and not line.startswith("#")
-            ]
-    except FileNotFoundError:
-        raise InputError(path, "", None, "no such file") from None
-    except (OSError, UnicodeDecodeError) as error:
+        text = read_bytes(path).decode("utf-8-sig")
+    except Unreadable as error:
+        raise InputError(path, "", None, str(error)) from None
+    except UnicodeDecodeError as error:
         raise InputError(path, "", None, f"cannot be read as text in UTF-8 ({error})") from None
-    table = list(csv.reader([line for _, line in lines], skipinitialspace=True))
+    lines = [
+        (number, line)
+        for number, line in enumerate(re.split(r"\r\n|\n|\r", text), 1)
+        if line.strip() and not line.startswith("#")
+    ]
+    try:
+        table = list(csv.reader([line for _, line in lines], skipinitialspace=True, strict=True))
+    except csv.Error as error:
+        raise InputError(path, "", None, f"cannot be read as CSV ({error})") from None
+    if len(table) != len(lines):
+        raise InputError(path, "", None, "cannot be read as CSV: a quote does not end in its line")
     if len(table) < 2:
         raise InputError(path, "", None, f"holds no line below its header; needed are {needed}")
     return [name.strip() for name in table[0]], [

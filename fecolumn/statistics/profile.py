@@ -8,6 +8,10 @@ degree of freedom (Venzon & Moolgavkar 1988, Applied Statistics 37). A parameter
 stays below it up to the end of its range is not identified there (Raue et al. 2009, Bioinformatics
 25). Residuals of neighbouring samples hang together: with their autocorrelation r of lag one, n
 samples count as n (1 - r) / (1 + r).
+
+S may have many minima: after an impact on a pad the tilt depends on the phase of its bounces. The
+descents therefore start at every minimum of a Sobol sequence of trials, which is doubled until it
+leads to no better fit. Other minima that fit as well as the best belong to the interval.
 """
 
 from __future__ import annotations
@@ -20,17 +24,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
+from scipy.spatial import cKDTree
 from scipy.stats import chi2, qmc
 
 #: Twice the difference of log-likelihoods at the ends of a 95 % interval
 THRESHOLD = float(chi2.ppf(0.95, 1))
-# Trials over the whole range for each parameter; the best few are starts of a descent
-_TRIALS, _STARTS = 24, 3
+# Trials over the whole range for each parameter, doubled so many times at most; at each stage
+# descents start at the best of their minima, until so many have led to worse fits, or so many all
+# in all
+_TRIALS, _DOUBLINGS, _STARTS, _MOST_STARTS = 32, 3, 3, 12
 _DESCENT = 40  # runs of a descent for each parameter
 _INNER = 15  # the same, of the others along a profile
 _REACH = 11  # steps of a profile, each twice the one before, the last to the end of the range
 _BISECTIONS = 6
 _SETTLED = 1e-4  # of the range: descents end
+_APART = 1e-3  # of the range: minima that are nearer are one
+# Deviance by which a fit has to be better to be another one
+_BETTER = 0.1
+# Correlation from which on two parameters trade
+_TRADED = 0.8
 
 #: Residuals (n,) at parameters (d,), each from 0 to 1 over its range
 Residuals = Callable[[NDArray[Any]], NDArray[Any]]
@@ -48,6 +60,11 @@ class ProfiledParameter:
         ends of the 95 % interval; None where the range ends before it does.
     at, deviance
         (m,) values looked at, rising, and their deviances.
+    fitted
+        (m, d) parameters there, the others fitted anew.
+    apart
+        values of other fits within the interval that are as good as the best, and which worse ones
+        separate from it.
     """
 
     best: float
@@ -55,6 +72,8 @@ class ProfiledParameter:
     high: float | None
     at: NDArray[Any]
     deviance: NDArray[Any]
+    fitted: NDArray[Any]
+    apart: tuple[float, ...] = ()
 
     @property
     def identified(self) -> bool:
@@ -64,7 +83,7 @@ class ProfiledParameter:
     @property
     def free(self) -> bool:
         """Whether any value of the range fits as well as the best."""
-        return self.low is None and self.high is None
+        return self.low is None and self.high is None and not self.apart
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,11 +102,50 @@ class ProfiledFit:
         """Root mean square of the residuals."""
         return float(np.sqrt(np.mean(self.residuals**2)))
 
+    def trades(self) -> list[tuple[int, int]]:
+        """Pairs of parameters that hang together: along either's interval the other, fitted anew,
+        goes through most of its own. Of a normal distribution the share is their correlation.
+        """
+        d = len(self.parameters)
+        return [
+            (a, b)
+            for a in range(d)
+            for b in range(a + 1, d)
+            if min(self._followed(a, b), self._followed(b, a)) >= _TRADED
+        ]
+
+    def _followed(self, place: int, other: int) -> float:
+        """Share of another parameter's interval through which it goes along that of `place`."""
+        one, two = self.parameters[place], self.parameters[other]
+        path = one.fitted[one.deviance <= THRESHOLD, other]
+        low, high = 0.0 if two.low is None else two.low, 1.0 if two.high is None else two.high
+        return float(np.ptp(path) / max(high - low, _SETTLED))
+
+
+class _Squares:
+    """Sum of squares at parameters (d,); what has been looked at is not run again."""
+
+    def __init__(self, residuals: Residuals):
+        self._residuals = residuals
+        self._known: dict[tuple[float, ...], float] = {}
+
+    def __call__(self, u: NDArray[Any]) -> float:
+        place = tuple(float(x) for x in np.round(np.clip(u, 0, 1), 9))
+        if place not in self._known:
+            self._known[place] = float(np.sum(self._residuals(np.array(place)) ** 2))
+        return self._known[place]
+
+    def deviance(self, u: NDArray[Any], best: NDArray[Any], number: float) -> float:
+        """Deviance at u from the best fit, of so many independent samples."""
+        return number * math.log(max(self(u), 1e-300) / max(self(best), 1e-300))
+
 
 def most_runs(d: int) -> int:
-    """Runs that a fit of d parameters and its profiles take, about; for a progress line."""
+    """Runs that a fit of d parameters and its profiles usually take at most; for a progress line:
+    a fit of many minima takes more.
+    """
     inner = _INNER * (d - 1) if d > 1 else 1
-    return _TRIALS * d + _STARTS * _DESCENT * d + 2 * d * (_REACH + _BISECTIONS) * inner
+    return 2 * _first(d) + _STARTS * _DESCENT * d + 2 * d * (_REACH + _BISECTIONS) * inner
 
 
 def profiled_fit(residuals: Residuals, d: int) -> ProfiledFit:
@@ -98,29 +156,66 @@ def profiled_fit(residuals: Residuals, d: int) -> ProfiledFit:
     residuals
         of parameters (d,) in [0, 1]; infinite ones of a run that failed.
     """
-    known: dict[tuple[float, ...], float] = {}
-
-    def squares(u: NDArray[Any]) -> float:
-        place = tuple(float(x) for x in np.round(np.clip(u, 0, 1), 9))
-        if place not in known:
-            known[place] = float(np.sum(residuals(np.array(place)) ** 2))
-        return known[place]
-
-    trials = qmc.LatinHypercube(d, seed=0).random(_TRIALS * d)
-    starts = sorted(trials, key=squares)[:_STARTS]
-    best = min((_descent(squares, start, _DESCENT * d) for start in starts), key=squares)
+    squares = _Squares(residuals)
+    minima = _minima(squares, residuals, d)
     for _ in range(3):  # a profile may find a better fit than the best: then it begins there
+        best = minima[0]
         left = residuals(best)
-        independent = effective_number(left)
-        found, better = [], best
-        for place in range(d):
-            one, seen = _profile(squares, best, place, independent)
-            found.append(one)
-            better = min((better, seen), key=squares)
-        if independent * math.log(max(squares(best), 1e-300) / max(squares(better), 1e-300)) < 0.1:
+        number = effective_number(left)
+        alike = [one for one in minima if squares.deviance(one, best, number) <= THRESHOLD]
+        profiles = [_Profile(squares, place, number, alike) for place in range(d)]
+        found = tuple(profile.parameter() for profile in profiles)
+        better = min((profile.seen for profile in profiles), key=squares)
+        if squares.deviance(better, best, number) > -_BETTER:
             break
-        best = _descent(squares, better, _DESCENT * d)
-    return ProfiledFit(best, left, independent, tuple(found))
+        minima = [_descent(squares, better, _DESCENT * d), *minima]
+    return ProfiledFit(best, left, number, found)
+
+
+def _first(d: int) -> int:
+    """Trials at first: a power of 2, as the sequence of Sobol wants."""
+    return int(2 ** math.ceil(math.log2(_TRIALS * d)))
+
+
+def _minima(squares: _Squares, residuals: Residuals, d: int) -> list[NDArray[Any]]:
+    """Minima (d,) that descents lead to, the best first."""
+    sequence = qmc.Sobol(d, scramble=True, seed=0)
+    trials = sequence.random(_first(d))
+    minima: list[NDArray[Any]] = []
+    for stage in range(_DOUBLINGS + 1):
+        if stage:
+            trials = np.vstack([trials, sequence.random(len(trials))])
+        spacing = len(trials) ** (-1 / d)
+        before = minima[0] if minima else None
+        worse = 0
+        for start in _starts(squares, trials, minima, spacing)[:_MOST_STARTS]:
+            minima.append(_descent(squares, start, _DESCENT * d, spacing / 4))
+            best = min(minima, key=squares)
+            number = effective_number(residuals(best))
+            worse += squares.deviance(minima[-1], best, number) > THRESHOLD
+            if worse == _STARTS:
+                break
+        minima.sort(key=squares)
+        number = effective_number(residuals(minima[0]))
+        if before is not None and squares.deviance(minima[0], before, number) > -_BETTER:
+            break
+    return minima
+
+
+def _starts(
+    squares: _Squares, trials: NDArray[Any], minima: list[NDArray[Any]], spacing: float
+) -> list[NDArray[Any]]:
+    """Of trials (n, d) those that are better than their neighbours, the best first; none so near to
+    a minimum that is known that a descent would lead there again.
+    """
+    values = np.array([squares(trial) for trial in trials])
+    _, near = cKDTree(trials).query(trials, k=2 * trials.shape[1] + 1)
+    lowest = [k for k in np.argsort(values, kind="stable") if values[k] <= values[near[k]].min()]
+    return [
+        trials[k]
+        for k in lowest
+        if not any(np.abs(trials[k] - one).max() <= spacing for one in minima)
+    ]
 
 
 def effective_number(residuals: NDArray[Any]) -> float:
@@ -133,12 +228,11 @@ def effective_number(residuals: NDArray[Any]) -> float:
 
 
 def _descent(
-    squares: Callable[[NDArray[Any]], float], start: NDArray[Any], runs: int
+    squares: Callable[[NDArray[Any]], float], start: NDArray[Any], runs: int, step: float = 0.05
 ) -> NDArray[Any]:
     """Nelder and Mead's descent within the ranges; of the logarithm, so that it settles alike
-    whatever the scatter.
+    whatever the scatter. The first step is a share `step` of the range.
     """
-    step = 0.05
     simplex = np.clip(np.vstack([start, start + step * np.eye(start.size)]), 0, 1)
     for place in range(start.size):
         if simplex[place + 1, place] == start[place]:
@@ -158,51 +252,88 @@ def _descent(
     return np.asarray(found.x, float)
 
 
-def _profile(
-    squares: Callable[[NDArray[Any]], float], best: NDArray[Any], place: int, number: float
-) -> tuple[ProfiledParameter, NDArray[Any]]:
-    """Profile of one parameter, and the best fit that it met."""
-    least = max(squares(best), 1e-300)
-    at, deviances, seen = [float(best[place])], [0.0], best
+class _Profile:
+    """Profile of the parameter `place`; `seen` is the best fit (d,) that it met.
 
-    def look(value: float, others: NDArray[Any]) -> NDArray[Any]:
-        nonlocal seen
+    Parameters
+    ----------
+    number
+        independent samples.
+    alike
+        fits (d,) as good as the best, which comes first.
+    """
+
+    def __init__(self, squares: _Squares, place: int, number: float, alike: list[NDArray[Any]]):
+        self._squares, self._place, self._number = squares, place, number
+        self._alike = sorted(alike, key=lambda one: float(one[place]))
+        self._best = self.seen = alike[0]
+        self._fitted: list[NDArray[Any]] = [*alike]
+        self._deviances = [squares.deviance(one, self._best, number) for one in alike]
+
+    def parameter(self) -> ProfiledParameter:
+        """Walk from the outermost of the fits that are alike to the ends of the interval."""
+        low, high = self._end(self._alike[0], 0.0), self._end(self._alike[-1], 1.0)
+        apart = self._apart()
+        fitted = np.array(self._fitted)
+        order = np.argsort(fitted[:, self._place], kind="stable")
+        return ProfiledParameter(
+            float(self._best[self._place]),
+            low,
+            high,
+            fitted[order, self._place],
+            np.array(self._deviances)[order],
+            fitted[order],
+            apart,
+        )
+
+    def _look(self, value: float, near: NDArray[Any]) -> tuple[float, NDArray[Any]]:
+        """Deviance and parameters (d,) at a value, the others fitted from those of `near`."""
+        place, others = self._place, np.delete(near, self._place)
         fitted = np.insert(others, place, value)
         if others.size:
             inner = _descent(
-                lambda rest: squares(np.insert(rest, place, value)), others, _INNER * others.size
+                lambda rest: self._squares(np.insert(rest, place, value)),
+                others,
+                _INNER * others.size,
             )
-            fitted = min((fitted, np.insert(inner, place, value)), key=squares)
-        at.append(value)
-        deviances.append(number * math.log(max(squares(fitted), 1e-300) / least))
-        seen = min((seen, fitted), key=squares)
-        return np.delete(fitted, place)
+            fitted = min((fitted, np.insert(inner, place, value)), key=self._squares)
+        self._fitted.append(fitted)
+        self._deviances.append(self._squares.deviance(fitted, self._best, self._number))
+        self.seen = min((self.seen, fitted), key=self._squares)
+        return self._deviances[-1], fitted
 
-    ends: list[float | None] = []
-    for side in (0.0, 1.0):
-        others, inside, outside = np.delete(best, place), float(best[place]), None
-        span = side - inside
+    def _end(self, start: NDArray[Any], side: float) -> float | None:
+        """End of the interval towards a side of the range; None where the range ends first."""
+        inside, near = float(start[self._place]), start
+        outside: float | None = None
         for power in range(_REACH - 1, -1, -1):
-            if not span:
+            value = float(start[self._place]) + (side - float(start[self._place])) / 2**power
+            if value == inside:
                 break
-            others = look(inside_of := float(best[place]) + span / 2**power, others)
-            if deviances[-1] > THRESHOLD:
-                outside = inside_of
+            deviance, near = self._look(value, near)
+            if deviance > THRESHOLD:
+                outside = value
                 break
-            inside = inside_of
+            inside = value
         if outside is None:
-            ends.append(None)
-            continue
+            return None
         for _ in range(_BISECTIONS):
             middle = (inside + outside) / 2
-            others = look(middle, others)
-            if deviances[-1] > THRESHOLD:
+            deviance, near = self._look(middle, near)
+            if deviance > THRESHOLD:
                 outside = middle
             else:
                 inside = middle
-        ends.append(outside)
-    order = np.argsort(at, kind="stable")
-    parameter = ProfiledParameter(
-        float(best[place]), ends[0], ends[1], np.array(at)[order], np.array(deviances)[order]
-    )
-    return parameter, seen
+        return outside
+
+    def _apart(self) -> tuple[float, ...]:
+        """Values of the fits that are alike, but for the best, where worse ones lie between."""
+        found = [[self._alike[0]]]
+        for one in self._alike[1:]:
+            last = found[-1][-1]
+            a, b = float(last[self._place]), float(one[self._place])
+            if b - a > _APART and self._look((a + b) / 2, last)[0] > THRESHOLD:
+                found.append([])
+            found[-1].append(one)
+        groups = [group for group in found if not any(one is self._best for one in group)]
+        return tuple(float(min(group, key=self._squares)[self._place]) for group in groups)

@@ -17,6 +17,11 @@ _TIMES = {"time_s": 1.0, "time_ms": 1e-3}
 _TILTS = {"tilt_rad": 1.0, "tilt_mrad": 1e-3, "tilt_deg": math.pi / 180}
 _NEEDED = f"one column of {', '.join(_TIMES)} and one of {', '.join(_TILTS)}"
 _FEWEST = 20  # samples
+# What a test in its right unit keeps to. A block of 50 m falls upright from near its balance within
+# some seconds: samples further apart [s] do not show it rock. The smallest object, of 1 cm, takes
+# longer to fall upright than the shortest test [s]; no test takes longer than the longest [s]
+_FURTHEST, _SHORTEST, _LONGEST = 1.0, 0.05, 3600.0
+_LEAST_TILT = 1e-5  # [rad] at the release: less is noise of any sensor
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,11 +84,24 @@ def read_rocking_test(path: Path | str) -> RockingTest:
             path, "", None, f"has {len(values)} samples; at least {_FEWEST} are needed"
         )
     time, tilt = np.array(values).T
-    if not abs(tilt[0]) > 0:
+    if abs(tilt[0]) < _LEAST_TILT:
         raise InputError(
             path,
             f"line {rows[0][0]}, {header[columns[1][0]]}",
-            float(tilt[0]),
-            "must not be 0: the first line is the release, cut off what is before it",
+            rows[0][1][columns[1][0]].strip(),
+            f"must not be below {_LEAST_TILT:g} rad: the first line is the release, cut off what "
+            "is before it, and check its unit",
         )
+    _check_times(path, header[columns[0][0]], time - time[0])
     return RockingTest(time - time[0], np.abs(tilt))
+
+
+def _check_times(path: Path, name: str, time: NDArray[Any]) -> None:
+    """Refuse times of another unit than their name says."""
+    apart, long = float(np.median(np.diff(time))), float(time[-1])
+    if apart > _FURTHEST:
+        told = f"half of the samples are {apart:.3g} s or more apart, which must be at most "
+        raise InputError(path, name, None, f"{told}{_FURTHEST:g} s: check its unit")
+    if not _SHORTEST <= long <= _LONGEST:
+        told = f"the test lasts {long:.3g} s, which must be {_SHORTEST:g} to {_LONGEST:g} s"
+        raise InputError(path, name, None, f"{told}: check its unit")

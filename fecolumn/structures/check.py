@@ -237,13 +237,12 @@ def check_links(case, extents: dict, file) -> None:
                 arm = place - case.bodies[of].places[copy]
                 outside = np.linalg.norm(np.maximum(np.maximum(low - arm, arm - high), 0.0))
                 if outside > _OUTSIDE * np.linalg.norm(high - low):
-                    raise InputError(
-                        file,
-                        f"links.{name}.{end}",
-                        list(getattr(link, end)),
-                        f'must be a point of "{case.names_of(of)[copy]}": it lies '
-                        f"{outside:.3g} m outside",
-                    )
+                    told = f'must be a point of "{case.names_of(of)[copy]}": it lies '
+                    told += f"{outside:.3g} m outside"
+                    if end == "to_point_m":
+                        told += f', counted from the foot of "{case.names_of(body)[number]}" as '
+                        told += "point_m is"
+                    raise InputError(file, f"links.{name}.{end}", list(getattr(link, end)), told)
 
 
 def check_rest(case, structure, standing, file) -> None:

@@ -197,7 +197,8 @@ class Joint:
     master: place of the other part, or GROUND; master_surface: None of the ground. friction:
     Coulomb's coefficient. law: (k, 3) [m/N] compliance of the contact law at each point, zero for a
     rigid interface. round: whether the slave's outer outline is a round rim, on which it rolls.
-    restitution: velocity after over before an impact. ball: of a slave whose foot is not flat.
+    restitution: ratio of the normal velocity after an impact to that before it. ball: of a slave
+    whose foot is not flat.
     ground: place of the ground among those of the case, of a joint with one. gap: between the faces
     at the start [m]. rolling: coefficient
     of the rim's resistance, see `contact.rolling`; pad: what lies between, see
@@ -282,9 +283,9 @@ class Link:
 class FoundContact:
     """Contact that is found while bodies move, with one another and with the grounds.
 
-    parts: their places. friction: Coulomb's coefficient, restitution: velocity after over before an
-    impact, both of pairs without a joint; a joint between two of them, or of one with a ground,
-    says its own.
+    parts: their places. friction: Coulomb's coefficient, restitution: ratio of the normal velocity
+    after an impact to that before it, both of pairs without a joint; a joint between two of them,
+    or of one with a ground, says its own.
     """
 
     parts: tuple[int, ...]

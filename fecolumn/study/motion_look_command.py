@@ -141,7 +141,7 @@ def _info_of_motion(args: argparse.Namespace) -> int:
     with told_by_flags():
         motion = Motion(args.ensemble, dt_s=args.dt)
         recording = recording_of(motion, "source", "fecolumn motions info")
-    print("\n".join(file_lines(recording, recording.dt or args.dt)))
+    print("\n".join(file_lines(recording, recording.dt or args.dt, args.units or "")))
     if not (recording.dt or args.dt):
         print("its step is not stated: --dt says it")
     elif not (recording.units or args.units):

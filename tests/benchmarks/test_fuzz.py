@@ -16,6 +16,15 @@ def test_damaged_files_are_used_or_refused_in_one_line(subject):
     assert collections.Counter(end.verdict for end in ends)["refused"] >= 3
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("subject", ["calibrations", "classes"])
+def test_three_hundred_mutants_of_calibrations_and_of_classes(subject):
+    ends = list(watch.watched(subject, list(range(320)), seed=36))
+    assert len(ends) == 320 and not [end for end in ends if end.verdict in watch.BAD]
+    verdicts = collections.Counter(end.verdict for end in ends)
+    assert verdicts["refused"] >= 100 and verdicts["used"] >= 10
+
+
 @pytest.mark.parametrize(
     "code, verdict", [("import os; os.abort()", "death"), ("import time; time.sleep(100)", "hang")]
 )

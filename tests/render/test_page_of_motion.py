@@ -16,6 +16,7 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.page.arrows import arrows_of
 from fecolumn.pictures.render.page.document import times_of
+from fecolumn.pictures.render.page.flexure import flexure_of
 from fecolumn.pictures.render.page.ground import ground_of
 from fecolumn.pictures.render.page.parts import MOST_TRIANGLES, parts_of
 from fecolumn.pictures.render.page.rods import rods_of_links, rods_of_storeys
@@ -201,3 +202,56 @@ def test_folders_without_a_motion_and_files_of_others_are_refused(gate, block, t
     with pytest.raises(InputError, match="motion.html"):
         render(own, PAGE)
     assert (own / "render" / "motion.html").read_text() == "mine"
+
+
+def test_bodies_bend_on_the_page_as_their_states_do(gate):
+    """Lengths between points of a body, which rigid motion leaves, change by as much: to 3 % of the
+    largest deformation, of which the shapes leave 1 % in the mean square.
+    """
+    result = read_result(gate)
+    times = times_of(result, (result.time[0], result.time[-1]), 1.0)
+    parts = parts_of(result, times)
+    found = flexure_of(result, parts, times)
+    assert found.largest > 0 and len(found.times) > 3
+    for part, one in zip(parts, found.deformations):
+        own = result.scene.own(part.body)
+        upright = result.scene.points[own]
+        rows = [
+            int(np.abs(upright - part.rest - point).sum(axis=1).argmin()) for point in part.points
+        ]
+        ends = np.array([rows[0], rows[-1], rows[len(rows) // 2]])
+        bent = part.points + np.einsum("tr,rna->tna", one.shares, one.shapes)
+        for k, time in enumerate(found.times):
+            fields = result.frames.read(int(result.frames.nearest(np.array([time]))[0]))
+            true = (upright + fields.displacement[own])[ends]
+            drawn = bent[k][[0, -1, len(rows) // 2]]
+            for a, b in ((0, 1), (1, 2)):
+                assert np.linalg.norm(drawn[a] - drawn[b]) == pytest.approx(
+                    np.linalg.norm(true[a] - true[b]), abs=0.03 * found.largest
+                )
+
+
+def test_faces_on_the_page_have_the_pressure_of_the_states(gate):
+    """A colour is 1/254 of three decades: pressure is known to half of that, 1.4 %."""
+    result = read_result(gate)
+    times = times_of(result, (result.time[0], result.time[-1]), 1.0)
+    found = flexure_of(result, parts_of(result, times), times)
+    least, most = found.pressures
+    assert 0 < least < most and len(found.faces) == len(result.scene.contacts)
+    for k, time in enumerate(found.times):
+        fields = result.frames.read(int(result.frames.nearest(np.array([time]))[0]))
+        for face, contact in zip(found.faces, result.scene.contacts):
+            true = fields.pressure[contact.faces].mean(axis=1)
+            assert ((face.levels[k] > 0) == (true > 0)).all()
+            shown = least * 10 ** (3 * (face.levels[k].astype(float) - 1) / 254)
+            inside = (true > least) & (true < most)
+            assert shown[inside] == pytest.approx(true[inside], rel=0.014)
+
+
+def test_a_page_of_the_history_alone_tells_that_bodies_are_rigid(gate, tmp_path):
+    pytest.importorskip("k3d", reason=INSTALLED)
+    shutil.copytree(gate, tmp_path / "run")
+    (tmp_path / "run" / "states.h5").unlink()
+    (file,) = render(tmp_path / "run", PAGE, quiet=True)
+    told = told_by(file)["flexure"]
+    assert told["parts"] == told["faces"] == []

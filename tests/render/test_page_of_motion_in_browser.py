@@ -5,6 +5,9 @@ import pytest
 from chromium import SOLID, chromium, open_page
 
 from fecolumn.pictures.render.draw import render
+from fecolumn.pictures.render.page.document import times_of
+from fecolumn.pictures.render.page.flexure import flexure_of
+from fecolumn.pictures.render.page.parts import parts_of
 from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
 
@@ -85,3 +88,28 @@ def test_play_goes_to_the_end_and_forces_can_be_hidden(window, page):
         lambda one: one.execute_script("return motionPage.time >= motionPage.end - 1e-9")
     )
     assert script("return document.getElementById('play').textContent") == "Play"
+
+
+def test_deformation_is_magnified_and_pressure_can_be_hidden(window, page, gate):
+    """Points of the mesh move by the factor times what the first part of the page tells."""
+    script = _opened(window, page, 1200)
+    result = read_result(gate)
+    times = times_of(result, (result.time[0], result.time[-1]), 1.0)
+    parts = parts_of(result, times)
+    flexure = flexure_of(result, parts, times)
+    k = len(flexure.times) // 2
+    one = flexure.deformations[0]
+    bent = np.einsum("r,rna->na", one.shares[k], one.shapes)
+    moved = (
+        "const key = document.getElementById('bent'); key.value = 1000;"
+        "key.dispatchEvent(new Event('change')); motionPage.show(arguments[0]);"
+        "return [...motionPage.parts[0].drawn[0].geometry.attributes.position.array]"
+    )
+    found = np.reshape(script(moved, float(flexure.times[k])), (-1, 3))
+    assert np.abs(bent).max() > 0
+    assert found == pytest.approx(parts[0].points + 1e3 * bent, abs=20 * np.abs(bent).max())
+    assert "deformation \u00d71000" in script("return document.getElementById('said').textContent")
+    seen = "return motionPage.flexure.faces.filter((one) => one.drawn.visible).length"
+    assert script(seen) > 0
+    script("document.getElementById('pressure').click()")
+    assert script(seen) == 0

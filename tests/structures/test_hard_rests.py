@@ -5,7 +5,7 @@ import pytest
 from small_structures import STONE, structure
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import poses_of
 from fecolumn.engines.dynamics.links import span
 from fecolumn.engines.reduced_engine import engine_of
@@ -117,7 +117,7 @@ def test_a_tendon_between_a_post_on_a_pad_and_a_lintel_is_in_balance():
     on = np.zeros((3, 3))
     for k, joint in enumerate(made.structure.interfaces):
         for b, sign in ((joint["slave"], 1.0), (joint["master"], -1.0)):
-            if b != BASE:
+            if b != GROUND:
                 on[b] += sign * force(made, k)
     balance = on + np.outer([1.0, 0.0, -1.0], pull)
     balance[:, 2] -= [left, right, lintel]

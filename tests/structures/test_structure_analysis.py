@@ -178,8 +178,8 @@ def test_a_block_that_slides_out_of_the_prepared_face_ends_the_analysis_by_name(
     if stops:
         with pytest.raises(
             AnalysisFailed,
-            match="left the part of the face below it .* joint: block on wide; a larger "
-            "joints.joint.allowance_m",
+            match=r"left the part of the face below it .* joint: block on wide; "
+            r"joints.joint.allowance_m \(left out: 0.1 m\) must be larger than the slide",
         ):
             run(case, tmp_path / "run", quiet=True)
     else:

@@ -124,7 +124,11 @@ WRONG = [
         "links.tie.point_m",
         'a point of "upper": it lies 0.1 m outside',
     ),
-    (stack(links=dict(tie=LINK | dict(to="lower"))), "links.tie.to_point_m", 'a point of "lower"'),
+    (
+        stack(links=dict(tie=LINK | dict(to="lower"))),
+        "links.tie.to_point_m",
+        'm outside, counted from the foot of "upper" as point_m is',
+    ),
     (
         stack(links=dict(tie=LINK | dict(stiffness_n_m=0))),
         "links.tie.stiffness_n_m",

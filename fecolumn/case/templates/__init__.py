@@ -32,6 +32,10 @@ class _Words(tuple):
         return True
 
 
+# Heights [m] beyond which a statue's file is rather in another unit
+_LOWEST, _HIGHEST = 0.05, 20.0
+
+
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn new`."""
     kinds = "; ".join(f"{name}: {what}" for name, what in TEMPLATES.items())
@@ -154,6 +158,8 @@ def _statue(args) -> dict[str, str]:
         f"{args.drawn}: {own.height:.4g} m high on a foot of {own.foot[0]:.4g} x "
         f"{own.foot[1]:.4g} m, {len(own.mesh.cells)} elements"
     )
+    if not args.unit and not _LOWEST <= own.height <= _HIGHEST:
+        print("its unit was taken for the metre: --unit mm, cm, in or ft says another")
     path = os.path.relpath(Path(args.drawn).resolve(), Path(args.folder).resolve())
     stated = {'"FILE"    ': json.dumps(path)}
     if args.unit:

@@ -26,11 +26,13 @@ class Stop(enum.Enum):
 
 
 class StepFailed(RuntimeError):
-    """A step did not converge even after the allowed cuts; `stop` says why."""
+    """A step did not converge even after the allowed cuts; `stop` says why, `joints` names those
+    of which a body left what was prepared.
+    """
 
-    def __init__(self, stop: Stop, message: str):
+    def __init__(self, stop: Stop, message: str, joints: tuple[str, ...] = ()):
         super().__init__(message)
-        self.stop = stop
+        self.stop, self.joints = stop, joints
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,6 +77,7 @@ def in_halves(halving: Halving, state, before, after, hht: HHT, failure: StepFai
         raise StepFailed(
             failure.stop,
             f"{failure} (step cut {cuts} times to {hht.dt:.3g} s)" if cuts else str(failure),
+            failure.joints,
         )
     halving.count()
     half, middle = HHT(hht.dt / 2, hht.alpha), (before + after) / 2

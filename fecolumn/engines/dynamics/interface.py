@@ -169,10 +169,8 @@ class ContactInterface(Places):
         positions = self.start_positions(state.x, state.rotation, now)
         taking = ~self.points["idle"]
         if (self.points["beyond"][taking] == UNPREPARED).any():
-            raise StepFailed(
-                Stop.OFF_PATCH,
-                f"{Stop.OFF_PATCH.value}: {left_faces(self.joints.names, self.points)}",
-            )
+            left = left_faces(self.joints.names, self.points)
+            raise StepFailed(Stop.OFF_PATCH, f"{Stop.OFF_PATCH.value}: {', '.join(left)}", left)
         self._find_sunk(before, positions, now, state.rims, rims)
         before["beyond"] = self.points["beyond"] != OVER
         # one that was found by nothing but its place, or beyond an outline

@@ -103,7 +103,8 @@ class Stepper:
                 state, part, done = after, 0, end
         except StepFailed as last:
             self.ledger.work.update(booked)
-            raise StepFailed(last.stop, f"t = {start.time:.6g} s: {last}") from None
+            told = f"t = {start.time:.6g} s: {last}"
+            raise StepFailed(last.stop, told, last.joints) from None
         state.time = start.time + hht.dt
         return state
 

@@ -72,7 +72,7 @@ class Engine:
     model
         what `start` needs of the bodies.
     substeps
-        of `cuts.SUBSTEPS`, for what a step is made in parts.
+        of `case.sections.SUBSTEPS`, for what a step is made in parts.
     """
 
     def __init__(
@@ -333,9 +333,9 @@ class Engine:
             if answer == NO_ROOM:
                 raise NoRoom
             if answer not in (OK, ENDED):
-                raise StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
+                raise self._failure(answer)
 
-        failure = StepFailed(_STOPS[answer], _STOPS[answer].value + self._left(answer))
+        failure = self._failure(answer)
         try:
             halving = Halving(take, self.max_cuts, self._count_cut)
             in_halves(halving, None, self._accelerations(), ground, self.hht, failure)
@@ -345,7 +345,8 @@ class Engine:
             if isinstance(error, NoRoom):
                 return False
             if isinstance(error, StepFailed):
-                raise StepFailed(error.stop, f"t = {self.motion.time:.6g} s: {error}") from None
+                told = f"t = {self.motion.time:.6g} s: {error}"
+                raise StepFailed(error.stop, told, error.joints) from None
             raise
         return True
 
@@ -360,13 +361,13 @@ class Engine:
         self.motion.whole["ground"] = accelerations[:3]
         self.motion.grounds["acceleration"] = accelerations.reshape(-1, 3)
 
-    def _left(self, answer) -> str:
-        """Which interface a body has left and what helps, after a step that failed with
-        OFF_PATCH.
-        """
+    def _failure(self, answer) -> StepFailed:
+        """The failure of a step, with the interfaces that a body has left, after OFF_PATCH."""
+        stop = _STOPS[answer]
         if answer != OFF_PATCH:
-            return ""
-        return f": {left_faces([joint.name for joint in self.model.joints], self.work.points)}"
+            return StepFailed(stop, stop.value)
+        left = left_faces([joint.name for joint in self.model.joints], self.work.points)
+        return StepFailed(stop, f"{stop.value}: {', '.join(left)}", left)
 
     def _count_cut(self) -> None:
         self.counts[N_CUTS] += 1

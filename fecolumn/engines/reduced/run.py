@@ -53,7 +53,7 @@ def is_lost_or_at_rest(view, motion, row, steepest, rest):
 @njit
 def to_make_at_once(structure, motion, dt, done, substeps):
     """As `rolling.part_of_step`, of the rims of a structure where these are followed; substeps: a
-    number of `cuts.SUBSTEPS`.
+    number of `case.sections.SUBSTEPS`.
     """
     part = PARTS
     while done % part:
@@ -114,8 +114,8 @@ class StepState(NamedTuple):
 class StepBatch(NamedTuple):
     """The steps that are asked for. grounds: (k, 3) [m/s2] acceleration of the ground at their
     ends. steepest: (k,) as of `overturning.fallen` after each. rest: as of `Engine.advance`.
-    substeps: for what a step is made in parts, a number of `cuts.SUBSTEPS`. rows: (k, width) of the
-    history, to be filled.
+    substeps: for what a step is made in parts, a number of `case.sections.SUBSTEPS`. rows: (k,
+    width) of the history, to be filled.
     """
 
     grounds: np.ndarray

@@ -11,8 +11,8 @@ from fecolumn.contact.tolerances import (
     HASTEN_FROM,
     HASTEN_TRIES,
     LEAST_FIRM,
-    REST,
     REST_ROUNDING,
+    REST_WAY,
     SLIDES_KEPT,
 )
 from fecolumn.contact.work import move_anchors
@@ -154,7 +154,7 @@ class Settling:
         """What the last step returns."""
         if self.moved < REST_ROUNDING * self.height:
             return self.moved
-        return max(self.moved, self.unbalanced / BALANCED * REST * self.height)
+        return max(self.moved, self.unbalanced / BALANCED * REST_WAY * self.height)
 
     def _hastened(self) -> bool:
         """Make the next step from where the last one leads; whether that serves.

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from fecolumn.pictures.figures.axis_text import axis_unit
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
-from fecolumn.statistics.profile import THRESHOLD, ProfiledFit
+from fecolumn.statistics.profile import THRESHOLD, ProfiledFit, ProfiledParameter
 from fecolumn.statistics.rocking_test import RockingTest
 
 _POINTS = 150  # of the measured tilt
@@ -18,6 +20,7 @@ def calibration_figure(
     test: RockingTest,
     fitted: Any,
     ranges: dict[str, tuple[float, float]],
+    value: Callable[[str, float], float],
     fit: ProfiledFit,
     path: Path,
 ) -> list[Path]:
@@ -31,6 +34,8 @@ def calibration_figure(
         (n,) tilt of the best fit at its times [rad].
     ranges
         of the keys, in the order of the fit's parameters.
+    value
+        of a key at a share of its range.
     path
         file name without suffix.
     """
@@ -43,13 +48,21 @@ def calibration_figure(
     def threshold(axes: Any) -> None:
         axes.axhline(THRESHOLD, color="0.35", linewidth=0.8, linestyle=":", label="95 %")
 
+    labels = [f"{key}, {low:g} to {high:g}" for key, (low, high) in ranges.items()]
+    # several of them side by side, whatever their intervals
+    places = [(one.at - one.best) / _half(one) for one in fit.parameters]
+    across = "from the best fit, over half of the 95 % interval [-]"
+    if len(ranges) == 1:  # in its own unit
+        (key,) = ranges
+        labels, across = ["profile"], f"{key} [{axis_unit(key)}]"
+        places = [np.array([value(key, float(at)) for at in fit.parameters[0].at])]
     profiles = [
-        Curve(f"{key}, {low:g} to {high:g}", one.at, one.deviance, markers=True)
-        for (key, (low, high)), one in zip(ranges.items(), fit.parameters)
+        Curve(label, at, one.deviance, markers=True)
+        for label, at, one in zip(labels, places, fit.parameters)
     ]
-    near = [one.at[one.deviance <= 3 * THRESHOLD] for one in fit.parameters]
+    near = [at[one.deviance <= 3 * THRESHOLD] for at, one in zip(places, fit.parameters)]
     least, most = (float(pick([pick(at) for at in near])) for pick in (np.min, np.max))
-    spread = 0.1 * (most - least) + 1e-3
+    spread = 0.1 * (most - least) or 1e-3 * max(abs(most), 1.0)
     return line_figure(
         [
             CurvePanel(
@@ -61,7 +74,7 @@ def calibration_figure(
                 legend="upper right",
             ),
             CurvePanel(
-                "share of the range [-]",
+                across,
                 r"deviance $n\,\ln(S/S_{\min})$",
                 profiles,
                 {"ylim": (0, 3 * THRESHOLD), "xlim": (least - spread, most + spread)},
@@ -71,3 +84,9 @@ def calibration_figure(
         ],
         path,
     )
+
+
+def _half(one: ProfiledParameter) -> float:
+    """Half of a parameter's interval, in shares of its range."""
+    low, high = 0.0 if one.low is None else one.low, 1.0 if one.high is None else one.high
+    return max((high - low) / 2, 1e-9)

@@ -52,12 +52,12 @@ def render(folder, options: RenderOptions = _ALL, quiet: bool = False) -> list[P
 
 
 def _page(result, options: RenderOptions, target: Path) -> Path:
-    from fecolumn.pictures.render.page.document import PARAVIEW_FILE, page_of
+    from fecolumn.pictures.render.page.document import PAGE_FILE, page_of
 
     page = page_of(result, _window(result, options), options.view, options.speed)
-    with written(target, "render html", names=(PARAVIEW_FILE,)) as draft:
-        (draft / PARAVIEW_FILE).write_text(page, encoding="utf-8")
-    return target / PARAVIEW_FILE
+    with written(target, "render html", names=(PAGE_FILE,)) as draft:
+        (draft / PAGE_FILE).write_text(page, encoding="utf-8")
+    return target / PAGE_FILE
 
 
 def _window(result, options: RenderOptions) -> tuple[float, float]:

@@ -13,6 +13,8 @@ from typing import Any
 
 _COMMAND = "fecolumn calibrate"
 _MOST = 4  # keys: each one more doubles the runs
+# Sections of which no key belongs to the object
+_NO_PART = ("motion", "integration", "output", "overturn", "mesh")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -66,11 +68,13 @@ def main(args: argparse.Namespace) -> int:
     with written(args.output, "calibrate", names=names) as draft:
         question = RockingCalibration(tables, args.case, ranges, test, Path(args.output) / "runs")
         question.check()
-        progress = CountProgress(most_runs(len(ranges)), "runs at most")
+        progress = CountProgress(most_runs(len(ranges)), "runs")
 
         def residuals(u: Any) -> Any:
             found = question.residuals(u)
-            progress.show(min(question.runs, int(progress.total)))
+            if question.runs > progress.total:  # many minima
+                progress.total = int(1.5 * progress.total)
+            progress.show(question.runs)
             return found
 
         fit = profiled_fit(residuals, len(ranges))
@@ -97,9 +101,13 @@ def _ranges(args: argparse.Namespace, tables: dict[str, Any]) -> dict[str, tuple
         if key in found:
             raise InputError(_COMMAND, "--fit", key, "stands twice")
         low, high, kind = read_range(key, text, "--fit", _COMMAND)
-        if kind is not float or key.partition(".")[0] == "motion":
+        if kind is not float or key.partition(".")[0] in _NO_PART:
             raise InputError(
-                _COMMAND, f"--fit {key}", text, "must be a number that varies continuously"
+                _COMMAND,
+                f"--fit {key}",
+                text,
+                "must be a number of the object or of its start that varies continuously, such as "
+                "block.restitution, joints.foot.friction_coefficient or initial.tilt_rad",
             )
         found[key] = low, high
     if len(found) > _MOST:
@@ -135,5 +143,10 @@ def _write(question: Any, fit: Any, case: str, folder: Path) -> None:
         fitted = merge(fitted, nested(key, value))
     write_bytes(folder / "fitted.toml", tomli_w.dumps(fitted).encode())
     calibration_figure(
-        question.test, question.tilt(fit.best), question.ranges, fit, folder / "calibrate"
+        question.test,
+        question.tilt(fit.best),
+        question.ranges,
+        question.at,
+        fit,
+        folder / "calibrate",
     )

@@ -14,7 +14,7 @@ from fecolumn.case.check_step import check_stated
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.toml_file import merge, nested
 from fecolumn.pictures.figures.axis_text import axis_unit
-from fecolumn.statistics.profile import ProfiledFit, ProfiledParameter
+from fecolumn.statistics.profile import THRESHOLD, ProfiledFit, ProfiledParameter
 from fecolumn.statistics.rocking_test import RockingTest
 
 # Ranges that span so many times their lower end are searched in logarithm: of a stiffness it is the
@@ -56,8 +56,13 @@ class RockingCalibration:
         self.file, self.ranges, self.test, self.folder = file, ranges, test, folder
         tables = {key: table for key, table in tables.items() if key != "motion"}
         end = float(test.time[-1])
-        tables = merge(tables, {"integration": {"duration_s": end}})
-        self.tables = merge(_start(tables, float(test.tilt[0])), {"output": {"states_every_s": 0}})
+        every_row = {"states_every_s": 0, "history_every_s": 0, "fields_every_s": 0}
+        tables = merge(tables, {"integration": {"duration_s": end}, "output": every_row})
+        self.tables = _start(tables, float(test.tilt[0]))
+        #: Key of the tilt at the release where that is the test's first line and not fitted.
+        self.taken = "" if tables.get("initial") else _tilt_key(tables)
+        if self.taken in ranges:
+            self.taken = ""
         self.runs = 0
 
     def values(self, u: NDArray[Any]) -> dict[str, float]:
@@ -119,8 +124,9 @@ class RockingCalibration:
         return self.test.tilt - self.tilt(u)
 
     def sentences(self, fit: ProfiledFit) -> list[str]:
-        """One sentence a key, plainly, and one on the fit as a whole."""
+        """One sentence a key, one of each two that trade, and one on the fit as a whole."""
         told = [self._told(key, one) for key, one in zip(self.ranges, fit.parameters, strict=True)]
+        told += [self._traded(fit, a, b) for a, b in fit.trades()]
         share = fit.rms / self.test.tilt[0]
         whole = (
             f"The fit leaves {1e3 * fit.rms:.3g} mrad rms, {100 * share:.2g} % of the tilt at the "
@@ -132,12 +138,33 @@ class RockingCalibration:
                 " It does not describe the test: intervals mean nothing; other keys, the case or "
                 "the moment of release are wrong."
             )
-        return [*told, whole]
+        if not self.taken:
+            return [*told, whole]
+        tilt = self.test.tilt[0]
+        start = (
+            f"The case starts from the tilt of the test's first line, {tilt:.4g} rad, as if that "
+            f"were exact; --fit {self.taken} {0.95 * tilt:.3g}:{1.05 * tilt:.3g} fits it, too."
+        )
+        return [*told, whole, start]
+
+    def _traded(self, fit: ProfiledFit, place: int, other: int) -> str:
+        """That two keys trade, by the ends of the first one's interval."""
+        one = fit.parameters[place]
+        a, b = (list(self.ranges)[k] for k in (place, other))
+        inside = one.fitted[one.deviance <= THRESHOLD]
+        ends = [
+            f"{a} = {self.at(a, u[place]):.4g}{_unit(a)} with {b} = {self.at(b, u[other]):.4g}"
+            f"{_unit(b)}"
+            for u in (inside[0], inside[-1])
+        ]
+        told = f"{a} and {b} trade: {ends[0]} fits as well as {ends[1]}"
+        if one.identified and fit.parameters[other].identified:
+            return f"{told}; both intervals allow for it."
+        return f"{told}; state one of them in the case to find the other."
 
     def _told(self, key: str, one: ProfiledParameter) -> str:
         low, high = self.ranges[key]
-        unit = axis_unit(key)
-        unit = "" if unit == "-" else f" {unit}"
+        unit = _unit(key)
 
         def at(share: float) -> str:
             return f"{self.at(key, share):.5g}"
@@ -147,26 +174,49 @@ class RockingCalibration:
                 f"{key} is not identified: every value of {low:g}:{high:g}{unit} fits as well as "
                 "the best; this test says nothing of it."
             )
+        pieces = ""
+        if one.apart:
+            near = ", ".join(f"{self.at(key, share):.4g}" for share in one.apart)
+            pieces = (
+                f" The interval has gaps: values near {near}{unit} fit as well, those between do "
+                "not; a longer test, or a second one, tells them apart."
+            )
         if one.low is not None and one.high is not None:
-            return f"{key} = {at(one.best)}{unit} [{at(one.low)}, {at(one.high)}]{unit}, 95 %."
+            interval = f"[{at(one.low)}, {at(one.high)}]{unit}, 95 %."
+            return f"{key} = {at(one.best)}{unit} {interval}{pieces}"
+        if one.low is None and one.high is None:
+            return (
+                f"{key} is not bounded within {low:g}:{high:g}{unit}; best {at(one.best)}{unit}."
+                f"{pieces}"
+            )
         side, end = ("below", one.high) if one.low is None else ("above", one.low)
         bound = f"{'most' if one.low is None else 'least'} {at(end or 0.0)}{unit}"
         return (
             f"{key} is at {bound} (95 %), but not bounded {side} within {low:g}:{high:g}{unit}; "
-            f"best {at(one.best)}{unit}."
+            f"best {at(one.best)}{unit}.{pieces}"
         )
+
+
+def _unit(key: str) -> str:
+    """Unit of a key behind its value, "" of a plain number."""
+    unit = axis_unit(key)
+    return "" if unit == "-" else f" {unit}"
 
 
 def _start(tables: dict[str, Any], tilt: float) -> dict[str, Any]:
     """Tables with the tilt at the release, where they state none."""
-    stated = tables.get("initial")
-    if stated:
+    if tables.get("initial"):
         return tables
+    return merge(tables, nested(_tilt_key(tables), tilt))
+
+
+def _tilt_key(tables: dict[str, Any]) -> str:
+    """Key of the tilt at the release, of several bodies that of the observed or the last one."""
     bodies = tables.get("bodies")
     if not isinstance(bodies, dict):
-        return merge(tables, nested("initial.tilt_rad", tilt))
+        return "initial.tilt_rad"
     name = str(tables.get("observed", "")).partition(".")[0] or next(reversed(bodies), "")
-    return merge(tables, {"initial": {name: {"tilt_rad": tilt}}})
+    return f"initial.{name}.tilt_rad"
 
 
 def usual_ranges(tables: dict[str, Any], file: str) -> dict[str, tuple[float, float]]:

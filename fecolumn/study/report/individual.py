@@ -24,6 +24,8 @@ from fecolumn.study.report.notation import (
 from fecolumn.study.report.sweep import Line, Sweep
 
 _VARIABLES, _MATRICES, _FOLD = 6, 4, 20
+# Factors above it are told as more than this: the smaller peak is then hardly any motion
+_MANY = 100.0
 
 
 def individual(sweep: Sweep, gallery: Gallery) -> PageSection | None:
@@ -47,7 +49,7 @@ def individual(sweep: Sweep, gallery: Gallery) -> PageSection | None:
         )
         text += (
             "; of those that always stand, the largest peak is "
-            f"{fixed(float(np.median(found.factor)))} times the smallest in the median."
+            f"{_times(float(np.median(found.factor)))} the smallest in the median."
             if found.factor.size
             else "."
         )
@@ -125,6 +127,11 @@ def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
         variables,
         sweep.limit_m,
     )
+
+
+def _times(factor: float) -> str:
+    """A factor in words: beside a peak of rounding any other is a million times as large."""
+    return f"more than {_MANY:g} times" if factor > _MANY else f"{fixed(factor)} times"
 
 
 def _trends(sweep: Sweep, axis: str) -> list[tuple]:

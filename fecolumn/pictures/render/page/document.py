@@ -13,10 +13,12 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.version import __version__
 from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.render.camera import camera
+from fecolumn.pictures.render.frames import SEEN, round_down
 from fecolumn.pictures.render.page.arrows import arrows_of
+from fecolumn.pictures.render.page.flexure import flexure_of
 from fecolumn.pictures.render.page.ground import ground_of
 from fecolumn.pictures.render.page.parts import RigidPart, parts_of
-from fecolumn.pictures.render.page.plot import MotionPlot, base64_of
+from fecolumn.pictures.render.page.plot import MotionPlot, base64_of, deformation_told
 from fecolumn.pictures.render.page.rods import Rod, rods_of_links, rods_of_storeys
 from fecolumn.pictures.render.render_options import COMMAND
 from fecolumn.pictures.render.result import Result
@@ -27,7 +29,7 @@ PAGE_FILE = "motion.html"
 #: What has to be installed
 _INSTALL = "needs k3d: pip install 'fecolumn[html]'"
 # The programs of the page, each needed by the next
-_PROGRAMS = "turns.js", "strip.js", "page.js"
+_PROGRAMS = "turns.js", "strip.js", "flexure.js", "page.js"
 _GENERATOR = '<meta name="generator" content="fecolumn'
 # Instants a second of the page, between which bodies turn steadily; over the rows of the history
 _RATE, _OF_ROWS = 50.0, 20
@@ -84,6 +86,7 @@ def page_of(result: Result, span: tuple[float, float], view: str, speed: float) 
         "rods": [plot.add_rod(rod) for rod in (*links, *rods_of_storeys(result, parts))],
         "tension": _tension(links),
         "arrows": _arrows(result, parts, times, plot),
+        "flexure": _flexure(result, parts, times, plot),
         "strips": [_strip(strip) for strip in strips_of(result, times)],
     } | _seen(result, times, view)
     return _page(plot.html(_script(content)), str(content["title"]))
@@ -131,6 +134,25 @@ def _arrows(result: Result, parts: list[RigidPart], times: np.ndarray, plot: Mot
         "parts": [bodies.index(body) for body in arrows.bodies],
         "said": f"resultant of a joint, mean over {1e3 * arrows.mean:.3g} ms; {length} long: "
         f"{_written(arrows.largest, 'N')}",
+    }
+
+
+def _flexure(result: Result, parts: list[RigidPart], times: np.ndarray, plot: MotionPlot) -> dict:
+    """Deformation and pressure, and how they are told; neither where nothing is known of them."""
+    found = flexure_of(result, parts, times)
+    if found is None:
+        return {"times": "", "parts": [], "faces": []}
+    bodies = [part.body for part in parts]
+    # a magnification at which the largest is some 5 % of the height
+    seen = round_down(SEEN * result.scene.height / found.largest) if found.largest > 0 else 1.0
+    least, most = (_written(one, "Pa") for one in found.pressures)
+    return {
+        "times": base64_of(found.times),
+        "parts": [deformation_told(*one) for one in zip(parts, found.deformations)],
+        "seen": max(seen, 1.0),
+        "largest": _written(found.largest, "m"),
+        "faces": [plot.add_face(one) | {"part": bodies.index(one.body)} for one in found.faces],
+        "pressure": f"contact pressure: {least} to {most}",
     }
 
 

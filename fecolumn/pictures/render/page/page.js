@@ -4,9 +4,9 @@ const hex = (colour) => "#" + colour.toString(16).padStart(6, "0");
 // Viridis from light to dark, by the share of the largest force
 const SCALE = [[0xfd, 0xe7, 0x25], [0x35, 0xb7, 0x79], [0x31, 0x68, 0x8e], [0x44, 0x01, 0x54]];
 
-function scaled(share) {
-  const at = Math.min(Math.max(share, 0), 1) * (SCALE.length - 1), k = Math.min(Math.floor(at), SCALE.length - 2);
-  return SCALE[k].map((low, n) => (low + (at - k) * (SCALE[k + 1][n] - low)) / 255);
+function scaled(share, scale = SCALE) {
+  const at = Math.min(Math.max(share, 0), 1) * (scale.length - 1), k = Math.min(Math.floor(at), scale.length - 2);
+  return scale[k].map((low, n) => (low + (at - k) * (scale[k + 1][n] - low)) / 255);
 }
 
 /** The page of a motion: `K3D` draws what stands in it, `told` is what `document.py` tells. */
@@ -19,15 +19,18 @@ class MotionPage {
     const { ids, tips, forces } = told.arrows;
     this.arrows = ids.map((id) => ({ drawn: known(id) }));
     if (ids.length) [this.tips, this.forces] = [unpacked(tips), unpacked(forces)];
+    this.flexure = new Flexure(told.flexure, this.parts, known);
+    this.bent = 1;
     this.still = told.still.map(known);
     this.ground = unpacked(told.ground);
-    this.shown = { ground: told.groundMoves && told.groundRests, forces: true };
-    for (const one of [...this.parts.flatMap((part) => part.drawn), ...this.rods.map((rod) => rod.drawn), ...this.arrows.map((one) => one.drawn), ...this.still]) this.#prepare(one);
-    // forces and links are seen through bodies
-    for (const { drawn } of [...this.rods.filter((rod) => rod.tension), ...this.arrows]) {
+    this.shown = { ground: told.groundMoves && told.groundRests, forces: true, pressure: true };
+    for (const one of [...this.parts.flatMap((part) => part.drawn), ...this.rods.map((rod) => rod.drawn), ...this.arrows.map((one) => one.drawn), ...this.flexure.faces.map((one) => one.drawn), ...this.still]) this.#prepare(one);
+    // forces, links and pressure are seen through bodies
+    for (const { drawn } of [...this.flexure.faces, ...this.rods.filter((rod) => rod.tension), ...this.arrows]) {
       Object.assign(drawn.material, { depthTest: false, transparent: true });
       drawn.renderOrder = 10;
     }
+    for (const { drawn } of this.flexure.faces) drawn.renderOrder = 9;
   }
 
   /** Lines lie before the faces on which they are. */
@@ -60,6 +63,11 @@ class MotionPage {
       for (const drawn of part.drawn) this.#put(drawn, moved, turn);
       return { place: moved, turn };
     });
+    this.flexure.bend(this.time, this.bent);
+    for (const face of this.flexure.faces) {
+      const { place, turn } = now[face.part];
+      this.#put(face.drawn, place, turn, this.shown.pressure && face.colour(this.flexure.at) ? 1 : 0);
+    }
     for (const drawn of this.still) this.#put(drawn, shift, [0, 0, 0, 1]);
     const end = (part, arm) => (part < 0 ? arm : turned(now[part].turn, arm)).map((one, n) => one + (part < 0 ? shift : now[part].place)[n]);
     for (const rod of this.rods) {
@@ -113,7 +121,8 @@ class MotionPage {
   say() {
     const factor = this.magnified === 1 ? "displacements true (\u00d71)" : `displacements \u00d7${this.magnified}: bodies may overlap`;
     const ground = !this.told.groundMoves ? "" : this.shown.ground ? `, ground moves by up to ${this.told.groundLargest}, true` : ", seen from the ground";
-    this.said.textContent = factor + ground;
+    const bent = !this.flexure.bends ? "" : this.bent === 0 ? ", bodies rigid" : `, deformation ${this.bent === 1 ? "true (\u00d71)" : `\u00d7${this.bent}`}, at most ${this.told.flexure.largest}`;
+    this.said.textContent = factor + bent + ground;
   }
 
   build(style) {
@@ -121,7 +130,7 @@ class MotionPage {
     made(document.head, "style", {}, style);
     const page = made(document.body, "main", { id: "page" }), head = made(page, "header");
     made(head, "h1", {}, told.title);
-    made(head, "p", {}, `t = ${written(told.start)} to ${written(this.end, 4)} s, engine ${told.engine}. Bodies are drawn rigid. Turn: drag; zoom: wheel or two fingers.`);
+    made(head, "p", {}, `t = ${written(told.start)} to ${written(this.end, 4)} s, engine ${told.engine}. ${this.flexure.bends ? "" : "Bodies are drawn rigid. "}Turn: drag; zoom: wheel or two fingers.`);
     this.scene = made(page, "div", { id: "scene" });
     this.scene.append(document.getElementById("canvasTarget"));
     this.clock = made(this.scene, "div", { id: "clock" });
@@ -159,6 +168,10 @@ class MotionPage {
     const speeds = [...new Set([0.05, 0.1, 0.25, 0.5, 1, 2, told.speed])].sort((a, b) => a - b);
     this.speed = chosen("speed", "speed", speeds.map((one) => [one, `\u00d7${one}`]), told.speed, () => {});
     chosen("magnified", "displacements", [1, 2, 5, 10, 20, 50].map((one) => [one, `\u00d7${one}`]), 1, (value) => this.#change(() => (this.magnified = value)));
+    if (this.flexure.bends) {
+      const factors = [...new Set([0, 1, 10, 100, 1000, told.flexure.seen])].sort((a, b) => a - b);
+      chosen("bent", "deformation", factors.map((one) => [one, one ? `\u00d7${one}` : "none"]), 1, (value) => this.#change(() => (this.bent = value)));
+    }
     const box = (id, name) => {
       const tick = document.createElement("input");
       Object.assign(tick, { id, type: "checkbox", checked: this.shown[id] });
@@ -167,6 +180,7 @@ class MotionPage {
     };
     if (told.groundMoves) box("ground", "ground moves");
     if (this.arrows.length) box("forces", "contact forces");
+    if (this.flexure.faces.length) box("pressure", "pressure");
     made(bar, "button", { id: "reset", type: "button" }, "Reset view").addEventListener("click", () => this.#change(() => this.look()));
     document.addEventListener("keydown", (event) => {
       if (event.target.closest?.("select, button, input[type=checkbox]")) return;
@@ -193,6 +207,7 @@ class MotionPage {
     for (const [kind, colour] of Object.entries(told.colours)) line({ colour }, kind);
     if (this.arrows.length) line({ class: "arrow" }, told.arrows.said);
     if (this.rods.some((rod) => rod.tension)) line({ class: "scale" }, `force of links: ${told.tension.written}`);
+    if (this.flexure.faces.length) line({ class: "pressure" }, told.flexure.pressure);
     if (told.still.length) line({ class: "line" }, "feet at rest");
   }
 }

@@ -7,6 +7,7 @@ import base64
 import numpy as np
 
 from fecolumn.pictures.render.page.arrows import Arrows
+from fecolumn.pictures.render.page.flexure import Deformation, PressedFace
 from fecolumn.pictures.render.page.parts import RigidPart
 from fecolumn.pictures.render.page.rods import Rod
 from fecolumn.pictures.render.result import Result
@@ -21,6 +22,8 @@ _HEAD, _WIDE = 0.28, 2.6
 _SIDES = 12
 # Thickness of a ground over the size of the scene, the lift of lines on it, most squares a side
 _THICK, _LIFT, _SQUARES = 0.012, 0.0015, 60
+# Largest whole number of 16 bits
+_WHOLE = 32767
 # How dark every other body is: neighbours are told apart
 _DARKER = 0.88
 _BOX = ((0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7))
@@ -31,6 +34,32 @@ _BOX += tuple((k, 4 + (k + 1) % 4, 4 + k) for k in range(4))
 def base64_of(values) -> str:
     """Numbers in single precision, as base64."""
     return base64.b64encode(np.ascontiguousarray(values, "<f4").tobytes()).decode()
+
+
+def bytes_of(values) -> str:
+    """Whole numbers from 0 to 255, as base64."""
+    return base64.b64encode(np.ascontiguousarray(values, np.uint8).tobytes()).decode()
+
+
+def deformation_told(part: RigidPart, deformation: Deformation | None) -> dict | None:
+    """A part's deformation for the page: its shapes as whole numbers of 16 bits, and their unit;
+    and of its lines the points at their ends.
+    """
+    if deformation is None:
+        return None
+    unit = float(np.abs(deformation.shapes).max()) / _WHOLE
+    whole = np.rint(deformation.shapes / unit).astype("<i2")
+    return {
+        "shapes": base64.b64encode(whole.tobytes()).decode(),
+        "unit": unit,
+        "shares": base64_of(deformation.shares),
+        "count": len(deformation.shapes),
+        "ends": [
+            base64.b64encode(ends.astype("<u4").tobytes()).decode()
+            for ends in (part.edges, part.lines)
+            if len(ends)
+        ],
+    }
 
 
 class MotionPlot:
@@ -107,6 +136,16 @@ class MotionPlot:
             "place": base64_of(part.place),
             "turn": base64_of(part.turn),
         }
+
+    def add_face(self, face: PressedFace) -> dict:
+        """A face under pressure, each of its elements with corners of its own."""
+        count, corners = face.corners.shape[:2]
+        first = corners * np.arange(count)[:, None]
+        fans = [first + [0, k, k + 1] for k in range(1, corners - 1)]
+        drawn = self._surface(
+            face.corners.reshape(-1, 3), np.concatenate(fans), 0xFFFFFF, "pressure"
+        )
+        return {"id": drawn, "corners": corners, "levels": bytes_of(face.levels)}
 
     def add_ground(self) -> list[int]:
         """Grounds, and where the feet stand at rest on them."""
