@@ -46,11 +46,12 @@ def main(arguments=None) -> int:
         "-j", "--jobs", type=int, default=os.cpu_count() or 1, help="analyses at a time"
     )
     parser.add_argument(
-        "--dt", type=float, default=1e-3, help="time step [s] (default: %(default)s)"
+        "--dt", type=float, default=2e-3, help="time step [s] (default: %(default)s)"
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, default=Path("results/fragility")
     )
+    parser.add_argument("--report", action="store_true", help="compute nothing, tell what is done")
     args = parser.parse_args(arguments)
     if unknown := set(args.structures) - set(NAMES):
         parser.error(f"{', '.join(sorted(unknown))}: must be of {', '.join(NAMES)}")
@@ -60,7 +61,9 @@ def main(arguments=None) -> int:
     for name in [name for name in NAMES if name in (args.structures or NAMES)]:
         print(name, file=sys.stderr, flush=True)
         most = min(args.n, args.elastic) if name.startswith(ELASTIC) else args.n
-        found[name] = rows_of(name, args.output, args.n, most, args.dt, args.jobs)
+        found[name] = rows_of(
+            name, args.output, args.n, most, args.dt, 0 if args.report else args.jobs
+        )
     rows = [[row[key] for key in COLUMNS] for rows in found.values() for row in rows]
     write_csv(args.output / "outcomes.csv", [COLUMNS, *rows])
     print(markdown(found))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.fragility.report import PERIODS, half_lost, lost, surface
-from benchmarks.fragility.run import FAILED
 from benchmarks.fragility.structures import COLUMN, DRUMS, ELASTIC, RIGID
 from fecolumn.pictures.figures.style import (
     BLACK,
@@ -21,6 +20,7 @@ from fecolumn.pictures.figures.style import (
     styled,
 )
 from fecolumn.statistics.ecdf import proportion_interval
+from fecolumn.study.store import FAILED
 
 _COLOURS = (BLACK, BLUE, SKY, GREEN, ORANGE, VERMILION, GREY, GREY)
 #: Edges of the classes of PGV in which shares are drawn [m/s]

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 from scipy.stats import binomtest
 
-from benchmarks.fragility.run import FAILED
 from benchmarks.fragility.structures import ELASTIC
 from fecolumn.engines.ending import OVERTURNED, SLID_OFF
 from fecolumn.statistics.binary_regression import DegenerateData, fit_binary
 from fecolumn.statistics.ecdf import proportion_interval
+from fecolumn.study.store import FAILED
 
 #: Pulse periods [s] at which the PGV that overturns half is told.
 PERIODS = (0.7, 1.5, 3.0)

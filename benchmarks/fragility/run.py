@@ -6,11 +6,12 @@ from pathlib import Path
 
 from benchmarks.fragility.motions import ensemble_file, parameters
 from benchmarks.fragility.structures import case_of
+from benchmarks.soak.analysis import ENTRY
 from fecolumn.study.plan import Plan, PlannedAnalysis
 from fecolumn.study.run import complete_study
-from fecolumn.study.store import DONE
+from fecolumn.study.store import DONE, FAILED
 
-#: Columns of a row. outcome: a word of summary.json, or failed. shift_m: largest residual slide of
+#: Columns of a row. outcome: a word of summary.json, or FAILED. shift_m: largest residual slide of
 #: a joint; slide_m: of the observed foot.
 COLUMNS = (
     "structure",
@@ -26,9 +27,8 @@ COLUMNS = (
     "u_max_m",
     "cpu_s",
 )
-FAILED = "failed"
 #: Longest time followed after the motion, unless all is at rest before [s].
-REST_S = 5.0
+REST_S = 2.0
 _KEYS = ("motion.source",)
 
 
@@ -59,11 +59,15 @@ def rows_of(name: str, folder: Path, made: int, count: int, dt: float, workers: 
     ledger = complete_study(
         plan_of(name, file, count, dt),
         folder / f"{name.replace(' ', '-')}-{count}-{dt:g}",
-        workers=workers,
+        workers=max(workers, 1),
+        entry=ENTRY,
+        only=None if workers else set(),
     )
     rows = []
     for place, entry in enumerate(ledger):
         summary = entry["summary"] if entry["state"] == DONE else None
+        if summary is None and entry["state"] != FAILED:
+            continue
         rows.append(
             {
                 "structure": name,

@@ -117,7 +117,7 @@ class Body:
 
 def rigid_block(body: Body) -> tuple[RigidRocking, float]:
     """Housner's block of a body, and the lowest frequency of the free body [Hz]."""
-    model = structure_model(body.case(body.crossing)).parts[0].body
+    model = structure_model(body.case(body.crossing)).parts[0].model
     return RigidRocking.of_body(model), float(model.frequencies[0] / (2 * np.pi))
 
 
