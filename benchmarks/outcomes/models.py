@@ -85,7 +85,7 @@ def rolling_columns(file: Path, part: int, count: int) -> list[dict]:
             one.columns(ensemble, False)
             | _response(
                 one,
-                float(response.tilt.max()),
+                min(float(response.tilt.max()), model.critical_tilt),
                 model.critical_tilt,
                 response.overturned,
             )
