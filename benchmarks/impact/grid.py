@@ -92,7 +92,7 @@ def cell(check: str, body: Body, share: float, steps, beside: int) -> list[dict]
         dt = step * body.crossing
         row = {
             "check": check,
-            **{key: value for key, value in asdict(body).items()},
+            **asdict(body),
             "share": share,
             "step": step,
             "release": release,

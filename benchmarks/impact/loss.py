@@ -96,7 +96,10 @@ def impact_of(column, block, share: float, dt: float, away: float = AWAY) -> Los
     arcs = [arc[(arc[:, 1] > ARC[0] * release) & (arc[:, 1] < ARC[1] * release)] for arc in arcs]
     if min(map(len, arcs)) < FEWEST:
         raise StoodStill(f"it rose to {highest / release:.2f} of the tilt of its release")
-    first, second = (block.energy(tilt) for tilt in turning_tilts(*arcs, block))
+    with np.errstate(invalid="ignore"):
+        first, second = (block.energy(tilt) for tilt in turning_tilts(*arcs, block))
+    if not np.isfinite(first + second):
+        raise StoodStill("its arcs are none of a rigid block: elastic motion is as large")
     housner = first * (1 - block.restitution**2)
     return Loss(
         (before - after) / housner,

@@ -115,13 +115,12 @@ def rows_of(kind: str, count: int, file: Path, folder: Path, workers: int) -> li
 
 
 def _response(kind: str, one: Drawn, summary: dict) -> dict:
-    weight_arm = one.slenderness
     return {
         "model": kind,
         "friction": one.friction,
         **({"youngs_modulus_pa": one.youngs} if kind == ELASTIC else {}),
-        "slenderness_rad": weight_arm,
-        "p_rad_s": frequency(one),
+        "slenderness_rad": one.slenderness,
+        "p_rad_s": one.frequency,
         "outcome": summary["outcome"],
         "peak_over_critical": summary["tilt_max_rad"] / summary["critical_tilt_rad"],
         "peak_displacement_m": summary["u_max_m"],

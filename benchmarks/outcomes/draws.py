@@ -48,6 +48,14 @@ class Drawn:
         }
 
     @property
+    def frequency(self) -> float:
+        """P [rad/s] about an edge: p^2 = m g R / I_O of a homogeneous block or cylinder."""
+        across = 0.75 if self.round else 1.0
+        square = (self.width**2 + self.height**2) / 4
+        inertia = (across * self.width**2 + self.height**2) / 12 + square
+        return float(np.sqrt(GRAVITY * np.sqrt(square) / inertia))
+
+    @property
     def slenderness(self) -> float:
         """Alpha [rad] of a homogeneous body."""
         return float(np.arctan(self.width / self.height))

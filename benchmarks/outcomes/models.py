@@ -10,8 +10,7 @@ import numpy as np
 
 from benchmarks.outcomes.draws import Drawn, drawn
 from benchmarks.outcomes.motions import stored
-from fecolumn.case.model_sections import BlockSection, WobblingSection
-from fecolumn.engines.rocking.block import RockingBlock
+from fecolumn.case.model_sections import WobblingSection
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.model import OVERTURNED, SAFE
 from fecolumn.engines.rocking.swing import IMPACTS, PEAK, rock_all, row_of_block
@@ -42,7 +41,7 @@ def planar_blocks(file: Path, part: int, count: int) -> list[dict]:
         [one.scale for one in bodies],
         np.array(
             [
-                row_of_block(one.slenderness, frequency(one), restitution)
+                row_of_block(one.slenderness, one.frequency, restitution)
                 for one, restitution in zip(bodies, kept)
             ]
         ),
@@ -57,18 +56,12 @@ def planar_blocks(file: Path, part: int, count: int) -> list[dict]:
             | {
                 "model": BLOCK,
                 "slenderness_rad": one.slenderness,
-                "p_rad_s": frequency(one),
+                "p_rad_s": one.frequency,
                 "restitution": restitution,
                 "impacts": int(impacts),
             }
         )
     return rows
-
-
-def frequency(one: Drawn) -> float:
-    """P [rad/s] of a rectangular block: p^2 = 3 g / (4 R)."""
-    section = BlockSection(width_m=one.width, height_m=one.height)
-    return math.sqrt(RockingBlock.of_section(section, "outcomes").planes[0].p2[0])
 
 
 def rolling_columns(file: Path, part: int, count: int) -> list[dict]:
