@@ -11,10 +11,9 @@ DRUMS = (1, 2, 3, 4, 6, 8)
 #: Contact points around a face; friction is that of `frames_and_stacks`, 0.7.
 AROUND = 12
 _FRAMES = {"trilith": 2, "frame": 4}
-#: How far a drum or a slab may slide before an analysis fails [m]: till a drum is half off.
-_SLIDES = 0.5
-#: Elements of a slab's underside [m], on which columns slide.
-_FINE = 0.1
+#: How far a drum, or a slab on its columns, may slide before an analysis fails [m]: till a drum is
+#: half off, and a slab by more than the diameter of a column.
+_SLIDES = dict(joints=0.5, heads=0.25)
 ELASTIC = "elastic "
 
 
@@ -33,9 +32,8 @@ def case_of(name: str, tables: dict) -> Case:
     kind = name.removeprefix(ELASTIC)
     joint = "heads" if kind in _FRAMES else "joints"
     if kind != "monolith":
-        tables = tables | dict(joints={joint: dict(allowance_m=_SLIDES)})
+        tables = tables | dict(joints={joint: dict(allowance_m=_SLIDES[joint])})
     if kind in _FRAMES:
-        tables = tables | dict(bodies=dict(slab=dict(element_size_m=_FINE)))
         return frame_case(_FRAMES[kind], False, engine, AROUND, tables)
     drums = 1 if kind == "monolith" else int(kind.split()[0])
     return stack_case(drums, False, engine, AROUND, tables, drum=(COLUMN[0], COLUMN[1] / drums))

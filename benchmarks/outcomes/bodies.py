@@ -17,15 +17,15 @@ RIGID, ELASTIC = "rigid body", "elastic body"
 #: Step [s], time followed after a motion unless all is at rest before [s]; elastic modes; elements
 #: around a cylinder and along the side of a block.
 STEP, REST_S, MODES, AROUND, ALONG = 2e-3, 2.0, 10, 12, 3
-#: Elastic bodies that are made, each shaken by many motions: a body's model takes seconds.
-MADE = 24
+#: Bodies that are made, each shaken by many motions: a body's model takes seconds.
+MADE = {RIGID: 96, ELASTIC: 24}
 _ENGINES = {RIGID: "rigid", ELASTIC: "reduced"}
 _KEYS = ("number",)
 
 
 def case_of(kind: str, one: Drawn, file: Path) -> Case:
     """Case of a drawn body and motion."""
-    size = 3.1416 * one.width / AROUND if one.round else one.width / ALONG
+    size = 3.14 * one.width / AROUND if one.round else one.width / ALONG
     body = dict(
         height_m=one.height,
         density_kg_m3=DENSITY,
@@ -56,13 +56,11 @@ def case_of(kind: str, one: Drawn, file: Path) -> Case:
 
 
 def draws_of(kind: str, count: int, file: Path) -> list[Drawn]:
-    """So many draws; elastic ones are of MADE bodies in turn, friction and motion their own."""
+    """So many draws, of MADE bodies in turn, friction and motion their own."""
     ensemble = stored(file)
     made = drawn(kind, 0, count, ensemble, False)
-    if kind == RIGID:
-        return made
-    few = drawn(kind, 1, MADE, ensemble, False)
-    return [_shaken(one, few[place % MADE]) for place, one in enumerate(made)]
+    few = drawn(kind, 1, MADE[kind], ensemble, False)
+    return [_shaken(one, few[place % len(few)]) for place, one in enumerate(made)]
 
 
 def _shaken(one: Drawn, body: Drawn) -> Drawn:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from fecolumn.foundation.atomic import write_hdf5
-from fecolumn.foundation.files import can_be_opened
+from fecolumn.foundation.files import is_file
 from fecolumn.foundation.schema import InputError
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def outcomes(file: str | Path | None = None) -> pandas.DataFrame:
     import pandas
 
     path = PACKAGED if file is None else Path(file)
-    if not can_be_opened(path):
+    if not is_file(path):
         raise InputError(path, "", None, f"is no file; {_MAKER} of a checkout makes one")
     try:
         with h5py.File(path) as stored:
