@@ -1,4 +1,4 @@
-"""Columns of one to eight drums of one height, a trilith and a frame."""
+"""Columns of one to eight drums of one height, a trilith and a frame on such columns."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ DRUMS = (1, 2, 3, 4, 6, 8)
 #: Contact points around a face; friction is that of `frames_and_stacks`, 0.7.
 AROUND = 12
 _FRAMES = {"trilith": 2, "frame": 4}
-#: How far a drum, or a slab on its columns, may slide before an analysis fails [m]: till a drum is
-#: half off, and a slab by more than the diameter of a column.
-_SLIDES = dict(joints=0.5, heads=0.25)
+#: How far a drum, or a slab on its columns, may slide before an analysis fails [m]: till it is half
+#: off.
+_SLIDES = 0.5
 ELASTIC = "elastic "
 
 
@@ -32,8 +32,8 @@ def case_of(name: str, tables: dict) -> Case:
     kind = name.removeprefix(ELASTIC)
     joint = "heads" if kind in _FRAMES else "joints"
     if kind != "monolith":
-        tables = tables | dict(joints={joint: dict(allowance_m=_SLIDES[joint])})
+        tables = tables | dict(joints={joint: dict(allowance_m=_SLIDES)})
     if kind in _FRAMES:
-        return frame_case(_FRAMES[kind], False, engine, AROUND, tables)
+        return frame_case(_FRAMES[kind], False, engine, AROUND, tables, COLUMN)
     drums = 1 if kind == "monolith" else int(kind.split()[0])
     return stack_case(drums, False, engine, AROUND, tables, drum=(COLUMN[0], COLUMN[1] / drums))

@@ -89,9 +89,10 @@ def draw_map(cells, formula, path):
     colours = (BLACK, BLUE, GREEN, ORANGE, VERMILION)
     with styled():
         figure = new_figure(PAGE_WIDTH_IN, 2.8)
-        panels = figure.subplots(1, len(SHAPES), sharey=True)
+        shapes = [shape for shape in SHAPES if any(one["shape"] == shape for one in cells)]
+        panels = figure.subplots(1, len(shapes), sharey=True, squeeze=False)[0]
         friction = max(one["friction"] for one in cells)
-        for axes, shape in zip(panels, SHAPES):
+        for axes, shape in zip(panels, shapes):
             own = [one for one in cells if (one["shape"], one["friction"]) == (shape, friction)]
             for ratio, colour in zip(sorted({one["ratio"] for one in own}), colours):
                 row = [one for one in own if one["ratio"] == ratio and one["releases"]]

@@ -17,7 +17,7 @@ GROUPS = (1e3, 1e4, 1e5, 1e6, 1e7, 1e8)
 FRICTIONS = (0.3, 0.8)
 #: Tilt of release over the critical one; releases beside each other; steps at the impact over the
 #: time in which a wave crosses the width, the last is the row of the map.
-SHARE, BESIDE, STEPS = 0.3, 6, (1 / 4, 1 / 16)
+SHARE, BESIDE, STEPS = 0.3, 8, (1 / 4, 1 / 16)
 #: Cells in which more is tried, to know the error that is left: finer elements, more modes, a step
 #: that is shorter again, another tilt of release.
 CHECKED = tuple(

@@ -108,7 +108,7 @@ class Body:
                 contact=dict(friction_coefficient=self.friction),
                 initial=dict(body=dict(tilt_rad=tilt)) if tilt else {},
                 integration=dict(
-                    engine="reduced", n_modes=self.modes, dt_s=dt, alpha_hht=0.0, duration_s=60.0
+                    engine="reduced", n_modes=self.modes, dt_s=dt, alpha_hht=0.0, duration_s=1.0
                 ),
             ),
             "benchmarks.impact.map",

@@ -16,12 +16,17 @@ _STONE = dict(poissons_ratio=0.2, modes=10)
 
 
 def frame_case(
-    columns: int, rocks: bool, engine: str = "reduced", points: int = 24, tables: dict | None = None
+    columns: int,
+    rocks: bool,
+    engine: str = "reduced",
+    points: int = 24,
+    tables: dict | None = None,
+    column: tuple[float, float] = COLUMN,
 ):
-    """A slab on so many columns of concrete, a power of two, in a square or two beside each
-    other; further tables as of `stack_case`.
+    """A slab on so many columns of concrete, a power of two, in a square or two beside each other,
+    of a diameter and height [m]; further tables as of `stack_case`.
     """
-    (diameter, height), rows = COLUMN, 2 ** (int(math.log2(columns)) // 2)
+    (diameter, height), rows = column, 2 ** (int(math.log2(columns)) // 2)
     many = columns // rows
     places = [
         [2.0 * (i - (many - 1) / 2), 2.0 * (j - (rows - 1) / 2), 0.0]
@@ -37,7 +42,7 @@ def frame_case(
         density_kg_m3=2500.0,
         youngs_modulus_pa=30e9,
     )
-    column = _around(diameter, points) | dict(
+    body = _around(diameter, points) | dict(
         kind="cylinder",
         outer_diameter_m=diameter,
         height_m=height,
@@ -46,7 +51,7 @@ def frame_case(
         youngs_modulus_pa=30e9,
     )
     return _case(
-        dict(column=column | _STONE, slab=slab | _STONE),
+        dict(column=body | _STONE, slab=slab | _STONE),
         dict(feet=dict(between=["column", "ground"]), heads=dict(between=["column", "slab"])),
         dict(column=dict(tilt_rad=LET_GO * diameter / height)) if rocks else {},
         engine,
