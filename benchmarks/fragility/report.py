@@ -74,7 +74,7 @@ def markdown(found: dict[str, list[dict]]) -> str:
                 *("-" if fit is None else f"{half_lost(fit, period):.2f}" for period in PERIODS),
                 *(f"{value:.2g}" for value in np.quantile(shifts, (0.5, 0.9))),
                 len(rows) - len(told),
-                f"{np.mean([row['cpu_s'] for row in told]) if told else np.nan:.2f}",
+                f"{np.nanmean([row['cpu_s'] for row in told]) if told else np.nan:.2f}",
             ]
         )
     pairs_head = [

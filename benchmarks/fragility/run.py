@@ -7,6 +7,7 @@ from pathlib import Path
 from benchmarks.fragility.motions import ensemble_file, parameters
 from benchmarks.fragility.structures import case_of
 from benchmarks.soak.analysis import ENTRY
+from fecolumn.engines.ending import SLID_OFF
 from fecolumn.study.plan import Plan, PlannedAnalysis
 from fecolumn.study.run import complete_study
 from fecolumn.study.store import DONE, FAILED
@@ -29,6 +30,9 @@ COLUMNS = (
 )
 #: Longest time followed after the motion, unless all is at rest before [s].
 REST_S = 2.0
+#: What an analysis says that ends because a body slid or walked by `structures.SLIDES` from its
+#: place on another: it is lost.
+_LEFT = "left the part of the face below it"
 _KEYS = ("motion.source",)
 
 
@@ -74,10 +78,14 @@ def rows_of(name: str, folder: Path, made: int, count: int, dt: float, workers: 
                 "motion": place + 1,
                 **{key: float(values[place]) for key, values in drawn.items()},
                 **(_outcome(summary) if summary else dict.fromkeys(COLUMNS[8:], float("nan"))),
-                "outcome": summary["outcome"] if summary else FAILED,
+                "outcome": summary["outcome"] if summary else _fate(entry["reason"]),
             }
         )
     return rows
+
+
+def _fate(reason: str) -> str:
+    return SLID_OFF if _LEFT in reason else FAILED
 
 
 def _outcome(summary: dict) -> dict[str, float]:

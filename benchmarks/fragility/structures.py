@@ -11,9 +11,9 @@ DRUMS = (1, 2, 3, 4, 6, 8)
 #: Contact points around a face; friction is that of `frames_and_stacks`, 0.7.
 AROUND = 12
 _FRAMES = {"trilith": 2, "frame": 4}
-#: How far a drum, or a slab on its columns, may slide before an analysis fails [m]: till it is half
-#: off.
-_SLIDES = 0.5
+#: How far a drum, or a slab's column, may slide or walk from its place on another body [m]: till it
+#: is half off, or at the slab's edge.
+SLIDES = 0.5
 ELASTIC = "elastic "
 
 
@@ -32,7 +32,7 @@ def case_of(name: str, tables: dict) -> Case:
     kind = name.removeprefix(ELASTIC)
     joint = "heads" if kind in _FRAMES else "joints"
     if kind != "monolith":
-        tables = tables | dict(joints={joint: dict(allowance_m=_SLIDES)})
+        tables = tables | dict(joints={joint: dict(allowance_m=SLIDES)})
     if kind in _FRAMES:
         return frame_case(_FRAMES[kind], False, engine, AROUND, tables, COLUMN)
     drums = 1 if kind == "monolith" else int(kind.split()[0])
