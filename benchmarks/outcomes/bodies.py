@@ -17,8 +17,8 @@ RIGID, ELASTIC = "rigid body", "elastic body"
 #: Step [s], time followed after a motion unless all is at rest before [s]; elastic modes; elements
 #: around a cylinder and along the side of a block.
 STEP, REST_S, MODES, AROUND, ALONG = 2e-3, 2.0, 10, 12, 3
-#: Bodies that are made, each shaken by many motions: a body's model takes seconds.
-MADE = {RIGID: 96, ELASTIC: 24}
+#: Elastic bodies that are made, each shaken by many motions: a body's model takes seconds.
+MADE = 24
 _ENGINES = {RIGID: "rigid", ELASTIC: "reduced"}
 _KEYS = ("number",)
 
@@ -32,6 +32,7 @@ def case_of(kind: str, one: Drawn, file: Path) -> Case:
         youngs_modulus_pa=one.youngs,
         poissons_ratio=0.2,
         element_size_m=size,
+        rigid=kind == RIGID,
     ) | (
         dict(kind="cylinder", outer_diameter_m=one.width)
         if one.round
@@ -56,10 +57,12 @@ def case_of(kind: str, one: Drawn, file: Path) -> Case:
 
 
 def draws_of(kind: str, count: int, file: Path) -> list[Drawn]:
-    """So many draws, of MADE bodies in turn, friction and motion their own."""
+    """So many draws; elastic ones are of MADE bodies in turn, friction and motion their own."""
     ensemble = stored(file)
     made = drawn(kind, 0, count, ensemble, False)
-    few = drawn(kind, 1, MADE[kind], ensemble, False)
+    if kind == RIGID:
+        return made
+    few = drawn(kind, 1, MADE, ensemble, False)
     return [_shaken(one, few[place % len(few)]) for place, one in enumerate(made)]
 
 

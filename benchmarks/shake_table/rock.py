@@ -29,8 +29,8 @@ OVERTURNED, TOUCHES = np.radians(45), np.radians(60)
 class Stone:
     """mass [kg], or nan for density [kg/m3] times the scan's volume; youngs [Pa], poisson; softer:
     factor on the compliance of each contact point; friction, restitution; direction: of the table's
-    positive displacement, from the scan's x towards its y [rad]; rounding: radius of the edges over
-    the mean edge of the scan's triangles.
+    positive displacement, from the scan's x towards its y [rad]; rounding: radius of the edges
+    [m].
     """
 
     mass: float = np.nan
@@ -165,9 +165,7 @@ def body_of(scan: Path, stone: Stone) -> BodyModel:
     hull = ConvexHull(corners)
     turn, _ = at_rest(corners, center, hull.equations)
     if stone.rounding:
-        sides = corners[triangles] - corners[np.roll(triangles, 1, axis=1)]
-        edge = float(np.linalg.norm(sides, axis=2).mean())
-        corners = rounded(hull.equations, center, stone.rounding * edge)
+        corners = rounded(hull.equations, center, stone.rounding)
         hull = ConvexHull(corners)
         triangles = hull.simplices
     spin = Rotation.from_euler("z", -stone.direction).as_matrix() @ turn

@@ -7,7 +7,7 @@ or the campaign's own files give; no outcome of the campaign enters.
 | restitution | 0 to 0.5 | of a contact point: an impact takes 1 to 0.75 of what Housner's block loses, the range of converged impacts in benchmarks/RESULTS.md |
 | youngs | 30 to 70 GPa, log | granite (Jaeger, Cook and Zimmerman 2007, table 7.1) |
 | softer | 1 to 10, log | compliance of a rough contact over that of a smooth one |
-| rounding | 0 to 1 | radius of the edges over the mean edge of the scan's triangles: what the scan cannot show |
+| rounding | 0 to 0.01 m | radius of the edges: assumed; a scan cannot show less than the sides of its triangles |
 | direction | -5 to 5 degrees | the rock was put on the table by hand |
 | crossover | 0.1 to 3 Hz, log | below it the table's displacement tells the motion, above it its accelerometer |
 | upper | 25 to 100 Hz, log | the source's own filter, and one an octave above the table's band |
@@ -31,7 +31,7 @@ BOUNDS = {
     "restitution": (0.0, 0.5, False),
     "youngs": (30e9, 70e9, True),
     "softer": (1.0, 10.0, True),
-    "rounding": (0.0, 1.0, False),
+    "rounding": (0.0, 0.01, False),
     "direction": (-np.radians(5.0), np.radians(5.0), False),
     "crossover": (BAND_HZ[0], 3.0, True),
     "upper": (BAND_HZ[1], 100.0, True),

