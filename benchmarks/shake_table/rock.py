@@ -138,12 +138,14 @@ def rounded(facets: np.ndarray, center: np.ndarray, radius: float) -> np.ndarray
     if not (facets[:, :3] @ center + facets[:, 3] + radius < 0).all():
         raise ValueError(f"rounding: a ball of {radius:.3g} m is too large for the scan")
     cut = HalfspaceIntersection(facets + [0, 0, 0, radius], center)
-    return np.concatenate(
+    corners = np.concatenate(
         [
             corner + radius * facets[list(planes), :3]
             for corner, planes in zip(cut.intersections, cut.dual_facets)
         ]
     )
+    # of facets that are nearly one plane one corner is enough
+    return corners[np.unique((2 * corners / radius).round(), axis=0, return_index=True)[1]]
 
 
 def body_of(scan: Path, stone: Stone) -> BodyModel:
