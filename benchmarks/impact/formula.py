@@ -45,6 +45,19 @@ class Formula:
         """G of the cells onto which the slendernesses fall."""
         return np.asarray(group) * np.asarray(ratio, float) ** (1 - self.power)
 
+    def rows(self) -> list[tuple[str, str]]:
+        """Names and values."""
+        return [
+            *((f"a, {shape}", f"{value:.3f}") for shape, value in self.base.items()),
+            ("b", f"{self.slope:.3f}"),
+            ("c", f"{self.rise:.3f}"),
+            ("G_c", f"{self.centre:.3g}"),
+            ("m", f"{self.steepness:.3f}"),
+            ("k", f"{self.power:.3f}"),
+            ("root mean square error", f"{self.error:.3f}"),
+            ("of a slenderness left out", f"{self.left_out:.3f}"),
+        ]
+
     def text(self) -> str:
         """In one line."""
         base = ", ".join(f"{value:.2f} ({shape})" for shape, value in self.base.items())

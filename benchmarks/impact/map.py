@@ -62,13 +62,13 @@ def markdown(rows: list[dict], cells: list[dict], formula: Formula | None) -> st
     """Tables: the map, its checks, measured tests; and the formula."""
     parts = [_map_table(cells), _check_table(rows, cells), _measured_table(formula)]
     if formula:
-        parts.append(formula.text())
+        parts += [formula.text(), _table(["parameter of the formula", "value"], formula.rows())]
     return "\n\n".join(parts)
 
 
 def _map_table(cells: list[dict]) -> str:
     groups = sorted({one["group"] for one in cells})
-    head = ["section", "friction", "H/B", *(f"E B/(rho g H²) {group:.0e}" for group in groups)]
+    head = ["body", *(f"E B/(rho g H²) {group:.0e}" for group in groups)]
     lines = []
     for shape in SHAPES:
         for friction, ratio in sorted(
@@ -79,7 +79,8 @@ def _map_table(cells: list[dict]) -> str:
                 for one in cells
                 if (one["shape"], one["friction"], one["ratio"]) == (shape, friction, ratio)
             }
-            lines.append([shape, friction, ratio, *(_cell(own.get(group)) for group in groups)])
+            name = f"{shape}, friction {friction:g}, H/B {ratio:g}"
+            lines.append([name, *(_cell(own.get(group)) for group in groups)])
     return _table(head, lines)
 
 
@@ -130,15 +131,14 @@ def _check_table(rows: list[dict], cells: list[dict]) -> str:
 
 
 def _measured_table(formula: Formula | None) -> str:
-    head = ["measured", "H/B", "E B/(rho g H²), about", "loss over Housner's", "formula, block"]
+    head = ["measured", "E B/(rho g H²), about", "loss over Housner's", "formula, block"]
     lines = []
     for one in MEASURED:
         low, high = one.losses
         told = formula and "block" in formula.base
         lines.append(
             [
-                one.source,
-                one.ratio,
+                f"{one.source}, H/B {one.ratio:g}",
                 f"{one.group:.0e}",
                 f"{low:.2f} to {high:.2f}",
                 f"{formula.loss('block', one.ratio, one.group):.2f}" if told else "-",

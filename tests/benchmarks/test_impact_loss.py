@@ -136,7 +136,7 @@ def test_map_of_a_few_kept_cells_is_told_and_drawn(tmp_path, capsys):
     assert map_main([*command, "--ratio", "3", "7", "--group", "1e5", "1e6"]) == 0
     said = capsys.readouterr().out
     mean = by_cell(json.loads((tmp_path / "cells" / "map-block-3-100000-0.8.json").read_text()))[0]
-    assert f"| block | 0.8 | 3.0 | {mean['loss']:.2f} ± {mean['half_width']:.2f} |" in said
+    assert f"| block, friction 0.8, H/B 3 | {mean['loss']:.2f} ± {mean['half_width']:.2f} |" in said
     assert "| 8 to 12 elements over the width | 2 |" in said
     assert (tmp_path / "map.png").stat().st_size > 10_000
     with (tmp_path / "map.csv").open() as file:

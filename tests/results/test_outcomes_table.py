@@ -7,10 +7,10 @@ import pytest
 
 import fecolumn
 from benchmarks.outcomes.table import COLUMNS
-from fecolumn.study.results.outcomes import PACKAGED, Column, write_outcomes
+from fecolumn.study.results.outcomes import PACKAGED, TableColumn, write_outcomes
 
-_WORDS = Column("which", words=("one", "other"))
-_THREE = {"which": _WORDS, "length_m": Column("of it", "m"), "count": Column("of them")}
+_WORDS = TableColumn("which", words=("one", "other"))
+_THREE = {"which": _WORDS, "length_m": TableColumn("of it", "m"), "count": TableColumn("of them")}
 
 
 def test_rows_come_back_with_their_dictionary(tmp_path):

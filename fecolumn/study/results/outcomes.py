@@ -28,7 +28,7 @@ _COLUMNS, _MAKER = "columns", "python -m benchmarks.outcomes"
 _BITS = 16
 
 
-class Column(NamedTuple):
+class TableColumn(NamedTuple):
     """What a column is.
 
     Attributes
@@ -112,7 +112,7 @@ def outcomes(file: str | Path | None = None) -> pandas.DataFrame:
 def write_outcomes(
     path: Path,
     rows: Sequence[Mapping[str, Any]],
-    columns: Mapping[str, Column],
+    columns: Mapping[str, TableColumn],
     made: Mapping[str, Any],
 ) -> None:
     """Write a table of outcomes.
@@ -151,7 +151,7 @@ def write_outcomes(
     write_hdf5(path, fill)
 
 
-def _array(values: list[Any], column: Column) -> np.ndarray:
+def _array(values: list[Any], column: TableColumn) -> np.ndarray:
     if column.words:
         places = {word: place for place, word in enumerate(column.words)}
         return np.array([places.get(value, value) for value in values], np.int8)
