@@ -10,8 +10,8 @@ from fecolumn.engines.rocking.overturning import (
     critical_tilt_rate,
     half_sine_overturning,
     linear_overturning,
-    pulse_outcomes,
     overturning_bands,
+    pulse_outcomes,
     slenderness_factor,
 )
 from fecolumn.engines.rocking.swing import GRAVITY, rock_all, rock_one, row_of_block
