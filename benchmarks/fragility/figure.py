@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from benchmarks.fragility.motions import PGV
 from benchmarks.fragility.report import PERIODS, half_lost, lost, surface
 from benchmarks.fragility.structures import COLUMN, DRUMS, ELASTIC, RIGID
 from fecolumn.pictures.figures.style import (
@@ -98,7 +99,7 @@ def _halves(axes, found) -> None:
     axes.set(
         xlabel=f"drums of a column of {COLUMN[1]:g} m",
         ylabel="PGV that loses half [m/s]",
-        ylim=(0, None),
+        ylim=(0, PGV[1]),
     )
     if axes.lines:
         axes.legend(title="pulse period")

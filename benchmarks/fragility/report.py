@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.stats import binomtest
 
+from benchmarks.fragility.motions import PGV
 from benchmarks.fragility.structures import ELASTIC
 from fecolumn.engines.ending import OVERTURNED, SLID_OFF
 from fecolumn.statistics.binary_regression import DegenerateData, fit_binary
@@ -43,6 +44,12 @@ def half_lost(parameters: np.ndarray, period) -> np.ndarray:
     return np.exp(-(parameters[0] + parameters[2] * t + parameters[3] * t**2) / parameters[1])
 
 
+def _within(pgv: float) -> str:
+    """A PGV as a number where such motions were drawn, else on which side of them it lies."""
+    low, high = PGV
+    return f"> {high:g}" if not pgv <= high else f"< {low:g}" if pgv < low else f"{pgv:.2f}"
+
+
 def markdown(found: dict[str, list[dict]]) -> str:
     """Two tables: what became of each structure, and rigid bodies or drums beside others in the
     same motions.
@@ -71,7 +78,10 @@ def markdown(found: dict[str, list[dict]]) -> str:
                 len(told),
                 f"{number / max(len(told), 1):.3f}",
                 f"{low:.3f} to {high:.3f}",
-                *("-" if fit is None else f"{half_lost(fit, period):.2f}" for period in PERIODS),
+                *(
+                    "-" if fit is None else _within(float(half_lost(fit, period)))
+                    for period in PERIODS
+                ),
                 *(f"{value:.2g}" for value in np.quantile(shifts, (0.5, 0.9))),
                 len(rows) - len(told),
                 f"{np.nanmean([row['cpu_s'] for row in told]) if told else np.nan:.2f}",
