@@ -82,6 +82,7 @@ if TYPE_CHECKING:
     from fecolumn.study.questions.script import Answer, calibrate, design, risk, screen
     from fecolumn.study.results.analysis import AnalysisResult
     from fecolumn.study.results.load import load
+    from fecolumn.study.results.outcomes import outcomes
     from fecolumn.study.results.script import run_study
     from fecolumn.study.results.study import StudyResult
     from fecolumn.study.run import StudyError
@@ -141,6 +142,7 @@ __all__ = [
     "load_case",
     "load_motion",
     "motion_file",
+    "outcomes",
     "read_case",
     "read_history",
     "risk",
@@ -205,6 +207,7 @@ _HOMES = {
     "ecdf": "statistics.ecdf",
     "AnalysisResult": "study.results.analysis",
     "load": "study.results.load",
+    "outcomes": "study.results.outcomes",
     "run_study": "study.results.script",
     "design": "study.questions.script",
     "risk": "study.questions.script",

@@ -2,6 +2,7 @@
 step, engine, modes, tilt, slenderness, bricks, damping.
 
     ./containers/run python -m benchmarks.impact [SERIES ...] [-o DIR]
+    ./containers/run python -m benchmarks.impact map --help
 
 Each impact is one line of DIR/impact.csv (results/impact unless given); those there are not made
 again. Ends with two tables, and DIR/impact.png. All of it takes an hour and more on one core;
@@ -19,6 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.impact import map as impact_map
 from benchmarks.impact.figure import draw
 from benchmarks.impact.loss import first_impact
 
@@ -89,6 +91,8 @@ FIELDS = (
 
 
 def main(argv) -> int:
+    if argv[:1] == ["map"]:
+        return impact_map.main(argv[1:])
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.impact",
         description=__doc__,

@@ -18,6 +18,12 @@ LONGEST = 0.05
 #: Tilts, over that of release, between which the arcs before and after are fitted: without the
 #: impact and the vibration of the release.
 ARC = (0.2, 0.85)
+#: Steps of an arc that its fit needs.
+FEWEST = 20
+
+
+class StoodStill(ArithmeticError):
+    """A column did not rise again as far as what an impact took is told by."""
 
 
 @dataclass(frozen=True)
@@ -51,8 +57,20 @@ def first_impact(
     """Loss of the first impact of a column released at rest at `share` of its critical tilt;
     arguments as of `rocker`, away: longest step [s] of the fall and of the rise.
     """
-    away = max(away, dt)
     column, block = rocker(kind, share, dt, modes, alpha, damping, height, size)
+    return impact_of(column, block, share, dt, away)
+
+
+def impact_of(column, block, share: float, dt: float, away: float = AWAY) -> Loss:
+    """Loss of the first impact of a rocker that was released at `share` of the critical tilt of
+    its Housner's block; steps of dt [s] at the impact, up to `away` [s] before and after.
+
+    Raises
+    ------
+    StoodStill
+        it did not rise again above what the end of an impact is told by.
+    """
+    away = max(away, dt)
     release = share * block.slenderness
     clear, highest, now = CLEAR * release + CLEAR_TILT, 0.0, 0.0
 
@@ -74,14 +92,14 @@ def first_impact(
     while column.tilt < ARC[1] * release and column.tilt > 0.98 * highest:
         highest = max(highest, column.tilt)
         steps(away, up)
-    arcs = (np.concatenate(arc) for arc in (down, up))
-    first, second = (
-        block.energy(tilt)
-        for tilt in turning_tilts(
-            *(arc[(arc[:, 1] > ARC[0] * release) & (arc[:, 1] < ARC[1] * release)] for arc in arcs),
-            block,
-        )
-    )
+    arcs = [np.concatenate(arc) for arc in (down, up)]
+    arcs = [arc[(arc[:, 1] > ARC[0] * release) & (arc[:, 1] < ARC[1] * release)] for arc in arcs]
+    if min(map(len, arcs)) < FEWEST:
+        raise StoodStill(f"it rose to {highest / release:.2f} of the tilt of its release")
+    with np.errstate(invalid="ignore"):
+        first, second = (block.energy(tilt) for tilt in turning_tilts(*arcs, block))
+    if not np.isfinite(first + second):
+        raise StoodStill("its arcs are none of a rigid block: elastic motion is as large")
     housner = first * (1 - block.restitution**2)
     return Loss(
         (before - after) / housner,

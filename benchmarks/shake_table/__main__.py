@@ -8,28 +8,33 @@ PATH: a copy of the public repository ZhiangChen/virtual_shake_robot_pybullet, o
 is read. No parameter is fitted to an outcome. What is done is kept: the same command goes on.
 Writes tests.csv, outcomes.png and .pdf into DIR and prints accuracy and confusion beside the models
 whose results the repository holds.
+
+    ./containers/run python -m benchmarks.shake_table PATH --draws 32 -o results/shake_table_draws
+
+computes each test with so many draws of what is not known of rock and table (`uncertain`), and
+prints how well the probability of each outcome is told: Brier's score and a reliability diagram,
+reliability.png, in place of outcomes.png; tests.csv has the probabilities.
 """
 
 from __future__ import annotations
 
 import argparse
 import dataclasses
-import json
 import os
 import sys
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
 
+from benchmarks.kept import complete, found, keep_settings
 from benchmarks.shake_table.campaign import Campaign, read_campaign
-from benchmarks.shake_table.figure import draw
+from benchmarks.shake_table.figure import draw, draw_reliability
+from benchmarks.shake_table.probability import ensemble_report, told_by
 from benchmarks.shake_table.rock import Stone
 from benchmarks.shake_table.runs import COLUMNS, folder_name, run
 from benchmarks.shake_table.scores import chance, confusion, table
-from fecolumn.foundation.atomic import write_csv, write_json
-from fecolumn.foundation.progress import CountProgress
+from benchmarks.shake_table.uncertain import SEED, Setting, settings
+from fecolumn.foundation.atomic import write_csv
 
 
 def chosen(text: str | None, numbers: list[int]) -> set[int]:
@@ -59,68 +64,24 @@ def chosen(text: str | None, numbers: list[int]) -> set[int]:
     return wanted & set(numbers)
 
 
-def keep_settings(folder: Path, settings: dict) -> None:
-    """Note the settings in the folder; a ValueError where it holds tests of others."""
-    file = folder / "settings.json"
-    if file.exists():
-        before = json.loads(file.read_text())
-        if other := [
-            f"{name} {before.get(name)}"
-            for name, value in settings.items()
-            if before.get(name) != value
-        ]:
-            raise ValueError(
-                f"{folder} holds tests with {', '.join(other)}: choose another folder by -o"
-            )
-    (folder / "tests").mkdir(parents=True, exist_ok=True)
-    write_json(file, settings)
-
-
-def compute(
-    campaign: Campaign, numbers: set[int], stone: Stone, dt: float, folder: Path, jobs: int
-) -> None:
-    """Compute the tests of these numbers that the folder does not hold, in an order drawn by
-    chance: at any time those done are a fair sample.
+def compute_draws(
+    campaign: Campaign, numbers: set[int], draws: list[Setting], args
+) -> dict[int, list[dict]]:
+    """Rows of the tests of these numbers by draw; what the folder does not hold is computed unless
+    only a report is asked for.
     """
-    todo = [
-        test
-        for test in campaign.tests
-        if test.number in numbers and not (folder / folder_name(test)).exists()
-    ]
-    todo = [todo[i] for i in np.random.default_rng(0).permutation(len(todo))]
-    progress = CountProgress(len(todo), "tests")
-    with (
-        ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) if jobs > 1 else _Here() as pool
-    ):
-        futures = {pool.submit(run, campaign, test, stone, dt): test for test in todo}
-        for done, future in enumerate(as_completed(futures) if jobs > 1 else futures, 1):
-            write_json(folder / folder_name(futures[future]), future.result())
-            progress.show(done)
-    progress.end()
-
-
-def rows_of(campaign: Campaign, numbers: set[int], folder: Path) -> list[dict]:
-    """Rows of COLUMNS that the folder holds of the tests of these numbers, by number."""
-    files = [folder / folder_name(test) for test in campaign.tests if test.number in numbers]
-    return [json.loads(file.read_text()) for file in files if file.exists()]
-
-
-class _Here:
-    """An executor that computes when a result is asked for, in this process."""
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        return False
-
-    def submit(self, function, *arguments):
-        return _Later(function, arguments)
-
-
-class _Later:
-    def __init__(self, function, arguments):
-        self.result = lambda: function(*arguments)
+    folder, tests = Path(args.output), [one for one in campaign.tests if one.number in numbers]
+    jobs = {
+        folder / folder_name(test, draw): (campaign, test, one.stone, args.dt, one.view)
+        for draw, one in enumerate(draws)
+        for test in tests
+    }
+    if not args.report:
+        complete(run, jobs, args.jobs, "tests")
+    return {
+        draw: found(folder / folder_name(test, draw) for test in tests)
+        for draw in range(len(draws))
+    }
 
 
 def main(arguments=None) -> None:
@@ -183,6 +144,14 @@ def main(arguments=None) -> None:
         help="of the table's positive displacement, from the scan's x to its y [deg] "
         "(default: %(default)s)",
     )
+    parser.add_argument(
+        "--draws",
+        type=int,
+        default=0,
+        metavar="N",
+        help="an ensemble of so many draws within the bounds of benchmarks/shake_table/"
+        "uncertain.py; --mu, --youngs, --softer and --restitution do not matter then",
+    )
     args = parser.parse_args(arguments)
     try:
         stone = Stone(
@@ -203,6 +172,7 @@ def main(arguments=None) -> None:
             folder,
             {
                 "dt": args.dt,
+                **({"draws": args.draws, "seed": SEED} if args.draws else {}),
                 **{name: str(value) for name, value in dataclasses.asdict(stone).items()},
             },
         )
@@ -212,13 +182,38 @@ def main(arguments=None) -> None:
                 "of their motion and are left out",
                 file=sys.stderr,
             )
-        if not args.report:
-            compute(campaign, set(numbers), stone, args.dt, folder, args.jobs)
-        rows = rows_of(campaign, set(numbers), folder)
+        if args.draws:
+            draws = compute_draws(campaign, set(numbers), settings(stone, args.draws, SEED), args)
+        else:
+            jobs = {
+                folder / folder_name(test): (campaign, test, stone, args.dt)
+                for test in campaign.tests
+                if test.number in numbers
+            }
+            if not args.report:
+                complete(run, jobs, args.jobs, "tests")
+            rows = found(jobs)
     except (OSError, ValueError) as error:
         sys.exit(f"error: {error}")
+    if args.draws:
+        probabilities(draws, folder)
+        return
     write_csv(folder / "tests.csv", [COLUMNS, *([row[name] for name in COLUMNS] for row in rows)])
     report(campaign, rows, folder)
+
+
+def probabilities(draws: dict[int, list[dict]], folder: Path) -> None:
+    """Print how well the ensemble tells probabilities, write them and draw their diagram."""
+    told = told_by(draws)
+    if not told:
+        sys.exit("error: no test was computed")
+    write_csv(
+        folder / "tests.csv",
+        [list(told[0]), *(list(row.values()) for row in told)],
+    )
+    print(ensemble_report(draws, told))
+    draw_reliability(told, folder / "reliability")
+    print(f"wrote {folder}")
 
 
 def report(campaign: Campaign, rows: list[dict], folder: Path) -> None:

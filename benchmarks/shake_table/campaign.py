@@ -165,15 +165,41 @@ def channels(file: Path) -> tuple[np.ndarray, np.ndarray]:
     return GRAVITY * table[:, _ACCELERATION], METRES * table[:, _DISPLACEMENT]
 
 
-def filtered(samples: np.ndarray) -> np.ndarray:
-    """Samples (n,) in BAND_HZ, without shift of phase and without mean."""
-    return sosfiltfilt(butter(ORDER, BAND_HZ, btype="band", fs=SAMPLING_HZ, output="sos"), samples)
+@dataclass(frozen=True)
+class TableView:
+    """How the table's motion is read from its two sensors: below crossover [Hz] from its
+    displacement, above it from its accelerometer; nothing above upper [Hz]. A crossover at the
+    lower end of BAND_HZ leaves the accelerometer alone.
+    """
+
+    crossover: float = BAND_HZ[0]
+    upper: float = BAND_HZ[1]
 
 
-def table_motion(file: Path) -> np.ndarray:
+#: As the source reads it.
+SOURCES = TableView()
+
+
+def filtered(samples: np.ndarray, upper: float = BAND_HZ[1]) -> np.ndarray:
+    """Samples (n,) between the lower end of BAND_HZ and upper [Hz], without shift of phase and
+    without mean.
+    """
+    return sosfiltfilt(
+        butter(ORDER, (BAND_HZ[0], upper), btype="band", fs=SAMPLING_HZ, output="sos"), samples
+    )
+
+
+def table_motion(file: Path, view: TableView = SOURCES) -> np.ndarray:
     """Acceleration (n,) of the table [m/s2] at SAMPLING_HZ, positive where its displacement is.
 
     The sign of column 2 is turned: in every long-period test it runs against the second derivative
     of column 6.
     """
-    return -filtered(channels(file)[0])
+    acceleration, displacement = channels(file)
+    motion = -filtered(acceleration, view.upper)
+    if view.crossover <= BAND_HZ[0]:
+        return motion
+    slow = butter(ORDER, view.crossover, fs=SAMPLING_HZ, output="sos")
+    below = sosfiltfilt(slow, filtered(displacement))
+    second = np.gradient(np.gradient(below)) * SAMPLING_HZ**2
+    return motion - sosfiltfilt(slow, motion) + second

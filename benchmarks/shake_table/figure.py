@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from benchmarks.shake_table.probability import reliability
 from fecolumn.pictures.figures.style import (
     BLACK,
     BLUE,
@@ -87,4 +88,36 @@ def draw(rows: list[dict], path):
         )
         left.set_ylabel("PGA [g]")
         right.legend(loc="lower left")
+        return save(figure, path)
+
+
+def draw_reliability(told: list[dict], path):
+    """Share of tests that overturned over the probability told, with intervals of 95 %, and how
+    many tests had each; rows of `probability.told_by`. PNG and PDF.
+    """
+    measured, probability = (
+        np.array([row[name] for row in told], float) for name in ("measured", "probability")
+    )
+    classes = reliability(measured == 1, probability)
+    means = np.array([one.told for one in classes])
+    shares = np.array([one.share for one in classes])
+    ends = np.array([one.interval for one in classes])
+    with styled():
+        figure = new_figure(PAGE_WIDTH_IN / 2, 3.6)
+        upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3, 1))
+        upper.plot([0, 1], [0, 1], color=GREY, linewidth=0.8, label="told rightly")
+        upper.errorbar(
+            means,
+            shares,
+            np.abs(ends.T - shares),
+            fmt="o",
+            color=BLUE,
+            capsize=2,
+            markersize=4,
+            label="tests, 95 % interval",
+        )
+        upper.set(ylabel="share that overturned [-]", ylim=(-0.03, 1.03))
+        upper.legend(loc="upper left")
+        lower.hist(probability, np.linspace(0, 1, 21), color=BLUE)
+        lower.set(xlabel="told P(overturn) [-]", ylabel="tests", yscale="log")
         return save(figure, path)

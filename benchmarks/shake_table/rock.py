@@ -7,7 +7,7 @@ from functools import partial
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, HalfspaceIntersection
 from scipy.spatial.transform import Rotation
 
 from fecolumn.contact.overturning import Limits
@@ -30,7 +30,8 @@ OVERTURNED, TOUCHES = np.radians(45), np.radians(60)
 class Stone:
     """mass [kg], or nan for density [kg/m3] times the scan's volume; youngs [Pa], poisson; softer:
     factor on the compliance of each contact point; friction, restitution; direction: of the table's
-    positive displacement, from the scan's x towards its y [rad].
+    positive displacement, from the scan's x towards its y [rad]; rounding: radius of the edges
+    [m].
     """
 
     mass: float = np.nan
@@ -41,6 +42,7 @@ class Stone:
     friction: float = 0.6
     restitution: float = 0.0
     direction: float = 0.0
+    rounding: float = 0.0
 
 
 def read_scan(file: Path) -> tuple[np.ndarray, np.ndarray]:
@@ -117,6 +119,36 @@ def at_rest(corners, center, facets) -> tuple[np.ndarray, float]:
     ).as_matrix(), float(angle)
 
 
+def rounded(facets: np.ndarray, center: np.ndarray, radius: float) -> np.ndarray:
+    """Corners (n, 3) [m] of a convex body whose edges are rounded by a ball of `radius` [m]: of
+    its facets what the ball touches; an edge is a chamfer between two of them.
+
+    Parameters
+    ----------
+    facets
+        (f, 4) outward normals and offsets, as of a ConvexHull.
+    center
+        (3,) [m] within the body.
+
+    Raises
+    ------
+    ValueError
+        the ball does not fit beside the centre.
+    """
+    facets = np.unique(facets.round(12), axis=0)
+    if not (facets[:, :3] @ center + facets[:, 3] + radius < 0).all():
+        raise ValueError(f"rounding: a ball of {radius:.3g} m is too large for the scan")
+    cut = HalfspaceIntersection(facets + [0, 0, 0, radius], center)
+    corners = np.concatenate(
+        [
+            corner + radius * facets[list(planes), :3]
+            for corner, planes in zip(cut.intersections, cut.dual_facets)
+        ]
+    )
+    # of facets that are nearly one plane one corner is enough
+    return corners[np.unique((2 * corners / radius).round(), axis=0, return_index=True)[1]]
+
+
 def body_of(scan: Path, stone: Stone) -> BodyModel:
     """The rigid body of a scan, at rest, with the corners of its convex hull that touch up to
     TOUCHES as contact points.
@@ -135,6 +167,10 @@ def body_of(scan: Path, stone: Stone) -> BodyModel:
     mass = stone.density * volume if np.isnan(stone.mass) else stone.mass
     hull = ConvexHull(corners)
     turn, _ = at_rest(corners, center, hull.equations)
+    if stone.rounding:
+        corners = rounded(hull.equations, center, stone.rounding)
+        hull = ConvexHull(corners)
+        triangles = hull.simplices
     spin = Rotation.from_euler("z", -stone.direction).as_matrix() @ turn
     down = np.arccos(np.clip(-(hull.equations[:, :3] @ spin.T)[:, 2], -1, 1)) < TOUCHES
     feet = np.unique(hull.simplices[down])

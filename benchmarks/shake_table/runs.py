@@ -7,7 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.shake_table.campaign import SAMPLING_HZ, Campaign, Test, table_motion
+from benchmarks.shake_table.campaign import (
+    SAMPLING_HZ,
+    SOURCES,
+    Campaign,
+    TableView,
+    Test,
+    table_motion,
+)
 from benchmarks.shake_table.rock import OVERTURNED, Stone, body_of, engine_of
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.cuts import StepFailed
@@ -48,7 +55,7 @@ def ground_of(acceleration: np.ndarray, dt: float) -> np.ndarray:
     return ground
 
 
-def run(campaign: Campaign, test: Test, stone: Stone, dt: float) -> dict:
+def run(campaign: Campaign, test: Test, stone: Stone, dt: float, view: TableView = SOURCES) -> dict:
     """Row of COLUMNS of a test; `computed` is None where the engine failed, `failed` says how.
 
     measured, computed: 1 overturned, 0 stood; at_s: when the tilt from rest passed OVERTURNED, from
@@ -72,7 +79,7 @@ def run(campaign: Campaign, test: Test, stone: Stone, dt: float) -> dict:
     engine = None
     try:
         engine = engine_of(body_of(campaign.scan, stone), stone, dt)
-        rows, ended = engine.advance(ground_of(table_motion(campaign.file(test)), dt))
+        rows, ended = engine.advance(ground_of(table_motion(campaign.file(test), view), dt))
         row["computed"] = int(ended)
     except (NoEquilibrium, StepFailed) as error:
         rows = engine.made if engine is not None else np.zeros((0, WIDTH))
@@ -90,6 +97,7 @@ def run(campaign: Campaign, test: Test, stone: Stone, dt: float) -> dict:
     return row
 
 
-def folder_name(test: Test) -> Path:
-    """File of a test's row below the output folder."""
-    return Path("tests") / f"{test.number:03d}.json"
+def folder_name(test: Test, draw: int | None = None) -> Path:
+    """File of a test's row below the output folder, of a draw of `uncertain` where one is named."""
+    folder = Path("tests") if draw is None else Path("draws") / f"{draw:03d}"
+    return folder / f"{test.number:03d}.json"

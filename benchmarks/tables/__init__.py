@@ -93,7 +93,7 @@ def names() -> list[str]:
 
 def write(name: str, columns, rows, title: str, command: str) -> None:
     """Write a table as measured by this code, now, on this machine."""
-    about = (title, command, __version__, _commit(), date.today().isoformat(), _machine(), PHYSICS)
+    about = (title, command, __version__, commit(), date.today().isoformat(), _machine(), PHYSICS)
     text = io.StringIO()
     text.writelines(f"# {key}: {value}\n" for key, value in zip(HEADER, about))
     csv.writer(text, lineterminator="\n").writerows([columns, *rows])
@@ -111,7 +111,8 @@ def from_markdown(text: str) -> list[list[list[str]]]:
     return [[head, *rows] for head, _, *rows in (one for one in found if len(one) > 2)]
 
 
-def _commit() -> str:
+def commit() -> str:
+    """Of this checkout."""
     command = ["git", "-C", str(FOLDER), "describe", "--always", "--dirty", "--exclude", "*"]
     try:
         return subprocess.run(command, capture_output=True, text=True).stdout.strip() or "unknown"

@@ -15,7 +15,7 @@ GROUPS = {
         "Case case_from_tables load_case read_case run load AnalysisResult read_history".split()
     ),
     "Studies and questions": (
-        "run_study StudyResult design risk screen calibrate Answer ecdf".split()
+        "run_study StudyResult design risk screen calibrate Answer ecdf outcomes".split()
     ),
     "Bodies": (
         "Block Cylinder Tube Cone Plate Prism Arch MeshBody Storeys Matrices Flange Cap".split()

@@ -17,8 +17,8 @@ from fecolumn.engines.rocking.overturning import (
     half_sine_overturning,
     half_sine_phase,
     linear_overturning,
-    outcomes,
     overturning_bands,
+    pulse_outcomes,
     slenderness_factor,
 )
 from fecolumn.engines.rocking.swing import PEAK_TILT, rock_one, row_of_block
@@ -190,7 +190,7 @@ def _boundaries():
             yield Row(
                 f"{shape}, w_p/p {ratio:g}: overturned by up to 14 g tan(alpha) [-] (D)",
                 0,
-                float((outcomes(shape, ratio, np.linspace(1, 14, 261), TEN) >= 0).mean()),
+                float((pulse_outcomes(shape, ratio, np.linspace(1, 14, 261), TEN) >= 0).mean()),
                 0.0,
             )
     yield Row(
@@ -205,7 +205,7 @@ def _boundaries():
         yield Row(
             f"{shape}, w_p/p 6.28: overturned by less than 6 g tan(alpha) [-] (M, 9)",
             0,
-            float((outcomes(shape, 6.28, np.linspace(1, 6, 251), TEN) >= 0).mean()),
+            float((pulse_outcomes(shape, 6.28, np.linspace(1, 6, 251), TEN) >= 0).mean()),
             0.0,
         )
 
@@ -219,7 +219,7 @@ def _several_impacts():
         yield Row(
             f"one_sine, w_p/p {ratio}: overturned after several impacts [-] (M, Fig. 7)",
             0,
-            float((outcomes("one_sine", ratio, grid, TEN) >= 2).mean()),
+            float((pulse_outcomes("one_sine", ratio, grid, TEN) >= 2).mean()),
             0.0,
         )
     for shape in ("symmetric_ricker", "antisymmetric_ricker"):
@@ -227,7 +227,7 @@ def _several_impacts():
             f"{shape}, w_p/p 2: whether any amplitude overturns after several impacts "
             "[-] (M, Fig. 7)",
             1,
-            float((outcomes(shape, 2.0, grid, TEN) >= 2).any()),
+            float((pulse_outcomes(shape, 2.0, grid, TEN) >= 2).any()),
             0.0,
         )
 
@@ -272,7 +272,7 @@ def lowest_overturning(shape: str, frequency: float, expected: float) -> tuple[f
             np.linspace(0.99 * expected, 1.01 * expected, 81)[1:],
         ]
     )
-    found = outcomes(shape, frequency, grid, TEN)
+    found = pulse_outcomes(shape, frequency, grid, TEN)
     fallen = np.flatnonzero((found >= 0) & (found <= MOST))
     return (float(grid[fallen[0]]), int(found[fallen[0]])) if len(fallen) else (math.nan, -1)
 

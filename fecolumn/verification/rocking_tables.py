@@ -23,7 +23,11 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.case.model_sections import LAWS
-from fecolumn.engines.rocking.overturning import half_sine_overturning, half_sine_phase, outcomes
+from fecolumn.engines.rocking.overturning import (
+    half_sine_overturning,
+    half_sine_phase,
+    pulse_outcomes,
+)
 from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.verification.result import CaseRows, Row
 
@@ -116,7 +120,7 @@ def lost_bands(shape: str, rows) -> tuple[int, int]:
         ]
         if bands:
             ends = np.array([(low * (1 + _WITHIN), high * (1 - _WITHIN)) for low, high, _ in bands])
-            found = outcomes(shape, ratio, ends.ravel(), _TEN).reshape(ends.shape)
+            found = pulse_outcomes(shape, ratio, ends.ravel(), _TEN).reshape(ends.shape)
             wanted = np.array([[impacts] for _, _, impacts in bands])
             missed += int(((found < 0) | (wanted == 0) & (found != 0)).any(axis=1).sum())
             count += len(bands)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.case.sections import Integration
+from fecolumn.case.sections import GRAVITY, Integration
 from fecolumn.engines.dynamics.energy import TERMS, Ledger
 from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.engines.dynamics.stepper import Stepper
@@ -135,23 +135,37 @@ class RigidRocking:
     """
 
     def __init__(self, system):
-        column, height = system.body, system.body.center[2]
+        column = system.body
         radius = np.linalg.norm(system.interface.reference[:, :2], axis=1).max()
+        turn = np.cross([0.0, 1.0, 0.0], column.X - column.center)
+        about_center = float(column.dot(turn, column.momentum(turn)))
+        self._of(column.total_mass, system.weight, radius, column.center[2], about_center)
+
+    @classmethod
+    def of_body(cls, body) -> RigidRocking:
+        """Of the nodes of a `BodyModel`'s foot, along x."""
+        made, arms = cls.__new__(cls), body.arms[body.surfaces["foot"].nodes]
+        made._of(
+            body.mass,
+            body.mass * GRAVITY,
+            arms[:, 0].max(),
+            -arms[:, 2].min(),
+            float(body.inertia[1, 1]),
+        )
+        return made
+
+    def _of(self, mass, weight, radius, height, about_center) -> None:
+        """From mass, weight, the distance of the edge from the axis, the height of the centre of
+        mass and the inertia about it.
+        """
         self.slenderness = float(np.arctan2(radius, height))
         self.diagonal = float(np.hypot(radius, height))
-        turn = np.cross([0.0, 1.0, 0.0], column.X - column.center)
-        about_center = column.dot(turn, column.momentum(turn))
-        self.inertia = float(about_center + column.total_mass * self.diagonal**2)
-        self.p = float(np.sqrt(system.weight * self.diagonal / self.inertia))
+        self.inertia = float(about_center + mass * self.diagonal**2)
+        self.p = float(np.sqrt(weight * self.diagonal / self.inertia))
         self.restitution = (
-            1
-            - 2
-            * column.total_mass
-            * self.diagonal**2
-            * np.sin(self.slenderness) ** 2
-            / self.inertia
+            1 - 2 * mass * self.diagonal**2 * np.sin(self.slenderness) ** 2 / self.inertia
         )
-        self.moment = float(system.weight * self.diagonal)
+        self.moment = float(weight * self.diagonal)
 
     def energy(self, tilt: float) -> float:
         """Gravity energy of a tilt [rad] above standing [J]."""

@@ -12,13 +12,16 @@ from benchmarks.shake_table.campaign import (
     BAND_HZ,
     METRES,
     SAMPLING_HZ,
+    TableView,
     channels,
     filtered,
     read_campaign,
     table_motion,
 )
+from benchmarks.shake_table.probability import brier, reliability, told_by
 from benchmarks.shake_table.rock import Stone, at_rest, body_of, read_scan, solid
 from benchmarks.shake_table.scores import chance, confusion
+from benchmarks.shake_table.uncertain import BOUNDS, settings
 from fecolumn.case.sections import GRAVITY
 
 LENGTH, WIDTH, HEIGHT = 0.16, 0.4, 0.8
@@ -82,7 +85,8 @@ def table_file(path, times, frequency):
         times * SLENDERNESS * np.where((phase > 0) & (phase < 1), np.sin(2 * np.pi * phase), 0.0)
     )
     other = np.zeros_like(time)
-    rows = np.column_stack([time, 0.015 - acceleration, time, other, time, other, time, other])
+    moved = np.cumsum(np.cumsum(acceleration)) * GRAVITY / SAMPLING_HZ**2 / METRES
+    rows = np.column_stack([time, 0.015 - acceleration, time, other, time, moved, time, other])
     np.savetxt(
         path,
         rows,
@@ -146,7 +150,7 @@ def test_box_overturns_where_theory_says_and_the_benchmark_scores_it(copy, tmp_p
         again[2]["peak_tilt_deg"] == "77.0"
         and again[1]["peak_tilt_deg"] == rows[1]["peak_tilt_deg"]
     )
-    with pytest.raises(SystemExit, match="holds tests with friction 1.0"):
+    with pytest.raises(SystemExit, match="holds results with friction 1.0"):
         main([str(copy), "-o", str(tmp_path), "-j", "1", "--mu", "0.5"])
 
 
@@ -225,3 +229,75 @@ def test_scores_count_what_was_told():
         chance(right, told, right) == pytest.approx(2 / 2**6) and chance(right, right, right) == 1
     )
     assert chosen("3,5-7", [1, 5, 6, 9]) == {5, 6}
+
+
+def test_displacement_tells_the_same_long_period_motion_as_the_accelerometer(copy):
+    """The table of the made campaign has no faults: both sensors say the same below a crossover."""
+    file = read_campaign(copy).motions / "Test002.txt"
+    alone, both = table_motion(file), table_motion(file, TableView(crossover=1.0))
+    # the filters ring at the ends of so short a file
+    off = np.abs(both - alone)[800:-800].max() / np.abs(alone).max()
+    assert 0 < off < 0.04
+    time = np.arange(0, 100, 1 / SAMPLING_HZ)
+    middle = slice(len(time) // 3, -len(time) // 3)
+    sharp = np.sin(2 * np.pi * 2 * BAND_HZ[1] * time)
+    kept, lost = (np.abs(filtered(sharp, upper)[middle]).max() for upper in (100.0, BAND_HZ[1]))
+    assert kept > 0.95 and lost < 0.05
+
+
+def test_rounded_edges_move_the_pivot_inwards_and_leave_the_mass(tmp_path):
+    scan = box_file(tmp_path / "box.obj")
+    sharp, round_ = body_of(scan, Stone()), body_of(scan, Stone(rounding=0.005))
+    foot = round_.arms[np.isclose(round_.arms[:, 2], -HEIGHT / 2, atol=1e-6)]
+    assert len(foot) == 4
+    assert np.abs(foot[:, 0]) == pytest.approx(LENGTH / 2 - 0.005, rel=1e-5)
+    assert round_.mass == sharp.mass and round_.inertia == pytest.approx(sharp.inertia)
+    with pytest.raises(ValueError, match="is too large for the scan"):
+        body_of(scan, Stone(rounding=1.0))
+
+
+def test_draws_lie_within_their_bounds_and_are_the_same_for_a_seed():
+    drawn = settings(Stone(mass=300.0), 16, 1)
+    for name in ("friction", "restitution", "youngs", "softer", "rounding"):
+        low, high, _ = BOUNDS[name]
+        values = [getattr(one.stone, name) for one in drawn]
+        assert low <= min(values) < low + (high - low) / 3 and max(values) <= high
+    assert all(one.stone.mass == 300.0 for one in drawn) and drawn == settings(
+        Stone(mass=300.0), 16, 1
+    )
+
+
+def test_brier_and_reliability_count_what_was_told():
+    measured, told = [1, 1, 0, 0], [1.0, 0.5, 0.5, 0.0]
+    score = brier(measured, told)
+    assert score.score == pytest.approx(0.125) and score.skill == pytest.approx(0.5)
+    classes = reliability(measured, told)
+    assert [(one.n, one.told, one.share) for one in classes] == [
+        (1, 0, 0),
+        (2, 0.5, 0.5),
+        (1, 1, 1),
+    ]
+    row = dict(pga_g=0.1, pgv_pga_s=0.1, measured=1, failed="")
+    draws = {
+        0: [row | dict(test=3, computed=1)],
+        1: [row | dict(test=3, computed=0), row | dict(test=4, computed=None, failed="step")],
+    }
+    assert [(one["test"], one["draws"], one["probability"]) for one in told_by(draws)] == [
+        (3, 2, 0.5)
+    ]
+
+
+def test_an_ensemble_of_draws_tells_probabilities_and_goes_on(copy, tmp_path, capsys):
+    command = [str(copy), "-o", str(tmp_path), "-j", "1", "--draws", "2", "--tests", "1,2"]
+    main(command)
+    rows = {int(row["test"]): row for row in csv.DictReader((tmp_path / "tests.csv").open())}
+    # no draw of the rest moves these two: far below uplift, far above what overturns
+    assert {n: float(row["probability"]) for n, row in rows.items()} == {1: 0.0, 2: 1.0}
+    assert "| share of 2 draws | 2 | 0.000 | 1.000 |" in capsys.readouterr().out
+    assert (tmp_path / "reliability.png").stat().st_size > 10_000
+    kept = tmp_path / "draws" / "001" / "002.json"
+    kept.write_text(json.dumps(json.loads(kept.read_text()) | {"computed": 0}))
+    main(command)
+    assert "| 0.4 to 0.6 | 1 |" in capsys.readouterr().out
+    with pytest.raises(SystemExit, match="holds results with draws 2"):
+        main([*command[:-4], "--draws", "3", "--tests", "1,2"])

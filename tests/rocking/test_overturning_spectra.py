@@ -11,8 +11,8 @@ from fecolumn.engines.rocking.overturning import (
     critical_tilt_rate,
     half_sine_overturning,
     linear_overturning,
-    outcomes,
     overturning_bands,
+    pulse_outcomes,
     slenderness_factor,
 )
 from fecolumn.engines.rocking.swing import rock_all, rock_one, row_of_block
@@ -28,8 +28,8 @@ def test_one_sine_has_a_safe_gap_between_overturning_with_one_impact_and_without
     )
     # a step to each side of every boundary
     edges = np.array([bands[0].low, bands[0].high, bands[1].low])
-    assert outcomes("one_sine", 6.0, edges * (1 + 1e-5), TEN).tolist() == [1, -1, 0]
-    assert outcomes("one_sine", 6.0, edges * (1 - 1e-5), TEN).tolist() == [-1, 1, -1]
+    assert pulse_outcomes("one_sine", 6.0, edges * (1 + 1e-5), TEN).tolist() == [1, -1, 0]
+    assert pulse_outcomes("one_sine", 6.0, edges * (1 - 1e-5), TEN).tolist() == [-1, 1, -1]
 
 
 # Computed with scipy's solve_ivp, events and rtol 1e-10: islands of the one-cosine pulse, whose
@@ -48,7 +48,7 @@ def test_one_sine_has_a_safe_gap_between_overturning_with_one_impact_and_without
 def test_islands_of_the_one_cosine_lie_where_an_adaptive_solver_finds_them(
     frequency, safe, falls, impacts
 ):
-    assert outcomes("one_cosine", frequency, [safe, falls], TEN).tolist() == [-1, impacts]
+    assert pulse_outcomes("one_cosine", frequency, [safe, falls], TEN).tolist() == [-1, impacts]
 
 
 @pytest.mark.parametrize("shape", ["symmetric_ricker", "antisymmetric_ricker"])

@@ -43,7 +43,7 @@ class Band:
     impacts: int
 
 
-def outcomes(
+def pulse_outcomes(
     shape: str, frequency: float, amplitudes, slenderness: float, restitution: float | None = None
 ) -> np.ndarray:
     """Impacts before the block overturns, -1 where it stays (n,), for amplitudes a_p/(g tan alpha)
@@ -99,12 +99,12 @@ def overturning_bands(
         None for a rectangular block's.
     """
     grid = np.geomspace(lowest, highest, points)
-    found = outcomes(shape, frequency, grid, slenderness, restitution)
+    found = pulse_outcomes(shape, frequency, grid, slenderness, restitution)
     edges = np.flatnonzero(found[1:] != found[:-1])
     low, high, left, right = grid[edges], grid[edges + 1], found[edges], found[edges + 1]
     for _ in range(_ROUNDS if len(edges) else 0):
         middle = (low + high) / 2
-        now = outcomes(shape, frequency, middle, slenderness, restitution)
+        now = pulse_outcomes(shape, frequency, middle, slenderness, restitution)
         below = now == left
         low, high, right = (
             np.where(below, middle, low),

@@ -1,0 +1,75 @@
+"""When are drums safer than a monolith? P(overturn) and residual shift of columns of 1 to 8 drums,
+a trilith and a frame in near-fault motions, rigid and elastic, with exact friction.
+
+    ./containers/run python -m benchmarks.fragility [STRUCTURE ...] [-n MOTIONS] [-j N] [--dt S]
+        [-o DIR] [--report]
+
+Each structure is a study of its own in DIR; the same command goes on where it was stopped. A motion
+depends on its number alone, and all structures have the same ones. Writes outcomes.csv and
+fragility.png (and .pdf) and prints two tables. Structures by name in quotes, such as "4 drums";
+none means all. Elastic ones take ten times as long as rigid ones: they run in the first
+--elastic motions only.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from benchmarks.fragility.figure import draw
+from benchmarks.fragility.report import markdown
+from benchmarks.fragility.run import COLUMNS, rows_of
+from benchmarks.fragility.structures import ELASTIC, NAMES
+from fecolumn.foundation.atomic import write_csv
+
+
+def main(arguments=None) -> int:
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.fragility",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("structures", nargs="*", metavar="STRUCTURE", help=", ".join(NAMES))
+    parser.add_argument(
+        "-n", type=int, default=1000, metavar="MOTIONS", help="(default: %(default)s)"
+    )
+    parser.add_argument(
+        "--elastic",
+        type=int,
+        default=200,
+        metavar="MOTIONS",
+        help="of elastic structures, at most (default: %(default)s)",
+    )
+    parser.add_argument(
+        "-j", "--jobs", type=int, default=os.cpu_count() or 1, help="analyses at a time"
+    )
+    parser.add_argument(
+        "--dt", type=float, default=2e-3, help="time step [s] (default: %(default)s)"
+    )
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", type=Path, default=Path("results/fragility")
+    )
+    parser.add_argument("--report", action="store_true", help="compute nothing, tell what is done")
+    args = parser.parse_args(arguments)
+    if unknown := set(args.structures) - set(NAMES):
+        parser.error(f"{', '.join(sorted(unknown))}: must be of {', '.join(NAMES)}")
+    if min(args.n, args.elastic, args.jobs) < 1:
+        parser.error("-n, --elastic and -j: must be at least 1")
+    found = {}
+    for name in [name for name in NAMES if name in (args.structures or NAMES)]:
+        print(name, file=sys.stderr, flush=True)
+        most = min(args.n, args.elastic) if name.startswith(ELASTIC) else args.n
+        found[name] = rows_of(
+            name, args.output, args.n, most, args.dt, 0 if args.report else args.jobs
+        )
+    rows = [[row[key] for key in COLUMNS] for rows in found.values() for row in rows]
+    write_csv(args.output / "outcomes.csv", [COLUMNS, *rows])
+    print(markdown(found))
+    print("\nwrote", *draw(found, args.output / "fragility"))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,105 @@
+"""Figure of `benchmarks.fragility`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from benchmarks.fragility.motions import PGV
+from benchmarks.fragility.report import PERIODS, half_lost, lost, surface
+from benchmarks.fragility.structures import COLUMN, DRUMS, ELASTIC, RIGID
+from fecolumn.pictures.figures.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PAGE_WIDTH_IN,
+    SKY,
+    VERMILION,
+    new_figure,
+    save,
+    styled,
+)
+from fecolumn.statistics.ecdf import proportion_interval
+from fecolumn.study.store import FAILED
+
+_COLOURS = (BLACK, BLUE, SKY, GREEN, ORANGE, VERMILION, GREY, GREY)
+#: Edges of the classes of PGV in which shares are drawn [m/s]
+_CLASSES = np.geomspace(0.15, 2.5, 7)
+
+
+def draw(found: dict[str, list[dict]], path):
+    """Panels: share lost over PGV; PGV that loses half over the number of drums, by pulse period;
+    residual shift over PGV. Rows of `run.COLUMNS` by structure. PNG and PDF.
+    """
+    with styled():
+        figure = new_figure(PAGE_WIDTH_IN, 2.8)
+        left, middle, right = figure.subplots(1, 3)
+        for name, rows in found.items():
+            told = [row for row in rows if row["outcome"] != FAILED]
+            if not told:
+                continue
+            kind = name.removeprefix(ELASTIC)
+            style = dict(color=_COLOURS[RIGID.index(kind)], linestyle="--" if kind != name else "-")
+            _shares(left, told, name, style)
+            _shifts(right, told, name, style)
+        _halves(middle, found)
+        left.set(xscale="log", xlabel="PGV [m/s]", ylabel="P(lost) [-]", ylim=(-0.03, 1.03))
+        left.legend(fontsize=5)
+        right.set(
+            xscale="log",
+            yscale="log",
+            xlabel="PGV [m/s]",
+            ylabel="median residual shift of those that stand [m]",
+        )
+        return save(figure, path)
+
+
+def _classes(rows):
+    pgv = np.array([row["pgv_m_s"] for row in rows])
+    for low, high in zip(_CLASSES, _CLASSES[1:]):
+        within = [rows[n] for n in np.flatnonzero((pgv >= low) & (pgv < high))]
+        if within:
+            yield float(np.sqrt(low * high)), within
+
+
+def _shares(axes, rows, name: str, style: dict) -> None:
+    points = []
+    for at, within in _classes(rows):
+        number = sum(map(lost, within))
+        points.append((at, number / len(within), *proportion_interval(number, len(within))))
+    at, share, low, high = np.array(points).T
+    axes.errorbar(at, share, np.abs([share - low, high - share]), capsize=1.5, label=name, **style)
+
+
+def _shifts(axes, rows, name: str, style: dict) -> None:
+    points = [
+        (at, np.median(shifts))
+        for at, within in _classes(rows)
+        if (shifts := [row["shift_m"] for row in within if not lost(row)])
+    ]
+    if points:
+        axes.plot(*np.array(points).T, marker="o", markersize=2.5, label=name, **style)
+
+
+def _halves(axes, found) -> None:
+    columns = [
+        (drums, found.get("monolith" if drums == 1 else f"{drums} drums")) for drums in DRUMS
+    ]
+    for period, colour in zip(PERIODS, (BLUE, ORANGE, VERMILION)):
+        points = []
+        for drums, rows in columns:
+            told = [row for row in rows or [] if row["outcome"] != FAILED]
+            if told and (fit := surface(told)) is not None:
+                points.append((drums, float(half_lost(fit, period))))
+        if points:
+            axes.plot(
+                *np.array(points).T, marker="o", markersize=3, color=colour, label=f"{period:g} s"
+            )
+    axes.set(
+        xlabel=f"drums of a column of {COLUMN[1]:g} m",
+        ylabel="PGV that loses half [m/s]",
+        ylim=(0, PGV[1]),
+    )
+    if axes.lines:
+        axes.legend(title="pulse period")

@@ -1,0 +1,97 @@
+"""The benchmark of fragilities: motions, structures, and what it tells of rows that are known."""
+
+import numpy as np
+import pytest
+
+from benchmarks.fragility.__main__ import main
+from benchmarks.fragility.motions import PGV, drawn_motion, ensemble_file, parameters, peak_velocity
+from benchmarks.fragility.report import beside, half_lost, markdown, pairs_of, surface
+from benchmarks.fragility.structures import COLUMN, NAMES, case_of
+from fecolumn.study.store import FAILED
+
+
+def test_a_motion_depends_on_its_number_alone_and_has_its_drawn_peak_velocity(tmp_path):
+    motion, drawn = drawn_motion(3)
+    again = parameters(ensemble_file(tmp_path, 3))
+    assert again["pgv_m_s"][2] == pytest.approx(drawn["pgv_m_s"])
+    assert peak_velocity(motion) == pytest.approx(drawn["pgv_m_s"])
+    assert PGV[0] <= drawn["pgv_m_s"] <= PGV[1]
+    other, _ = drawn_motion(3, seed=2)
+    assert len(other.acceleration) != len(motion.acceleration)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_structures_have_their_bodies_and_one_height(name):
+    case = case_of(name, dict(integration=dict(duration_s=1.0)))
+    assert case.integration.engine == ("reduced" if name.startswith("elastic") else "rigid")
+    if "frame" in name or "trilith" in name:
+        assert set(case.bodies) == {"column", "slab"}
+        assert case.bodies["column"].copies_m and case.bodies["column"].height_m == COLUMN[1]
+        return
+    drum = case.bodies["drum"]
+    assert drum.height_m * len(drum.copies_m) == pytest.approx(COLUMN[1])
+    assert drum.outer_diameter_m == COLUMN[0]
+
+
+def rows_of(structure, half, count=400, seed=1):
+    """Rows whose P(lost) is Phi(3 ln(PGV / half)), half of it at a pulse of 1 s, less at longer."""
+    random = np.random.default_rng(seed)
+    rows = []
+    for number in range(1, count + 1):
+        pgv, period = np.exp(random.uniform(np.log(0.15), np.log(2.5))), random.uniform(0.5, 4.0)
+        lost = random.normal() < 3 * np.log(pgv / (half * period**-0.5))
+        rows.append(
+            dict(
+                structure=structure,
+                motion=number,
+                pgv_m_s=pgv,
+                pulse_period_s=period,
+                outcome="overturned" if lost else "still rocking",
+                shift_m=0.01 * pgv,
+                cpu_s=1.0,
+            )
+        )
+    return rows
+
+
+def test_the_surface_finds_the_pgv_that_loses_half():
+    fit = surface(rows_of("monolith", 0.8))
+    assert half_lost(fit, [1.0, 2.0]) == pytest.approx([0.8, 0.8 / np.sqrt(2)], rel=0.12)
+    assert surface([row | dict(outcome="at rest") for row in rows_of("monolith", 0.8)]) is None
+    assert np.isnan(half_lost(np.array([0.0, -1.0, 0.0, 0.0]), 1.0))
+
+
+def test_pairs_are_counted_in_the_same_motions():
+    one = [dict(motion=n, outcome=word) for n, word in enumerate(["overturned"] * 6 + ["at rest"])]
+    other = [dict(motion=n, outcome="at rest") for n in range(6)]
+    other += [dict(motion=6, outcome=FAILED)]
+    assert beside(one, other) == [6, 6, 0, f"{2 / 2**6:.2g}"]
+    assert pairs_of(["monolith", "2 drums", "trilith", "elastic trilith"]) == [
+        ("monolith", "2 drums"),
+        ("trilith", "elastic trilith"),
+    ]
+
+
+def test_tables_tell_shares_shifts_and_failures():
+    rows = rows_of("monolith", 0.8)
+    rows[0]["outcome"] = FAILED
+    said = markdown({"monolith": rows, "2 drums": rows_of("2 drums", 1.2)})
+    lost = sum(row["outcome"] == "overturned" for row in rows[1:])
+    assert f"| monolith | 399 | {lost / 399:.3f} |" in said and "| 1 | 1.00 |" in said
+    assert "| monolith and 2 drums | 399 |" in said
+
+
+def test_two_motions_of_a_monolith_are_kept_and_told(tmp_path, capsys):
+    """Motions of few seconds; the command tells them again without computing."""
+    command = ["monolith", "-n", "2", "-j", "1", "-o", str(tmp_path)]
+    assert main([*command, "--report"]) == 0
+    assert "| monolith | 0 |" in capsys.readouterr().out
+    assert main(command) == 0
+    said = capsys.readouterr().out
+    assert "| monolith | 2 | 0.000 |" in said
+    assert main([*command, "--report"]) == 0
+    assert capsys.readouterr().out == said
+    assert (tmp_path / "fragility.png").stat().st_size > 10_000
+    assert not list(tmp_path.glob("**/history.h5"))
+    with pytest.raises(SystemExit):
+        main(["5 drums"])
