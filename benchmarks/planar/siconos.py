@@ -21,6 +21,7 @@ import numpy as np
 import siconos.kernel as sk
 import siconos.numerics as sn
 
+
 def library(shapes, folder) -> Path:
     """Relations of shapes (nc, 9), compiled; the path without its ending, as Siconos wants it."""
     source = Path(folder) / "corners.c"

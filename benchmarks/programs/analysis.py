@@ -60,7 +60,9 @@ def child(script: str, python, bodies: RigidBodies, ground, dt: float, settings,
             place=start[0],
             turn=start[1],
             friction=bodies.friction,
-            **{key: getattr(bodies, key) for key in ("kinds", "sizes", "mass", "inertia", "middle")},
+            **{
+                key: getattr(bodies, key) for key in ("kinds", "sizes", "mass", "inertia", "middle")
+            },
         )
         command = [str(python), "-P", str(Path(__file__).with_name(script)), given, written]
         ended = run_child(list(map(str, command)), Path(folder), _CPU_LIMIT_S)
