@@ -5,7 +5,8 @@ Moreau-Jean.
 
 Lagrangian systems (x, z, angle), Newton's law with e = 0 and Coulomb's friction, NSGS in the plane,
 Newton's loop about it; theta, tolerances and sweeps come with the job. A corner and a face that it
-may touch are a relation in C, compiled into FOLDER: relations of this kind in Python crash this package.
+may touch are a relation in C, compiled into FOLDER: relations of this kind in Python crash this
+package.
 A corner acts once its gap is predicted to close within half a step, Siconos's own rule; what it
 then sinks in, stays.
 """

@@ -2,10 +2,10 @@
 and of structures that should stand still.
 
 Let go from 0.4 of the critical tilt: how far the top is off until the third impact, over its
-largest way, and what contact feeds in. Standing: the ground shakes by half of what lifts them, a sine of
-3 Hz for two seconds: how far the top goes. Cost: processor time of a second of both. The best
-setting errs least; of equal ones the cheapest. Of the tube there is no exact motion: it takes what
-is best for the others.
+largest way, and what contact feeds in. Standing: the ground shakes by half of what lifts them, a
+sine of 3 Hz for two seconds: how far the top goes. Cost: processor time of a second of both. The
+best setting errs least; of equal ones the cheapest. Of the tube there is no exact motion: it takes
+what is best for the others.
 """
 
 from __future__ import annotations
