@@ -6,7 +6,7 @@ of the Lick ensemble, and how far the programs' distributions are apart.
 
 Structures: tube (three dimensions), block, drums and trilith (in their plane). Programs: housner
 (closed form of the block), judge (the planar program of this repository, not of the tube), mujoco
-and siconos at their best settings, mujoco-defaults, siconos-defaults, and fecolumn's engines rigid,
+and siconos (siconos-tube) at their best settings, mujoco-defaults, siconos-defaults, and fecolumn's engines rigid,
 reduced and full; full takes hours and runs only where it is named. A program that is not installed
 is said and left out: `python -m benchmarks.peers --install` installs them.
 

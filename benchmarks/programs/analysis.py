@@ -92,13 +92,13 @@ def by_mujoco(name: str, ground, dt: float, settings, start=None) -> Course:
     return child("mujoco.py", python, bodies, ground, dt, settings, begin)
 
 
-def by_siconos(name: str, ground, dt: float, settings, place=None) -> Course:
-    """By Siconos: the tube in three dimensions, other structures in their plane; place: as of
-    `planar.advance` at the start.
+def by_siconos(name: str, ground, dt: float, settings, place=None, start=None) -> Course:
+    """By Siconos: the tube in three dimensions, from `start`; other structures in their plane, from
+    `place` as of `planar.advance`.
     """
     if name == "tube":
         bodies = rigid_bodies(name)
-        begin = standing(bodies)
+        begin = start or standing(bodies)
         return child("siconos.py", SYSTEM_PYTHON, bodies, ground, dt, settings, begin)
     structure, every = planar_of(name).structure, every_of(dt)
     found = planar_siconos.moved(
@@ -162,7 +162,15 @@ def analyse(name: str, case, folder, *, comm, file, quiet) -> dict:
     return write_sealed(folder, said | found | dict(residual_slide_m=0.0))
 
 
-housner, judge, mujoco, siconos, mujoco_defaults, siconos_defaults = (
+housner, judge, mujoco, siconos, siconos_tube, mujoco_defaults, siconos_defaults = (
     functools.partial(analyse, name)
-    for name in ("housner", "judge", "mujoco", "siconos", "mujoco-defaults", "siconos-defaults")
+    for name in (
+        "housner",
+        "judge",
+        "mujoco",
+        "siconos",
+        "siconos-tube",
+        "mujoco-defaults",
+        "siconos-defaults",
+    )
 )

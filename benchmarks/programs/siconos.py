@@ -9,6 +9,7 @@ offers it, and is part of the cost of a step. Settings come with the job, see `p
 """
 
 import json
+import math
 import os
 import sys
 import time
@@ -18,45 +19,45 @@ import siconos.kernel as sk
 import siconos.numerics as sn
 
 
-def frame_of(q):
-    """Matrix (3, 3) of a unit quaternion q[3:7]."""
-    w, x, y, z = q[3:7]
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
 class RimPoint(sk.NewtonEuler3DR):
-    """The point a quarter of the rim times `turns` on from the lowest one; centre: (3,) of the rim
-    from the centre of mass.
+    """The point a quarter of the rim times `turns` on from the lowest one; below: height of the
+    centre of mass above the rim's plane [m]. Plain numbers: arrays of three cost more than sums.
     """
 
-    def __init__(self, radius, centre, turns):
+    def __init__(self, radius, below, turns):
         super().__init__()
-        self.radius, self.centre = radius, centre
-        self.quarter = (np.cos(turns * np.pi / 2), np.sin(turns * np.pi / 2))
+        self.radius, self.below = radius, below
+        self.quarter = ((1, 0), (0, 1), (-1, 0), (0, -1))[turns]
 
     def computeh(self, time, q, y):
         """Gap y, place and normal of the contact, in place: setpc1 and setnc of this package
         crash.
         """
-        frame = frame_of(q)
-        # downwards along the foot, in the body's frame; of an upright column any direction
-        down = -frame[2, :2]
-        length = np.hypot(*down)
-        down = down / length if length > 1e-12 else np.array([1.0, 0.0])
-        c, s = self.quarter
-        arm = self.centre.copy()
-        arm[:2] += self.radius * np.array([c * down[0] - s * down[1], s * down[0] + c * down[1]])
-        here = np.asarray(q)[:3] + frame @ arm
-        y[0] = here[2]
-        self.pc1()[:] = here
-        self.pc2()[:] = [here[0], here[1], 0.0]
-        self.nc()[:] = [0.0, 0.0, 1.0]
+        x, y0, z0, w, a, b, c = q.tolist()
+        # third row of the body's frame: the foot falls most along minus its first two
+        up_x, up_y = 2 * (a * c - w * b), 2 * (b * c + w * a)
+        length = math.hypot(up_x, up_y)
+        down_x, down_y = (-up_x / length, -up_y / length) if length > 1e-12 else (1.0, 0.0)
+        cosine, sine = self.quarter
+        arm_x = self.radius * (cosine * down_x - sine * down_y)
+        arm_y = self.radius * (sine * down_x + cosine * down_y)
+        arm_z = -self.below
+        x += (
+            (1 - 2 * (b * b + c * c)) * arm_x
+            + 2 * (a * b - w * c) * arm_y
+            + 2 * (a * c + w * b) * arm_z
+        )
+        y0 += (
+            2 * (a * b + w * c) * arm_x
+            + (1 - 2 * (a * a + c * c)) * arm_y
+            + 2 * (b * c - w * a) * arm_z
+        )
+        z0 += up_x * arm_x + up_y * arm_y + (1 - 2 * (a * a + b * b)) * arm_z
+        y[0] = z0
+        for point, height in ((self.pc1(), z0), (self.pc2(), 0.0)):
+            point[0], point[1], point[2] = x, y0, height
+        normal = self.nc()
+        normal[0], normal[1], normal[2] = 0.0, 0.0, 1.0
 
 
 def main(job_file, found_file):
@@ -75,7 +76,7 @@ def main(job_file, found_file):
     system.insertDynamicalSystem(body)
     law, kept = sk.NewtonImpactFrictionNSL(0.0, 0.0, float(job["friction"]), 3), []
     for turns in range(4):
-        point = RimPoint(radius, job["middle"][0] - [0.0, 0.0, half], turns)
+        point = RimPoint(float(radius), float(half - job["middle"][0][2]), turns)
         contact = sk.Interaction(law, point)
         system.link(contact, body)
         kept.append((point, contact))

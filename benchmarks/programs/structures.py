@@ -32,8 +32,8 @@ _REST_OF_TUBE = 0.5
 SPECIMEN = Path(__file__).parents[1] / "coarse_specimen.toml"
 #: Elements across a face of elastic bodies, Young's modulus [Pa] of granite
 _ACROSS, _GRANITE = 4, 50e9
-#: Sampling of the motions of the plane [s]
-_SAMPLED = 0.01
+#: Sampling of the motions [s], joined by lines whatever the step: of the plane, of the tube
+_SAMPLED, _SAMPLED_TUBE = 0.01, 2e-3
 
 
 @dataclass(frozen=True)
@@ -130,11 +130,11 @@ def motion_table(name: str, folder: Path) -> tuple[dict, str]:
     """
     rest = dict(free_vibration_s=rest_of(name))
     if name == "tube":
-        return rest, "lick:"
+        return rest | dict(resample_s=_SAMPLED_TUBE), "lick:"
     file = folder / f"{name}.h5"
     if not file.exists():
         _write_motions(planar_of(name), name, file)
-    return rest, f"{file}#"
+    return rest | dict(resample_s=_SAMPLED), f"{file}#"
 
 
 def _write_motions(shaken: Shaken, name: str, file: Path) -> None:
