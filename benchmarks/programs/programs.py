@@ -86,8 +86,8 @@ PROGRAMS = (
         1e-4,
         "elliptic cones, Newton to 1e-12, impratio 100, solref 2 dt, solimp 0.99 0.9999, "
         "implicitfast",
-        "the stiffest contact that its documentation calls stable; a longer solref feeds energy in, "
-        "impratio 1000 costs more and creeps no less, CG throws drums about",
+        "the stiffest contact that its documentation calls stable; a longer solref feeds energy "
+        "in, impratio 1000 costs more and creeps no less, CG throws drums about",
         mujoco_settings(1e-4),
     ),
     Program(
@@ -112,8 +112,8 @@ PROGRAMS = (
         "Siconos, best of the tube",
         1e-4,
         "in space; Moreau-Jean, theta 1/2, NSGS to 1e-6",
-        "at 5e-4 s rolling feeds in five times as much; NSGS to 1e-10 takes 2.5 times as long while "
-        "the tube stands, and it stands as still",
+        "at 5e-4 s rolling feeds in five times as much; NSGS to 1e-10 takes 2.5 times as long "
+        "while the tube stands, and it stands as still",
         dict(theta=0.5, tolerance=1e-6, sweeps=20000, newton=1e-9),
         structures=("tube",),
     ),
