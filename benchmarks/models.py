@@ -28,7 +28,12 @@ from fecolumn.study.run import complete_study
 
 STUDY = Path(__file__).with_name("models_beside.toml")
 ENGINE = "integration.engine"
-LABELS = NAMES | dict(wobbling="rolling column", full="full order", reduced="finite elements")
+LABELS = NAMES | dict(
+    housner="planar block",
+    wobbling="rolling column",
+    reduced="finite elements",
+    full="finite elements, full order",
+)
 HEAD = (
     "engine",
     "motions",

@@ -17,8 +17,8 @@ ones have meshes of their own. A structure has overturned once a body tilts by m
 or at the end by more than its critical tilt; fecolumn stops a single body at the point of no
 return. u_max is that of the top's middle. Energy fed in: largest rise of the kinetic energy and
 that of gravity (and strain) less the work of the ground, which friction and impacts can only take
-from, over the energy that overturns; its error: of our sum of that work, of fecolumn that of its
-balance.
+from, at rows of 5 ms, over the energy that overturns; its error: of our sum of that work, of
+fecolumn that of its balance.
 
 Prints two tables: results, and settings. Each analysis is a file of its own below DIR: what was
 stopped goes on with the same command. --trial prints what the peers' settings err by, by which the

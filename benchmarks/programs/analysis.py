@@ -73,7 +73,8 @@ def child(script: str, python, bodies: RigidBodies, ground, dt: float, settings,
         with np.load(written) as found:
             rows = {key: found[key] for key in ("place", "velocity", "turn", "spin")}
             cost = float(found["cpu_s"]), int(found["steps"]), int(found["unsolved"])
-    return Course(**rows, ground=ground[::every][: len(rows["place"])], **_named(cost))
+    ground = ground[::every][: len(rows["place"])]
+    return Course(**rows, ground=ground, row_s=every * dt, **_named(cost))
 
 
 def _named(cost) -> dict:
@@ -104,7 +105,8 @@ def by_siconos(name: str, ground, dt: float, settings, place=None, start=None) -
     found = planar_siconos.moved(
         structure, ground[:, 0], dt, place=place, every=every, settings=settings
     )
-    return _of_history(found, ground[::every], (found.cpu_s, found.steps, found.unsolved))
+    cost = found.cpu_s, found.steps, found.unsolved
+    return _of_history(found, ground[::every], every * dt, cost)
 
 
 def by_judge(name: str, ground, dt: float, settings=None, place=None) -> Course:
@@ -114,13 +116,14 @@ def by_judge(name: str, ground, dt: float, settings=None, place=None) -> Course:
     began = time.process_time()
     found = advance(structure, ground[:, 0], dt, place=place, every=every)
     cost = time.process_time() - began, every * (len(found.time) - 1), found.unsolved
-    return _of_history(found, ground[::every], cost)
+    return _of_history(found, ground[::every], every * dt, cost)
 
 
-def _of_history(found, ground, cost) -> Course:
+def _of_history(found, ground, row_s: float, cost) -> Course:
     moving = [number for number, body in enumerate(found.structure.bodies) if not body.fixed]
     rows = in_plane(found.place[:, moving], found.velocity[:, moving])
-    return Course(**rows, ground=ground[: len(found.place)], **_named(cost))
+    ground = ground[: len(found.place)]
+    return Course(**rows, ground=ground, row_s=row_s, **_named(cost))
 
 
 def by_housner(ground, dt: float) -> dict:

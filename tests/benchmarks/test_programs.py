@@ -73,7 +73,7 @@ def slid(share):
     zero = np.zeros_like(time)
     place = np.stack([way, zero + 0.6, zero], axis=-1)[:, None]
     velocity = np.stack([speed * np.sqrt(1 + share), zero, zero], axis=-1)[:, None]
-    return Course(**in_plane(place, velocity), ground=ground, cpu_s=1.0, steps=len(time))
+    return Course(**in_plane(place, velocity), ground=ground, row_s=1e-3, cpu_s=1.0, steps=1)
 
 
 def test_energy_fed_in_is_what_the_ground_has_not_done():
@@ -86,7 +86,11 @@ def test_energy_fed_in_is_what_the_ground_has_not_done():
 def test_top_and_tilt_of_a_block_that_leans():
     place = np.array([[[0.0, 0.6, -0.1]]])
     course = Course(
-        **in_plane(place, np.zeros_like(place)), ground=np.zeros((1, 3)), cpu_s=1.0, steps=1
+        **in_plane(place, np.zeros_like(place)),
+        ground=np.zeros((1, 3)),
+        row_s=1e-3,
+        cpu_s=1.0,
+        steps=1,
     )
     assert tilts(course)[0, 0] == pytest.approx(0.1)
     assert way_of_top(BLOCK, course)[0] == pytest.approx([0.6 * math.sin(0.1), 0.0])
