@@ -4,8 +4,11 @@ contact, curves of figures.
 
 from __future__ import annotations
 
+import contextlib
+import multiprocessing
 import tempfile
 import time
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
 # A short tube of few bricks: what is compiled does not depend on it
@@ -23,33 +26,49 @@ _STACK = dict(
 )
 _PODIUM = dict(podium=dict(column_mass_kg=1.0, floor_mass_kg=10.0, width_m=0.1, height_m=0.5))
 
+# Cases that share what they compile stand in one lot; each lot is run by a process of its own
+_LOTS = (
+    (("full", _TUBE), ("full", _STACK)),
+    (
+        ("reduced", _TUBE),
+        ("reduced", _STACK),
+        ("housner", _TUBE),
+        ("wobbling", _TUBE),
+        ("podium", _PODIUM),
+    ),
+)
+
 
 def prepare(say) -> None:
     """Run one step of every engine, which compiles what is missing on this machine; seconds where
-    nothing is.
+    nothing is. Two processes work side by side.
 
     Parameters
     ----------
     say
         told what is done and how long it took.
     """
-    from fecolumn.case.case import case_from_tables
     from fecolumn.pictures.figures.thinning import thinned
+
+    with contextlib.ExitStack() as stack:
+        began = []
+        for lot in _LOTS:
+            alone = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"))
+            process = stack.enter_context(alone)
+            began += [process.submit(_compile, *one) for one in lot]
+        for done in as_completed(began):
+            say(done.result())
+    thinned([0.0, 1.0], [[0.0], [1.0]], [1.0])
+
+
+def _compile(engine: str, tables: dict) -> str:
+    """Run one step of a case; what is told of it."""
+    from fecolumn.case.case import case_from_tables
     from fecolumn.simulation import run
 
-    for engine, tables in (
-        ("full", _TUBE),
-        ("full", _STACK),
-        ("reduced", _TUBE),
-        ("reduced", _STACK),
-        ("housner", _TUBE),
-        ("wobbling", _TUBE),
-        ("podium", _PODIUM),
-    ):
-        began, of = time.perf_counter(), " of structures" if tables is _STACK else ""
-        plan = dict(engine=engine, duration_s=1e-3, dt_s=1e-3)
-        case = case_from_tables(tables | dict(integration=plan), "fecolumn prepare")
-        with tempfile.TemporaryDirectory() as folder:
-            run(case, Path(folder) / engine, file="fecolumn prepare", quiet=True)
-        say(f"{engine} engine{of} ready after {time.perf_counter() - began:.0f} s")
-    thinned([0.0, 1.0], [[0.0], [1.0]], [1.0])
+    began, of = time.perf_counter(), " of structures" if "bodies" in tables else ""
+    plan = dict(engine=engine, duration_s=1e-3, dt_s=1e-3)
+    case = case_from_tables(tables | dict(integration=plan), "fecolumn prepare")
+    with tempfile.TemporaryDirectory() as folder:
+        run(case, Path(folder) / engine, file="fecolumn prepare", quiet=True)
+    return f"{engine} engine{of} ready after {time.perf_counter() - began:.0f} s"
