@@ -121,7 +121,7 @@ PROGRAMS = (
         "siconos-defaults",
         "Siconos, defaults",
         5e-4,
-        "Moreau-Jean, theta 0.50001, NSGS to 1e-4, 1000 sweeps at most",
+        "Moreau-Jean, theta 0.50001, NSGS to 1e-4, 1000 sweeps at most; points of the rim are ours",
         "of its driver siconos.io.mechanics_run",
         dict(theta=0.50001, tolerance=1e-4, sweeps=1000, newton=1e-10),
     ),
