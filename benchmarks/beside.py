@@ -41,6 +41,14 @@ def pair_cells(first: dict, second: dict) -> tuple[str, ...]:
     return f"{distance:.3f}", told(p), str(alone), str(other), told(flips)
 
 
+def cost(runs) -> str:
+    """Mean processor time [s] of some summaries, of those that know it: an analysis that went on
+    after a stop does not.
+    """
+    known = [run["cpu_s"] for run in runs if run.get("cpu_s") is not None]
+    return f"{np.mean(known):.2g}" if known else "-"
+
+
 def markdown(head, rows) -> str:
     """A table as text."""
     lines = [head, ["---"] * len(head), *rows]

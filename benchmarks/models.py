@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.beside import markdown, pair_cells
+from benchmarks.beside import cost, markdown, pair_cells
 from fecolumn.engines.ending import lost
 from fecolumn.foundation.toml_file import read_toml
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
@@ -72,7 +72,6 @@ def line(engine: str, runs: dict, reference: dict) -> tuple[str, ...]:
         same = [runs[one]["overturned"] == reference[one]["overturned"] for one in common]
         share = f"{100 * np.mean(same):.0f}" if same else "-"
         beside = (*pair_cells(runs, reference), share)
-    cost = np.mean([run.get("cpu_s") or run["wall_s"] for run in each])
     return (
         f"{LABELS[engine]} ({engine})",
         str(n),
@@ -81,7 +80,7 @@ def line(engine: str, runs: dict, reference: dict) -> tuple[str, ...]:
         f"{low:.1f} to {high:.1f}",
         f"{1e3 * median:.1f}" if np.isfinite(median) else "overturn",
         *beside,
-        f"{cost:.2g}",
+        cost(each),
     )
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.beside import markdown, pair_cells
+from benchmarks.beside import cost, markdown, pair_cells
 from benchmarks.programs.programs import BY_NAME, PROGRAMS, Program
 from benchmarks.programs.structures import rigid_bodies
 from fecolumn.engines.ending import lost
@@ -86,7 +86,7 @@ def cells(
             )
         ),
         str(sum(run.get("unsolved", 0) for run in each)),
-        f"{np.mean([run['cpu_s'] for run in each]):.2g}",
+        cost(each),
     )
 
 
