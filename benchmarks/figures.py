@@ -8,7 +8,6 @@ specimen's own mesh.
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import subprocess
 import sys
@@ -17,21 +16,18 @@ import time
 from pathlib import Path
 
 import numpy as np
-from mpi4py import MPI
 
 from benchmarks.checks import print_checks
 from benchmarks.profile import shares
-from fecolumn.case.short_form import short_form
+from fecolumn.case.case import case_from_tables
 from fecolumn.fem.modes import free_modes
-from fecolumn.fem.tied_body import column_body
 from fecolumn.foundation._mpi import launch_environment
 from fecolumn.foundation.toml_file import merge, read_toml
 from fecolumn.mesh.bending import free_free_bending_frequency
-from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.motions.load import load_motion
-from fecolumn.verification import rocking
-from fecolumn.verification.models import COARSE
-from fecolumn.verification.one_column import build_system
+from fecolumn.structures.bodies import drawing
+from fecolumn.structures.reduction import body_of
+from fecolumn.verification import models, rocking
 from fecolumn.verification.trial import RigidRocking, Trial
 
 SPECIMEN = Path(__file__).parent.parent / "meshes" / "stout.toml"
@@ -52,28 +48,32 @@ G = 9.80665
 
 def case_of(tables=None, coarse=True):
     """Case of the specimen, on the coarse mesh unless told otherwise."""
-    base = merge(read_toml(SPECIMEN), COARSE) if coarse else read_toml(SPECIMEN)
-    return short_form(merge(base, tables or {}), SPECIMEN)
+    base = merge(read_toml(SPECIMEN), models.COARSE) if coarse else read_toml(SPECIMEN)
+    return case_from_tables(merge(base, tables or {}), SPECIMEN)
 
 
 def system_of(tables=None):
     """The coarse specimen as a system."""
-    return build_system(case_of(tables), MPI.COMM_SELF)
+    return models.system_of(case_of(tables))
+
+
+def _body(case):
+    column = drawing(case, "column", SPECIMEN)
+    return body_of(column.shape, column.material)
 
 
 def modes():
     """Rigid modes of column, ties and cap; first bending of the tube against Timoshenko's beam."""
     case = case_of(coarse=False)
-    whole = free_modes(column_body(case, specimen_mesh(case), MPI.COMM_SELF), 7).frequencies
+    whole = free_modes(_body(case), 7).frequencies
     yield (
         "largest of six rigid modes [Hz]",
         0.0,
         np.abs(whole[:6]).max(),
         np.abs(whole[:6]).max() < 1e-2 < whole[6],
     )
-    tube = dataclasses.replace(case, cap=None)
-    found = free_modes(column_body(tube, specimen_mesh(tube), MPI.COMM_SELF), 7).frequencies[6]
-    column, steel = case.column, case.material
+    found = free_modes(_body(case.replace({"cap": None})), 7).frequencies[6]
+    column, steel = case.bodies["column"], case.materials["column"]
     outer = column.outer_diameter_m / 2
     exact = free_free_bending_frequency(
         outer,
@@ -168,7 +168,7 @@ def _shaken(tables, steps, coarse=True):
     """
     case = case_of(merge(SHAKING, tables), coarse)
     motion = load_motion(case.motion, case.integration.dt_s, "shaking")
-    run, path, impacts, spent, seen = Trial(build_system(case, MPI.COMM_SELF)), [], [], 0.0, 0.0
+    run, path, impacts, spent, seen = Trial(models.system_of(case)), [], [], 0.0, 0.0
     rigid = RigidRocking(run.system)
     main = 2e-4 * rigid.energy(rigid.slenderness)
     for step in range(steps):

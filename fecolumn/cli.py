@@ -292,13 +292,13 @@ def _analyse(case, folder, file, quiet, profile=False) -> int:
 
 def _tell_step_times(folder: Path) -> None:
     """Print what the time of the steps went to, and draw it."""
-    from fecolumn.engines.step_times import NAME, read_step_times, step_table
+    from fecolumn.engines.step_times import STEP_TIMES_FILE, read_step_times, step_table
     from fecolumn.pictures.figures.step_times_figure import step_times_figure
 
-    if not (folder / NAME).exists():
+    if not (folder / STEP_TIMES_FILE).exists():
         _refuse(f"{folder} was analysed without --profile: a new folder is timed", 0)
         return
-    rows = read_step_times(folder / NAME)
+    rows = read_step_times(folder / STEP_TIMES_FILE)
     print(f"\n{step_table(rows)}\n")
     print("drawn:", ", ".join(map(str, step_times_figure(rows, folder / "step_times"))))
 

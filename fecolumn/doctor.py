@@ -21,7 +21,7 @@ import sys
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-INSTALL = "run through ./containers/run, which installs it"
+_INSTALL = "run through ./containers/run, which installs it"
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,11 @@ def look_at_machine() -> list[LibraryFinding]:
     if not (shutil.which("mpicc") or shutil.which("cc")):
         findings.append(
             LibraryFinding(
-                "C compiler", "missing", "", f"dolfinx compiles forms with it: {INSTALL}", fit=False
+                "C compiler",
+                "missing",
+                "",
+                f"dolfinx compiles forms with it: {_INSTALL}",
+                fit=False,
             )
         )
     if os.geteuid() == 0 and not os.environ.get("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"):
@@ -291,7 +295,7 @@ def look_at_library(name: str) -> LibraryFinding:
             else "broken"
         )
         reason = " ".join(str(error).split())[:200]
-        remedy = reason if re.search("pip |apt ", reason) else f"{reason}: {INSTALL}"
+        remedy = reason if re.search("pip |apt ", reason) else f"{reason}: {_INSTALL}"
         return LibraryFinding(name, state, "", remedy, fit=name in OPTIONAL)
 
 

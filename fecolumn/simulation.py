@@ -13,7 +13,7 @@ from fecolumn.case.check_case import check, check_duration
 from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.engines.analysis import Analysis, AnalysisFailed
 from fecolumn.engines.result_folder import held, kept_choice
-from fecolumn.engines.summary import NAME, read_summary
+from fecolumn.engines.summary import SUMMARY_FILE, read_summary
 from fecolumn.foundation.files import Unreadable, is_file, read_json
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.sources import code, code_text
@@ -96,7 +96,9 @@ def run(
                 )
             return summary
         if damage and comm.rank == 0:
-            warnings.warn(f"{folder / NAME} {damage}; the analysis is made again", stacklevel=2)
+            warnings.warn(
+                f"{folder / SUMMARY_FILE} {damage}; the analysis is made again", stacklevel=2
+            )
         analysis = started_analysis(case, folder, comm, file, quiet)
         analysis.dt_chosen = chosen
         if profile:
@@ -196,7 +198,7 @@ def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:
     """The summary of a run that has ended, or None and what is wrong with the file that is
     there.
     """
-    if not is_file(folder / NAME):
+    if not is_file(folder / SUMMARY_FILE):
         return None, ""
     try:
         return read_summary(folder, case_id), ""

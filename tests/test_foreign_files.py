@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from fecolumn.cli import main
-from fecolumn.foundation.folder import MARK, written
+from fecolumn.foundation.folder import MARK_FILE, written
 from fecolumn.foundation.schema import InputError
 
 
@@ -34,10 +34,10 @@ def test_only_what_was_written_before_is_removed(tmp_path):
     _write(tmp_path, "index.html", "figures/a.png", "figures/b.png", alone=True)
     (tmp_path / "figures" / "thesis.png").write_text("mine")
     _write(tmp_path, "index.html", "tables/a.csv", alone=True)
-    assert _files(tmp_path) == [MARK, "figures/thesis.png", "index.html", "tables/a.csv"]
+    assert _files(tmp_path) == [MARK_FILE, "figures/thesis.png", "index.html", "tables/a.csv"]
     _write(tmp_path, "figures/c.png", alone=True)
     assert (
-        _files(tmp_path) == [MARK, "figures/c.png", "figures/thesis.png"]
+        _files(tmp_path) == [MARK_FILE, "figures/c.png", "figures/thesis.png"]
         and not (tmp_path / "tables").exists()
     )
 
@@ -54,7 +54,7 @@ def test_works_in_one_folder_keep_apart(tmp_path):
     _write(tmp_path, "table.txt", work="mesh")
     _write(tmp_path, "comparison.csv", work="compare")
     _write(tmp_path, "other.txt", work="mesh")
-    assert _files(tmp_path) == [MARK, "comparison.csv", "other.txt"]
+    assert _files(tmp_path) == [MARK_FILE, "comparison.csv", "other.txt"]
 
 
 def test_what_fails_leaves_the_folder_as_it_was(tmp_path):
@@ -63,7 +63,7 @@ def test_what_fails_leaves_the_folder_as_it_was(tmp_path):
         (draft / "index.html").write_text("half")
         raise RuntimeError
     assert (
-        _files(tmp_path) == [MARK, "index.html"]
+        _files(tmp_path) == [MARK_FILE, "index.html"]
         and (tmp_path / "index.html").read_text() == "report"
     )
 
@@ -81,7 +81,7 @@ def test_what_fails_leaves_the_folder_as_it_was(tmp_path):
 def test_damaged_or_hostile_mark_is_told(tmp_path, mark):
     (tmp_path / "mine").write_text("mine")
     (tmp_path / "out").mkdir()
-    (tmp_path / "out" / MARK).write_text(mark)
+    (tmp_path / "out" / MARK_FILE).write_text(mark)
     with pytest.raises(InputError, match="damaged"):
         _write(tmp_path / "out", "index.html", alone=True)
     assert (tmp_path / "mine").exists()

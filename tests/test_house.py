@@ -18,7 +18,7 @@ PACKAGE = ROOT / "fecolumn"
 FOLDERS, MODULES = 12, 4
 LONG_CALLS = 0
 NAMES_TWICE = 0
-#: Arguments of a function, self and cls left out
+#: Arguments of a function, self and cls left out; *args and **kwargs are one each
 ARGUMENTS = 8
 #: What stands beside the hidden files at the top
 TOP = {
@@ -74,7 +74,8 @@ def test_house_rules(command):
 def _arguments(function) -> int:
     given = function.args
     named = [one.arg for one in (*given.posonlyargs, *given.args, *given.kwonlyargs)]
-    return len(named) - (named[:1] in (["self"], ["cls"]))
+    more = [one for one in (given.vararg, given.kwarg) if one]
+    return len(named) + len(more) - (named[:1] in (["self"], ["cls"]))
 
 
 def _is_kernel(function) -> bool:
@@ -94,16 +95,29 @@ def test_functions_have_few_arguments():
     assert len(long) <= LONG_CALLS, "\n".join(long)
 
 
+def _constants(node) -> list[str]:
+    """Names in capitals that a statement of a module gives a value."""
+    if isinstance(node, ast.AnnAssign):
+        targets = [node.target] if node.value else []
+    else:
+        targets = node.targets if isinstance(node, ast.Assign) else []
+    found = [one for target in targets for one in getattr(target, "elts", [target])]
+    return [one.id for one in found if isinstance(one, ast.Name) and one.id.isupper()]
+
+
 def test_a_public_name_is_defined_once():
-    """Functions, classes and aliases of types of modules, whatever the folder."""
+    """Functions, classes, aliases of types and constants of modules, whatever the folder."""
     homes = collections.defaultdict(list)
     for file, tree in _modules():
         for node in tree.body:
-            if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.name[0] != "_":
-                homes[node.name].append(str(file))
+            names = _constants(node)
+            if isinstance(node, ast.FunctionDef | ast.ClassDef):
+                names = [node.name]
             elif isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-                name = node.targets[0].id  # constants are written in capitals
-                if name[0].isupper() and not name.isupper():
+                name = node.targets[0].id
+                names = names or [name] * name[0].isupper()
+            for name in names:
+                if name[0] != "_":
                     homes[name].append(str(file))
     twice = {
         name: files

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import fecolumn
-from fecolumn.case.bodies import KINDS
+from fecolumn.case.bodies import BODY_KINDS
 from fecolumn.case.case import case_from_tables, read_case
 from fecolumn.case.case_tables import COMMON, NAMED
 from fecolumn.case.short_form import ShortForm
@@ -57,7 +57,7 @@ def scripted(tables):
     for name, cls in NAMED.items():
         found[name] = {}
         for key, table in tables.get(name, {}).items():
-            kind = {"bodies": KINDS, "links": LINKS}.get(name, {}).get(table.get("kind"), cls)
+            kind = {"bodies": BODY_KINDS, "links": LINKS}.get(name, {}).get(table.get("kind"), cls)
             voussoir = name == "bodies" and "kind" not in table
             found[name][key] = table if voussoir else made_of(kind, table)
     if not found["grounds"]:

@@ -8,9 +8,9 @@ import numpy as np
 
 from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.verification.models import column_system, shaking
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.rocking import leaning_start, rocked_trial
 from fecolumn.verification.trial import RigidRocking
-from fecolumn.verification.trials import begin_trial
 
 MODES = (0, 6, 20, 60, 200)
 DT, AMPLITUDE, SHAKEN = 1e-4, 0.1, 0.12

@@ -9,8 +9,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.engines.pair import case_of, column, engine, system_of
+from benchmarks.engines.pair import case_of, column, engine
 from fecolumn.case.sections import GRAVITY
+from fecolumn.verification.models import system_of
 from fecolumn.verification.trial import RigidRocking
 
 # of the critical tilt; and so much more, in turn

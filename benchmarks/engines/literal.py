@@ -7,19 +7,15 @@ scheme of the reduced engine beside it, which keeps alpha from the contact.
 
 from __future__ import annotations
 
-import dataclasses
 from pathlib import Path
-
-from mpi4py import MPI
 
 from benchmarks.engines.impact import BESIDE
 from fecolumn.fem.rotation import tilt_angle
-from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.study.plan import read_plan
-from fecolumn.verification.one_column import build_system
+from fecolumn.verification.models import system_of
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.rocking import leaning_start
 from fecolumn.verification.trial import RigidRocking
-from fecolumn.verification.trials import begin_trial
 
 STUDY = Path(__file__).parents[1] / "literal_scheme.toml"
 SHARE = 0.4  # of the critical tilt
@@ -31,23 +27,16 @@ def literal():
     """Loss of the first impact from 0.4 of the critical tilt over Housner's in both schemes, least
     and most of the releases.
     """
-    case = read_plan(STUDY).analyses[0].case.short
-    case = dataclasses.replace(
-        case, contact=dataclasses.replace(case.contact, friction_coefficient=0.8)
-    )
-    mesh = specimen_mesh(case)
+    case = read_plan(STUDY).analyses[0].case
     for dt, alphas in RUNS:
         for alpha in alphas:
             for impact, engine in (("plastic", "reduced"), ("none", "corotated")):
-                chosen = dataclasses.replace(
-                    case,
-                    contact=dataclasses.replace(case.contact, impact=impact),
-                    integration=dataclasses.replace(
-                        case.integration, dt_s=dt, alpha_hht=alpha, engine="full"
-                    ),
+                chosen = case.replace(
+                    contact={"friction_coefficient": 0.8, "impact": impact},
+                    integration={"dt_s": dt, "alpha_hht": alpha, "engine": "full"},
                 )
                 ratios = losses(
-                    build_system(chosen, MPI.COMM_SELF, mesh),
+                    system_of(chosen),
                     engine,
                     impact,
                     BESIDE if dt == RUNS[0][0] else BESIDE[:1],

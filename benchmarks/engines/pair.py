@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import functools
 from pathlib import Path
 
 import numpy as np
-from mpi4py import MPI
 
 from fecolumn.case.case import Case, case_from_tables
 from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.observe import COLUMNS
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.foundation.toml_file import merge, read_toml
-from fecolumn.mesh.specimen import specimen_mesh
 from fecolumn.structures.structure import structure_model
-from fecolumn.verification.one_column import build_system
 
 SPECIMEN = Path(__file__).parents[2] / "meshes" / "specimen.toml"
 # a base wide enough to slide on
@@ -26,17 +22,6 @@ _PLACES = dict(zip((name for name, _ in COLUMNS), np.cumsum([0, *(width for _, w
 def case_of(**tables) -> Case:
     """Case of the specimen in the reduced engine."""
     return case_from_tables(merge(merge(read_toml(SPECIMEN), WIDE), tables), SPECIMEN)
-
-
-@functools.cache
-def mesh():
-    """SpecimenMesh of `case_of`."""
-    return specimen_mesh(case_of().short)
-
-
-def system_of(case: Case):
-    """Full-order system of a case of the specimen."""
-    return build_system(case.short, MPI.COMM_SELF, mesh())
 
 
 def engine(case: Case) -> Engine:

@@ -6,15 +6,16 @@ import sys
 import time
 
 import numpy as np
+from mpi4py import MPI
 
 from benchmarks.engines.motions import strong_shaking
-from benchmarks.engines.pair import case_of, column, engine, mesh, system_of
-from fecolumn.mesh.bricks import boundary_faces
-from fecolumn.mesh.surface import face_points, nodal_areas
+from benchmarks.engines.pair import case_of, column, engine
+from fecolumn.engines.full_system import FullSystem, full_system
+from fecolumn.verification.models import system_of
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.rocking import leaning_start, rocked_trial, uplift_accelerations
 from fecolumn.verification.sliding import slipped
 from fecolumn.verification.trial import RigidRocking, Trial
-from fecolumn.verification.trials import begin_trial
 
 MOTIONS, IMPACTS, MOST = 10, 3, 1000
 # beside the default: up to 11 kHz
@@ -86,11 +87,11 @@ def motions(count: int = MOTIONS, most: int = MOST):
     reduced engine alone, which no two programs can be asked to come closer than.
     """
     case, richer = case_of(), case_of(integration={"n_modes": MODES})
-    system, found, steps = system_of(case), [], 0
+    made, found, steps = full_system(case, MPI.COMM_SELF, "specimen"), [], 0
     for number in range(1, count + 1):
         shaking = strong_shaking(number, BEGIN).acceleration[1 : most + 1]
         began = time.perf_counter()
-        path, impacts = full_order(system, shaking)
+        path, impacts = full_order(made, shaking)
         shaking = shaking[: len(path)]
         reduced = reduced_order(case, shaking)
         off, peak = difference(path, reduced)
@@ -142,32 +143,18 @@ def reduced_order(case, shaking, disturbance=(0.0, 0.0)) -> np.ndarray:
     return column(np.vstack([rows, one.advance(shaking[AFTER:])[0]]), "u_top")[:, :2]
 
 
-def top_of(column, specimen) -> tuple[np.ndarray, np.ndarray]:
-    """Nodes (k,) of the top's face and their shares (k,) in its mean."""
-    mesh = specimen.body
-    part = mesh.top_part
-    height = mesh.points[:, 2].max()
-    quads = boundary_faces(mesh, part, height, 1e-6 * height)
-    found = column.find_nodes(face_points(mesh.points[quads], column.order).reshape(-1, 3), part)
-    nodes, position = np.unique(found, return_inverse=True)
-    areas = nodal_areas(
-        mesh.points[quads], position.reshape(len(quads), -1), len(nodes), column.order
-    )
-    return nodes, areas / areas.sum()
-
-
-def full_order(system, shaking) -> tuple[np.ndarray, list[int]]:
+def full_order(made: FullSystem, shaking) -> tuple[np.ndarray, list[int]]:
     """Displacements (n, 2) [m] of the top to the third main impact, and the steps of these.
 
     A main impact takes more than a five-thousandth of the energy that tips the column over; a tenth
     of a second belongs to it.
     """
+    system, (column,) = made.system, made.meshed
     trial, rigid, path, impacts, seen = Trial(system), RigidRocking(system), [], [], 0.0
     main = 2e-4 * rigid.energy(rigid.slenderness)
-    nodes, weights = top_of(system.body, mesh())
     for step, ground in enumerate(shaking):
         state = trial.step(ground)
-        path.append(weights @ (state.x[nodes] - system.body.X[nodes])[:, :2])
+        path.append(column.shares @ (state.x[column.top] - system.body.X[column.top])[:, :2])
         if seen - trial.ledger.work["impact"] > main:
             seen = trial.ledger.work["impact"]
             if not impacts or (step - impacts[-1]) * system.hht.dt > 0.1:

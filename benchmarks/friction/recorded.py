@@ -17,11 +17,11 @@ from functools import partial
 import numpy as np
 
 from benchmarks.friction.problem import Problem
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.problem import STICKS_STILL, near_points
 from fecolumn.contact.stick import operator_of
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.structures.model import GROUND
 from fecolumn.verification.boxes import box_model, engine, frame, joint, part, sine_pulse, stack
 
 

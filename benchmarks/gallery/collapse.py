@@ -14,7 +14,7 @@ from matplotlib.colors import LinearSegmentedColormap
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.pictures.figures.style import BLACK, GREY, PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.structures.structure import structure_model
-from fecolumn.verification.multi_drum import DT, drum_case, drum_pulse, drums_of_column
+from fecolumn.verification.multi_drum import DRUMS_DT, drum_case, drum_pulse, drums_of_column
 
 # Times that are drawn [s]: the end of the first half of the pulse, that of the pulse, and the fall
 _DRAWN = (0.34, 1.02, 2.3, 3.3, 3.8, 4.12)
@@ -32,10 +32,10 @@ def _fall(a: float, tp: float) -> list[list[np.ndarray]]:
         engine = engine_of(case, structure_model(case), "drums.toml")
     ground, drums, drawn = drum_pulse(a, tp, _DRAWN[-1]), drums_of_column(), []
     centers = engine.motion.frames["center"].copy()
-    for step in range(round(_DRAWN[-1] / DT)):
+    for step in range(round(_DRAWN[-1] / DRUMS_DT)):
         # step by step, for past its point of no return it would end
         engine.advance(ground[step : step + 1])
-        if len(drawn) < len(_DRAWN) and step + 1 == round(_DRAWN[len(drawn)] / DT):
+        if len(drawn) < len(_DRAWN) and step + 1 == round(_DRAWN[len(drawn)] / DRUMS_DT):
             places = zip(
                 drums,
                 centers[:, ::2],

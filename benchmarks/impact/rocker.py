@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from mpi4py import MPI
 
 from benchmarks.engines.pair import case_of, column, engine
 from fecolumn.engines.dynamics.gravity import tilted
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.fem.rotation import tilt_angle
-from fecolumn.mesh.specimen import specimen_mesh
-from fecolumn.verification.one_column import build_system
+from fecolumn.verification.models import system_of
 from fecolumn.verification.trial import RigidRocking, Trial
 
 
@@ -46,7 +44,7 @@ class FullRocker:
 
     def __init__(self, case):
         self.system, self.alpha = (
-            build_system(case.short, MPI.COMM_SELF, specimen_mesh(case.short)),
+            system_of(case),
             case.integration.alpha_hht,
         )
         self.trial = Trial(
@@ -68,7 +66,7 @@ class FullRocker:
 
 def rigid_block(case) -> RigidRocking:
     """Housner's block of a case's own mesh."""
-    return RigidRocking(build_system(case.short, MPI.COMM_SELF, specimen_mesh(case.short)))
+    return RigidRocking(system_of(case))
 
 
 def rocker(

@@ -15,13 +15,13 @@ import time
 from pathlib import Path
 
 import numpy as np
-from mpi4py import MPI
 
 from benchmarks.peers.case import Release, release
 from benchmarks.peers.track import write_rows
+from fecolumn.case.case import Case
 from fecolumn.engines.dynamics.gravity import tilted
 from fecolumn.verification import rocking
-from fecolumn.verification.one_column import build_system
+from fecolumn.verification.models import system_of
 from fecolumn.verification.trial import Trial
 
 # CPU seconds that the timing of a compiled engine takes at least
@@ -40,7 +40,7 @@ def full(given: Release, steps: int):
     """Rows of the track, one a step, of the full-order engine."""
     rocking.release("corotated", 0.4)  # compiles what a release and an impact call
     trial = Trial(
-        build_system(given.case, MPI.COMM_SELF, given.mesh),
+        system_of(Case.of_column(given.case)),
         lambda system: tilted(system, given.tilt, 0.0),
     )
     reference = trial.system.interface.reference
@@ -70,11 +70,10 @@ def full(given: Release, steps: int):
 
 def reduced(given: Release, steps: int):
     """Rows of the track of a compiled engine."""
-    from fecolumn.case.case import case_from_tables
     from fecolumn.engines.reduced_engine import engine_of
     from fecolumn.structures.structure import structure_model
 
-    case = case_from_tables(given.case.tables(), "peers")
+    case = Case.of_column(given.case)
     model = structure_model(case)
     still = np.zeros((steps, 3))
     engine_of(case, model, "peers").advance(still)  # compiles

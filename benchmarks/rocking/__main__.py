@@ -17,8 +17,8 @@ from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.swing import (
     FASTEST,
     HELD,
-    IMPACTS,
-    PEAK,
+    IMPACT_COUNT,
+    PEAK_TILT,
     SPRING,
     TENDON,
     rock_all,
@@ -88,7 +88,7 @@ def main() -> None:
         spent = time.process_time() - began
         print(
             f"{name:<8}{1e3 * spent / args.n:>17.3f}{1e6 * spent / args.n / 3600:>30.2f}"
-            f"{np.isinf(found[:, PEAK]).mean():>12.1%}{found[:, IMPACTS].mean():>9.1f}"
+            f"{np.isinf(found[:, PEAK_TILT]).mean():>12.1%}{found[:, IMPACT_COUNT].mean():>9.1f}"
         )
 
 

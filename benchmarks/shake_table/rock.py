@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import Limits
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.start import of_parts
-from fecolumn.engines.reduced.structure import structure_of, view_of
-from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
+from fecolumn.engines.reduced_engine import engine_on
+from fecolumn.structures.model import BodyModel, Joint, Part, StructureModel, Surface
 
 #: The pose of rest is sought within this angle of the scan's vertical.
 NEAR = np.radians(5)
@@ -187,22 +188,6 @@ def engine_of(body: BodyModel, stone: Stone, dt: float, alpha: float = -0.05) ->
         stone.restitution,
     )
     base = rigid_base(body.reference)
-    model, hht, gravity = (
-        StructureModel((part,), (joint,), (), base, (0, "top")),
-        HHT(dt, alpha),
-        (0.0, 0.0, -GRAVITY),
-    )
-    view = view_of(
-        model,
-        structure_of(model, hht, gravity)[0],
-        body.mass * GRAVITY,
-        Limits.of_tilt(1, OVERTURNED),
-    )
-    return Engine(
-        lambda step: structure_of(model, step, gravity),
-        (base,),
-        view,
-        hht,
-        lambda made: of_parts(made, model.parts, True),
-        model=model,
-    )
+    model = StructureModel((part,), (joint,), (), base, (0, "top"))
+    begin = partial(of_parts, parts=model.parts, stands=True)
+    return engine_on(model, HHT(dt, alpha), begin, limits=Limits.of_tilt(1, OVERTURNED))

@@ -33,7 +33,7 @@ def write_motions(folder: Path) -> dict[str, list[str]]:
         if not _file(folder, name).exists():
             write_ensemble(maker(), _file(folder, name))
     sources = {name: members(f"{_file(folder, name)}#*") for name in made}
-    sources["lick"] = [f"{lick.PREFIX}{number}" for number in range(1, lick.COUNT + 1)]
+    sources["lick"] = [f"{lick.LICK_PREFIX}{number}" for number in range(1, lick.COUNT + 1)]
     try:
         sources["records"] = [entry.name for entry in fema_p695.available()]
     except UnusableRecord as error:

@@ -11,7 +11,7 @@ from fecolumn.case.check_bodies import check_arch
 from fecolumn.foundation.schema import InputError, build
 
 #: Keys that a voussoir may have of its own
-OWN = tuple(one.name for one in dataclasses.fields(Solid) if one.name not in ("at_m", "copies_m"))
+_OWN = tuple(one.name for one in dataclasses.fields(Solid) if one.name not in ("at_m", "copies_m"))
 # What a voussoir does not have from its arch, where it states a key
 _INSTEAD = {
     "material": ("youngs_modulus_pa", "poissons_ratio", "density_kg_m3", "mass_kg"),
@@ -65,12 +65,12 @@ def with_voussoirs(
         arch = name.rpartition(" ")[0]
         if arch in arches and name not in found:
             refuse(f"bodies.{name}", None, f"no such voussoir: {arch} has {arches[arch].voussoirs}")
-        if not_own := [key for key in table if key not in OWN]:
+        if not_own := [key for key in table if key not in _OWN]:
             refuse(
                 f"bodies.{name}",
                 None,
                 f"is a voussoir of bodies.{arch}, which says its {not_own[0]}; of its own are "
-                f"{', '.join(OWN)}",
+                f"{', '.join(_OWN)}",
             )
         if name in found:
             checked = build(Prism, _ANY | table, file, f"bodies.{name}.")
@@ -86,7 +86,7 @@ def differing(body, own: dict):
 
 def own_keys(body, made: Prism) -> dict | None:
     """Keys in which a body differs from a voussoir of its arch; None where it is not one."""
-    keys = [key for key in OWN if getattr(body, key, None) != getattr(made, key)]
+    keys = [key for key in _OWN if getattr(body, key, None) != getattr(made, key)]
     own = {key: getattr(body, key) for key in keys if getattr(body, key, None) is not None}
     return own if isinstance(body, Prism) and differing(made, own) == body else None
 

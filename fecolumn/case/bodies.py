@@ -365,7 +365,7 @@ class Matrices(Placed):
 
 
 #: Class of the keys by kind of body.
-KINDS = {
+BODY_KINDS = {
     "tube": Tube,
     "cylinder": Cylinder,
     "block": Block,

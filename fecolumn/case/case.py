@@ -21,7 +21,7 @@ from fecolumn.case.case_tables import COMMON, NAMED, of_this_version
 from fecolumn.case.case_text import case_text, toml_of
 from fecolumn.case.check_case import check
 from fecolumn.case.given import NUMBERED, as_of_file
-from fecolumn.case.ground import GROUND, Ground
+from fecolumn.case.ground import GROUND_NAME, Ground
 from fecolumn.case.joint import Interface
 from fecolumn.case.link import LinkKeys
 from fecolumn.case.mesh_limits import MeshLimits
@@ -36,7 +36,7 @@ from fecolumn.case.sections import (
     Overturn,
     section_table,
 )
-from fecolumn.case.short_form import ALIKE, ShortForm
+from fecolumn.case.short_form import SECTIONS_ALIKE, ShortForm
 from fecolumn.foundation.content import content
 from fecolumn.foundation.paths import OF_BODIES as FILES
 from fecolumn.foundation.schema import InputError, Section, a_section, table_of
@@ -107,7 +107,7 @@ class Case:
     observed: str = ""
     motion: Motion | None = None
     mesh: MeshLimits = MeshLimits()
-    grounds: Mapping[str, Ground] = field(default_factory=lambda: {GROUND: Ground()})
+    grounds: Mapping[str, Ground] = field(default_factory=lambda: {GROUND_NAME: Ground()})
     own: Mapping[str, Section] = field(default_factory=dict)
     short: ShortForm | None = field(default=None, compare=False)
     arches: Mapping[str, Arch] = field(default_factory=dict, compare=False)
@@ -124,7 +124,9 @@ class Case:
         for name in ("title", "observed"):
             if not isinstance(getattr(self, name), str):
                 raise InputError("case", name, getattr(self, name), "must be text in quotes")
-        if self.short and any(getattr(self, name) != getattr(self.short, name) for name in ALIKE):
+        if self.short and any(
+            getattr(self, name) != getattr(self.short, name) for name in SECTIONS_ALIKE
+        ):
             object.__setattr__(self, "short", None)
         for name, sections in as_of_file(self, NAMED).items():
             object.__setattr__(self, name, sections)
@@ -193,7 +195,7 @@ class Case:
         tables |= {
             name: section_table(name, getattr(self, name)) for name in COMMON if name not in _IDLE
         }
-        if self.grounds == {GROUND: Ground()}:
+        if self.grounds == {GROUND_NAME: Ground()}:
             # as of cases that are older than grounds
             del tables["grounds"]
         if self.contact.interior_points is None and len(self.bodies) > 1:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typing
 
-from fecolumn.case.bodies import KINDS
+from fecolumn.case.bodies import BODY_KINDS
 from fecolumn.case.body_keys import Placed
 from fecolumn.case.ground import Ground
 from fecolumn.case.joint import Interface
@@ -57,7 +57,9 @@ def type_of(key: str):
     """
     head, _, last = of_this_version(key).rpartition(".")
     name = head.partition(".")[0]
-    classes = set(KINDS.values()) if name == "bodies" else {NAMED[name]} if name in NAMED else set()
+    classes = (
+        set(BODY_KINDS.values()) if name == "bodies" else {NAMED[name]} if name in NAMED else set()
+    )
     hints = {
         field: kind for section in classes for field, kind in typing.get_type_hints(section).items()
     }

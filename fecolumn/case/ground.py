@@ -7,7 +7,7 @@ from fecolumn.foundation.schema import Section, parameter
 from fecolumn.foundation.section_class import section_class
 
 #: Name of the ground of a case that states none: a rigid flat at z = 0.
-GROUND = "ground"
+GROUND_NAME = "ground"
 
 
 @section_class(kw_only=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fecolumn.case.ground import GROUND
+from fecolumn.case.ground import GROUND_NAME
 from fecolumn.foundation.schema import Section, parameter, required
 from fecolumn.foundation.section_class import section_class
 
@@ -42,7 +42,7 @@ class LinkKeys(Section):
         low=-1e4,
         high=1e4,
     )
-    to: str = parameter(GROUND, doc="body at the other end, or a ground")
+    to: str = parameter(GROUND_NAME, doc="body at the other end, or a ground")
     to_point_m: tuple[float, ...] = required(
         doc="point [x, y, z] of the other end at the start, from the same place of "
         "`body` as point_m, so that it holds for each copy",

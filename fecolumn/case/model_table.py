@@ -22,7 +22,7 @@ from fecolumn.foundation.section_class import section_class
 
 #: Tables of a structure of [bodies] that a model of the same file passes over, [interfaces] as the
 #: older name of [joints]
-OF_BODIES = ("bodies", "materials", "joints", "interfaces", "links", "contact", "observed", "mesh")
+_OF_BODIES = ("bodies", "materials", "joints", "interfaces", "links", "contact", "observed", "mesh")
 
 
 @section_class()
@@ -40,7 +40,7 @@ class Start(Section):
 
 
 #: Sections beside the model's own table
-COMMON = {
+_COMMON = {
     "integration": Integration,
     "initial": Start,
     "overturn": Overturn,
@@ -69,7 +69,7 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
     tables = {
         key: value
         for key, value in tables.items()
-        if not (structure and key in OF_BODIES or key in TABLES and key != table)
+        if not (structure and key in _OF_BODIES or key in TABLES and key != table)
         and value is not False
     }
     # tables by the names of bodies stand beside the model's own keys
@@ -80,13 +80,13 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
             if value is not False and not isinstance(value, dict)
         }
     for key in tables:
-        if key not in COMMON and key not in (table, "title"):
+        if key not in _COMMON and key not in (table, "title"):
             raise InputError(
                 file,
                 key,
                 None,
                 f"unknown key; a case of the model {engine} has title, "
-                f"{', '.join([table, *COMMON])}, or is a case of fecolumn run with "
+                f"{', '.join([table, *_COMMON])}, or is a case of fecolumn run with "
                 "[column]",
             )
     if not isinstance(tables.get("title", ""), str):
@@ -94,7 +94,7 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
     tables["integration"] = {**tables.get("integration", {}), "engine": engine}
     found = {
         name: located(name, build(kind, tables.get(name, {}), file, f"{name}."), file)
-        for name, kind in COMMON.items()
+        for name, kind in _COMMON.items()
         if name != "motion" or "motion" in tables
     }
     check_step(found["integration"], functools.partial(_refuse, file))
@@ -128,7 +128,7 @@ def tables_of_model(model: Section, sections: dict[str, Section | None], title: 
     model
         the model's own table, such as a FrameModel.
     sections
-        by names of COMMON, None where its defaults are meant.
+        by names of _COMMON, None where its defaults are meant.
 
     Raises
     ------

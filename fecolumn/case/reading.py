@@ -7,10 +7,10 @@ import typing
 from collections.abc import Callable
 
 from fecolumn.case.arch import with_voussoirs, without_voussoirs
-from fecolumn.case.bodies import KINDS
+from fecolumn.case.bodies import BODY_KINDS
 from fecolumn.case.case_tables import COMMON, NAMED
 from fecolumn.case.given import by_two_bodies, check_name, with_files
-from fecolumn.case.ground import GROUND, Ground
+from fecolumn.case.ground import GROUND_NAME, Ground
 from fecolumn.case.sections import (
     located,
 )
@@ -45,8 +45,8 @@ def fields_of_tables(tables: dict, file) -> tuple[dict, Callable[[str], str]]:
         return _of_interfaces(tables, file)
     tables, errors, found = stated(tables), [], {}
     if not tables.get("grounds"):
-        tables = tables | {"grounds": {GROUND: {}}}
-    grounds = set(tables["grounds"]) if isinstance(tables["grounds"], dict) else {GROUND}
+        tables = tables | {"grounds": {GROUND_NAME: {}}}
+    grounds = set(tables["grounds"]) if isinstance(tables["grounds"], dict) else {GROUND_NAME}
     for key in tables:
         if key not in NAMED and key not in COMMON and key not in ("title", "observed"):
             errors.append(
@@ -157,14 +157,14 @@ def _kind_of(name: str, key: str, table: dict, kind, file):
     if name != "bodies":
         return kind
     word = table.get("kind")
-    if not isinstance(word, str) or word not in KINDS:
+    if not isinstance(word, str) or word not in BODY_KINDS:
         raise InputError(
             file,
             f"{name}.{key}.kind",
             word,
-            f"{'missing; ' if word is None else ''}must be one of {', '.join(KINDS)}",
+            f"{'missing; ' if word is None else ''}must be one of {', '.join(BODY_KINDS)}",
         )
-    return KINDS[word]
+    return BODY_KINDS[word]
 
 
 def _built(kind, table, file, prefix):

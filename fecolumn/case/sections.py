@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 #: that lands, nothing at all.
 SUBSTEPS = ("rolling", "impacts", "none")
 GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
-REST = "rest"  # word of motion.free_vibration_s
+UNTIL_REST = "rest"  # word of motion.free_vibration_s
 AUTO = "auto"  # word of integration.dt_s
 #: Steps among which integration.dt_s = "auto" chooses [s], each half of the one before
 TRIAL_STEPS = (2e-3, 1e-3, 5e-4, 2.5e-4, 1.25e-4)
@@ -291,7 +291,7 @@ class Motion(Section):
         unit="s",
         low=0,
         high=1e4,
-        words=(REST,),
+        words=(UNTIL_REST,),
     )
     rest_ceiling_s: float = parameter(
         60.0,
@@ -305,7 +305,7 @@ class Motion(Section):
     @property
     def longest_free_vibration_s(self) -> float:
         """Time after the motion's end that is analysed at most."""
-        return self.rest_ceiling_s if self.free_vibration_s == REST else self.free_vibration_s
+        return self.rest_ceiling_s if self.free_vibration_s == UNTIL_REST else self.free_vibration_s
 
 
 @section_class()

@@ -199,7 +199,7 @@ PLACES = {
     "initial": "initial.column",
 }
 #: Sections that stand in both forms alike
-ALIKE = ("contact", "integration", "overturn", "output", "motion", "title")
+SECTIONS_ALIKE = ("contact", "integration", "overturn", "output", "motion", "title")
 
 
 def full_tables(form: ShortForm) -> dict:
@@ -214,7 +214,7 @@ def full_tables(form: ShortForm) -> dict:
         "mesh": ("outer_diameter_m", "height_m", "wall_m", "fine_height_m"),
         "cylinder": ("wall_m",),
     }
-    full = {name: short[name] for name in ALIKE if name in short}
+    full = {name: short[name] for name in SECTIONS_ALIKE if name in short}
     for place, other in PLACES.items():
         name, _, key = place.partition(".")
         value = short.get(name) if not key else short.get(name, {}).get(key)

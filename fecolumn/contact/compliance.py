@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.gathered import gather
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import MASTER, SLAVE, turns
 from fecolumn.contact.tolerances import FEW_SIDES
 from fecolumn.foundation._compiled import njit
@@ -53,7 +53,7 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
     W[:] = 0.0
     for i in active:
         concerned[points[i].slave] = True
-        if points[i].master != BASE:
+        if points[i].master != GROUND:
             concerned[points[i].master] = True
     for b in range(len(bodies.body)):
         count = 0
@@ -80,7 +80,7 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
         gather(base, points, active)
         for j in range(k):
             i = active[j]
-            if points[i].master == BASE:
+            if points[i].master == GROUND:
                 rows[count] = j
                 for q in range(4):
                     shares[count, q] = points[i].shares[q]
@@ -224,7 +224,7 @@ def even_out(bodies, base, points, i, poses):
     would store energy at each node and give it back after it.
     """
     target, b, gives = points[i].uneven, points[i].slave, bodies.body[points[i].slave].gives
-    if points[i].master != BASE:
+    if points[i].master != GROUND:
         gives += bodies.body[points[i].master].gives
     for a in range(3):
         for c in range(3):
@@ -247,13 +247,16 @@ def even_out(bodies, base, points, i, poses):
                 - C[second + a, first - start + c]
             )
     _add_turned(block, pose.turned[SLAVE], target)
+    if points[i].count < 4:
+        # laid on an edge, which may bring it to a node, where it has none of the master's
+        return
     block[:] = 0.0
     for q in range(4):
         row, u = 3 * points[i].below[q], points[i].shares[q]
         for r in range(4):
             w = (u if q == r else 0.0) - u * points[i].shares[r]
             column = 3 * points[i].below[r]
-            if points[i].master == BASE:
+            if points[i].master == GROUND:
                 for a in range(3):
                     for c in range(3):
                         target[a, c] += w * base.compliance[row + a, column + c]
@@ -262,7 +265,7 @@ def even_out(bodies, base, points, i, poses):
                 for a in range(3):
                     for c in range(3):
                         block[a, c] += w * C[row + a, column + c]
-    if points[i].master != BASE:
+    if points[i].master != GROUND:
         _add_turned(block, pose.turned[MASTER], target)
 
 

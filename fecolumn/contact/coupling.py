@@ -13,7 +13,7 @@ import numpy as np
 
 from fecolumn.contact.arrays import flat, put_points
 from fecolumn.contact.blocks import Blocks, find_blocks, least_filling
-from fecolumn.contact.points import BASE, FLAT_GROUND
+from fecolumn.contact.points import FLAT_GROUND, GROUND
 from fecolumn.contact.pose import turns
 from fecolumn.foundation._compiled import njit
 
@@ -92,7 +92,7 @@ def are_stiff(bodies, base, points, listed):
     for i in listed:
         if not bodies.body[points[i].slave].stiff:
             return False
-        if points[i].master != BASE:
+        if points[i].master != GROUND:
             if not bodies.body[points[i].master].stiff:
                 return False
         elif points[i].facet != FLAT_GROUND and not base.tops[points[i].ground].stiff:
@@ -114,7 +114,7 @@ def couple(bodies, points, arms, listed, poses, rigid, factor, own, modes):
             alone[j, a] = factor * (own[i, a] + points[i].uneven[a, a])
         for side in range(2):
             b = points[i].master if side else points[i].slave
-            if b == BASE:
+            if b == GROUND:
                 continue
             floats = bodies.body[b].inverse_mass != 0.0
             if not floats and (modes == 0 or bodies.body[b].stiff):

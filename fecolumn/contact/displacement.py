@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.contact.coupling import are_stiff
 from fecolumn.contact.gathered import gather
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import turns
 from fecolumn.contact.tolerances import FEW_SIDES
 from fecolumn.foundation._compiled import njit
@@ -50,7 +50,7 @@ def _displace_few(bodies, base, points, turned, contact, listed, target):
         for side in range(2):
             b, k = points[i].master if side else points[i].slave, points[i].interface
             compliance, first = (
-                (base.compliance, 0) if b == BASE else (bodies.static, bodies.body[b].first)
+                (base.compliance, 0) if b == GROUND else (bodies.static, bodies.body[b].first)
             )
             for a in range(3):
                 way[a] = 0.0
@@ -64,7 +64,7 @@ def _displace_few(bodies, base, points, turned, contact, listed, target):
                     for a in range(3):
                         force[a] = (
                             f[a]
-                            if b == BASE
+                            if b == GROUND
                             else turned[l, other, 0, a] * f[0]
                             + turned[l, other, 1, a] * f[1]
                             + turned[l, other, 2, a] * f[2]
@@ -96,7 +96,7 @@ def _displace_few(bodies, base, points, turned, contact, listed, target):
             for a in range(3):
                 target[i, a] += (
                     way[a]
-                    if b == BASE
+                    if b == GROUND
                     else turned[k, side, a, 0] * way[0]
                     + turned[k, side, a, 1] * way[1]
                     + turned[k, side, a, 2] * way[2]
@@ -131,11 +131,11 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
         k = points[i].interface
         for side in range(2):
             b, f = points[i].master if side else points[i].slave, contact[i].force
-            first = own if b == BASE else bodies.body[b].first
+            first = own if b == GROUND else bodies.body[b].first
             for a in range(3):
                 push[a] = (
                     f[a]
-                    if b == BASE
+                    if b == GROUND
                     else turned[k, side, 0, a] * f[0]
                     + turned[k, side, 1, a] * f[1]
                     + turned[k, side, 2, a] * f[2]
@@ -158,7 +158,7 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
             if number[b] == 0:
                 continue
             first, nodes = (
-                (own, count - own) if b == BASE else (bodies.body[b].first, bodies.body[b].count)
+                (own, count - own) if b == GROUND else (bodies.body[b].first, bodies.body[b].count)
             )
             for a in range(3):
                 way[a] = 0.0
@@ -170,7 +170,7 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
                     is_moved[node] = True
                     compliance, row = (
                         (base.gathered.matrix, 3 * (node - own))
-                        if b == BASE
+                        if b == GROUND
                         else (bodies.static, 3 * node)
                     )
                     if 3 * number[b] > nodes:
@@ -189,7 +189,7 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
             for a in range(3):
                 target[i, a] += (
                     way[a]
-                    if b == BASE
+                    if b == GROUND
                     else turned[k, side, a, 0] * way[0]
                     + turned[k, side, a, 1] * way[1]
                     + turned[k, side, a, 2] * way[2]
@@ -205,7 +205,7 @@ def _share(base, point, side, q, own):
         -point.shares[q] if side else point.weights[q],
         point.below[q] if side else point.carriers[q],
     )
-    if side and point.master == BASE and w != 0.0:
+    if side and point.master == GROUND and w != 0.0:
         node = own + base.gathered.place[node]
     return w, node
 

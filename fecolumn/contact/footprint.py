@@ -4,34 +4,10 @@ case says.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from scipy.spatial import cKDTree
 
 from fecolumn.contact.tolerances import SAME_PLACE
-
-
-@dataclass(frozen=True)
-class Footprint:
-    """Contact points of a foot, and the nodes that they stand for.
-
-    nodes: (n,) nodes of the column that are contact points; areas: (n,) of the foot that belong to
-    them [m2]. all_nodes: (m,) nodes of the foot; all_areas: (m,) tributary to them [m2]; nearest:
-    (m,) the point that each belongs to. inner: (n,) whether a point lies inside the outlines.
-    """
-
-    nodes: np.ndarray
-    areas: np.ndarray
-    all_nodes: np.ndarray
-    all_areas: np.ndarray
-    nearest: np.ndarray
-    inner: np.ndarray
-
-    @classmethod
-    def of_all(cls, nodes: np.ndarray, areas: np.ndarray) -> Footprint:
-        """The foot of which all nodes are points."""
-        return cls(nodes, areas, nodes, areas, np.arange(len(nodes)), np.zeros(len(nodes), bool))
 
 
 def footprint(
@@ -40,8 +16,8 @@ def footprint(
     areas: np.ndarray,
     on_outline: np.ndarray,
     interior: int,
-) -> Footprint:
-    """Choose contact points: the outlines, and at most about `interior` nodes inside, evenly
+) -> tuple[np.ndarray, np.ndarray]:
+    """Contact points of a foot: the outlines, and at most about `interior` nodes inside, evenly
     spread.
 
     Each further point is the one farthest from all others, together with its mirror images, so that
@@ -60,6 +36,11 @@ def footprint(
         (m,) mask.
     interior
         largest number of points inside but for mirror images.
+
+    Returns
+    -------
+    nodes (n,) that are contact points, and the areas (n,) [m2] that belong to them: each node's
+    own goes to the nearest point.
     """
     inside = np.flatnonzero(~on_outline)
     kept = np.ones(len(nodes), bool)
@@ -84,5 +65,4 @@ def footprint(
             kept[chosen] = True
             away = np.minimum(away, cKDTree(plane[chosen]).query(plane)[0])
     nearest = cKDTree(positions[kept]).query(positions)[1]
-    shared = np.bincount(nearest, areas, minlength=int(kept.sum()))
-    return Footprint(nodes[kept], shared, nodes, areas, nearest, ~on_outline[kept])
+    return nodes[kept], np.bincount(nearest, areas, minlength=int(kept.sum()))

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.foundation._compiled import njit
 
 
@@ -73,7 +73,7 @@ def gather(base, points, listed):
         gathered.place[:] = -1
         gathered.number[0] = 0
     for i in listed:
-        if points[i].master != BASE:
+        if points[i].master != GROUND:
             continue
         for q in range(4):
             slot = points[i].below[q]

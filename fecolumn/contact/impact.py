@@ -14,7 +14,7 @@ import numpy as np
 from fecolumn.contact.arrays import flat, marked, put_points
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.coupling import are_stiff, couple, coupling_of, times
-from fecolumn.contact.impulses import all_impulses, held_impulses
+from fecolumn.contact.impulses import all_impulses, held_impulses, rough_impulses
 from fecolumn.contact.problem import IMPACT_FAILED, OK
 from fecolumn.contact.restitution import returned_share
 from fecolumn.contact.tolerances import (
@@ -309,37 +309,31 @@ def _jump(mobility, impulses):
 
 
 @njit
-def plastic_impact(mobility, friction, holds, start, end, given, moment, counts):
+def plastic_impact(mobility, friction, holds, start, end, given, moment, known):
     """Kinetic energy [J] that a plastic impact of points (k,) takes at a moment in a step, and the
-    fastest approach before it [m/s]; both 0 where none is found.
+    fastest approach before it [m/s], both up to IMPACT_TOLD; no energy where that is not above the
+    approach `known` [m/s].
 
-    holds: (k,) mask of those that carry until then. start, end: (3 k,) velocities at the ends of
-    the step [m/s], end with the impulses `given` (3 k,) [N s]. moment: fraction of the step.
+    mobility: by levers. holds: (k,) mask of those that carry until then. start, end: (3 k,)
+    velocities at the ends of the step [m/s], end with the impulses `given` (3 k,) [N s]. moment:
+    fraction of the step.
     """
     k = len(friction)
     pushed, free, velocity = _jump(mobility, given), np.empty(3 * k), np.empty(3 * k)
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
     _between(start, free, moment, velocity)
-    pressed = np.abs(pushed).max() if k > 0 else 0.0
-    carried, solved = held_impulses(
-        mobility, velocity, friction, marked(holds), np.zeros(3 * k), np.inf, pressed, counts
-    )
-    if not solved:
-        return 0.0, 0.0
+    held = marked(holds)
+    carried = rough_impulses(mobility, velocity, friction, held, np.zeros(3 * k))
     jump, approach = _jump(mobility, carried), 0.0
     for j in range(3 * k):
         velocity[j] += jump[j]
     for j in range(k):
         approach = max(approach, -velocity[3 * j + 2])
-    landing_impulses, solved = all_impulses(
-        mobility, velocity, friction, given, np.inf, pressed, counts
-    )
-    return (
-        (-_work(landing_impulses, velocity, _jump(mobility, landing_impulses)), approach)
-        if solved
-        else (0.0, 0.0)
-    )
+    if approach <= known:
+        return 0.0, approach
+    landing = rough_impulses(mobility, velocity, friction, np.arange(k), given)
+    return -_work(landing, velocity, _jump(mobility, landing)), approach
 
 
 @njit

@@ -22,6 +22,7 @@ from fecolumn.contact.tolerances import (
     IMPACT_LEFT,
     IMPACT_MISSED,
     IMPACT_SOLVED,
+    IMPACT_TOLD,
     MANY_MISSED,
     MANY_POINTS,
     NEWTON_STALLED,
@@ -61,6 +62,44 @@ def all_impulses(mobility, velocity, friction, guess, speed, pressed, counts):
     put_points(guess, start)
     found, solved = _impulses(mobility, approach, friction, start, speed, pressed, counts)
     return flat(found), solved
+
+
+@njit
+def rough_impulses(mobility, velocity, friction, listed, guess):
+    """Impulses (3 k,) of the listed points (m,) alone, that obey the laws up to IMPACT_TOLD of the
+    largest velocity: for what is told of an impact, and moves nothing.
+
+    mobility: by levers. guess: (3 k,). Where the laws are missed by more, the impulses are those of
+    frozen slips all the same: in Coulomb's cone, with exact momentum, and they take energy.
+    """
+    m, impulses = len(listed), np.zeros(len(velocity))
+    if m == 0:
+        return impulses
+    approach, start, mu, give = np.empty((m, 3)), np.empty((m, 3)), np.empty(m), np.empty(m)
+    part = mobility if 3 * m == len(velocity) else part_of(mobility, listed)
+    alone = stiffnesses(part, False)
+    for i in range(m):
+        mu[i], give[i] = friction[listed[i]], IMPACT_GIVES[0] / alone[i]
+        for a in range(3):
+            approach[i, a], start[i, a] = velocity[3 * listed[i] + a], guess[3 * listed[i] + a]
+    part, allowed = softened(part, give), IMPACT_TOLD * max(largest(approach), IMPACT_LEAST)
+    limits = NewtonLimits(
+        allowed,
+        stiffnesses(part, True),
+        stiffnesses(part, False),
+        0.0,
+        NEWTON_STEPS,
+        NEWTON_STALLED,
+    )
+    found, residual, _ = newton_steps(part, approach, mu, start, limits)
+    if residual > allowed:
+        found, _, _ = find_impulses(
+            part, approach, mu, start, False, SHARP * allowed, allowed, allowed
+        )
+    for i in range(m):
+        for a in range(3):
+            impulses[3 * listed[i] + a] = found[i, a]
+    return impulses
 
 
 @njit

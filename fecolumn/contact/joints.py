@@ -12,7 +12,7 @@ from fecolumn.contact.bodies import FACET, GOES_ON
 from fecolumn.contact.interface import INTERFACE, interface_of
 from fecolumn.contact.outlines import OverlapBuilder
 from fecolumn.contact.overlap import Overlaps, no_overlaps
-from fecolumn.contact.points import BASE, POINT, UNPREPARED, node_points
+from fecolumn.contact.points import GROUND, POINT, UNPREPARED, node_points
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import SAME_PLACE
 
@@ -71,7 +71,7 @@ def joints_of(parts, joints, replaced=frozenset()) -> Joints:
             interface["width"] = max(interface["width"][0], 2 * max(joint.ball.edge))
         interface["rim_first"] = sum(map(len, rims))
         rims.append(np.asarray(rim.nodes if rim else [], np.int64))
-        if joint.master != BASE:
+        if joint.master != GROUND:
             surface = parts[joint.master].model.surfaces[joint.master_surface]
             key = joint.master, joint.master_surface
             if key not in found:

@@ -43,7 +43,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.record import record
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import ROUND_CORNERS, STICKS
@@ -54,7 +54,7 @@ from fecolumn.foundation._compiled import njit
 STANDS, NO_RETURN, CAPPED, FELL = range(4)
 
 
-#: How one of many bodies stands. below: body that it stands on, BASE of the ground. first, count:
+#: How one of many bodies stands. below: body that it stands on, GROUND of the ground. first, count:
 #: corners of its Stance among those of all; depth, critical, weight, friction, inertia: as of it,
 #: critical inf of a body without a point of no return. ground: whether the ground's motion alone
 #: moves what it stands on and what it carries, so that what is to come of it bounds how a sticking
@@ -297,7 +297,7 @@ def is_past_no_return(standing, corners, rotation, spins, b, force, steepest):
         for c in range(3):
             inertia[a, c] = one.inertia[a, c]
             turn[a, c] = rotation[b, a, c]
-    if m != BASE:
+    if m != GROUND:
         for a in range(3):
             for c in range(3):
                 turn[a, c] = 0.0

@@ -64,8 +64,8 @@ POINT = record(
     ("idle", "?"),
 )
 
-#: The master of a point that stands on the base.
-BASE = -1
+#: In the place of a body: the master of what stands on the ground, and the end of a link there.
+GROUND = -1
 #: The facet of a point on a ground that is a plane without end and does not give.
 FLAT_GROUND = -1
 
@@ -81,7 +81,7 @@ def node_points(
     law: np.ndarray | None = None,
     pad=None,
     slave: int = 0,
-    master: int = BASE,
+    master: int = GROUND,
     first: int = 0,
     interface: int = 0,
 ) -> np.ndarray:

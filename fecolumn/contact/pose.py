@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.arrays import put_matrix
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.record import record
 from fecolumn.foundation._compiled import interpreted, njit
 
@@ -23,7 +23,7 @@ PLACE = record(("center", "f8", 3))
 #: A ground in the table frame, which moves with the first one: place: (3,) of its frame, which has
 #: its height above z = 0, moved: how far it has moved, both [m]; velocity [m/s]; acceleration: of
 #: the ground motion [m/s2].
-GROUND = record(
+GROUND_STATE = record(
     ("place", "f8", 3), ("moved", "f8", 3), ("velocity", "f8", 3), ("acceleration", "f8", 3)
 )
 
@@ -32,15 +32,16 @@ SLAVE, MASTER = range(2)
 
 
 def grounds_at(levels) -> np.ndarray:
-    """(G,) of GROUND at heights (G,) [m], at rest."""
-    grounds = np.zeros(len(levels), GROUND)
+    """(G,) of GROUND_STATE at heights (G,) [m], at rest."""
+    grounds = np.zeros(len(levels), GROUND_STATE)
     grounds["place"][:, 2] = levels
     return grounds
 
 
 @njit
 def move_grounds(before, accelerations, dt, after):
-    """Carry grounds (G,) of GROUND to the end of a step, relative to the first one, which stays.
+    """Carry grounds (G,) of GROUND_STATE to the end of a step, relative to the first one, which
+    stays.
 
     accelerations: (3 G,) of each at the end [m/s2], to which they change evenly in the step.
     """
@@ -60,8 +61,8 @@ def move_grounds(before, accelerations, dt, after):
 @njit
 def find_poses(interfaces, grounds, frames, rotation, poses, rims):
     """Find poses (ni,) of POSE where the bodies have `frames` (nb,), of PLACE or with more fields,
-    and are turned by `rotation` (nb, 3, 3); grounds: (G,) of GROUND. rims: (ni,) of RIM, None for
-    all interfaces, else those whose faces are apart in the step are left out.
+    and are turned by `rotation` (nb, 3, 3); grounds: (G,) of GROUND_STATE. rims: (ni,) of RIM, None
+    for all interfaces, else those whose faces are apart in the step are left out.
     """
     place = np.empty(3)
     for k in range(len(interfaces)):
@@ -82,7 +83,7 @@ def find_poses(interfaces, grounds, frames, rotation, poses, rims):
                 + R[a, 1] * interface.foot[1]
                 + R[a, 2] * interface.foot[2]
             )
-        if b == BASE:
+        if b == GROUND:
             put_matrix(R, turned[SLAVE])
             ground = grounds[interface.ground]
             for a in range(3):
@@ -118,7 +119,7 @@ def poses_of(
     interfaces: np.ndarray, centers: np.ndarray, rotations: np.ndarray, grounds: np.ndarray
 ) -> np.ndarray:
     """(ni,) of POSE of bodies with centres of mass (nb, 3) turned by (nb, 3, 3); grounds: (G,) of
-    GROUND.
+    GROUND_STATE.
     """
     poses = np.zeros(len(interfaces), POSE)
     interpreted(find_poses)(interfaces, grounds, frames_at(centers), rotations, poses, None)

@@ -35,9 +35,9 @@ from fecolumn.contact.stick import find_stick, operator_of, part_of_stick, solve
 from fecolumn.contact.tolerances import (
     CLOSE,
     EXACT,
+    FORCE_SHARE,
     NEAR,
     PENETRATION,
-    SHARE,
     SHARP,
     SOLVED,
     SWEEPS_MOST,
@@ -74,9 +74,10 @@ class Problem(NamedTuple):
     of them. displaced: (n, 3) static displacement, slack: (n, 3) slips and gaps [m]; rho: (n,)
     stiffness by which the laws are measured [N/m], allowed: (n,) by how much they may be violated
     [m]. W: (9 n^2,) room for the compliance of the active points, own, levers, moved: of
-    bodies that do not deform, as `own`, `levers` and `bodies` of Coupling. flags: (4,) whether it
+    bodies that do not deform, as `own`, `levers` and `bodies` of Coupling. flags: (5,) whether it
     is assembled, the foot stays where its stick operator holds, it stays long enough for finding
-    one, and the active points are of bodies that do not deform.
+    one, the active points are of bodies that do not deform, and the operator tells only how forces
+    change: displacement and laws are those of where the points are.
     """
 
     near: np.ndarray
@@ -95,7 +96,7 @@ class Problem(NamedTuple):
     flags: np.ndarray
 
 
-ASSEMBLED, STICKS_STILL, WORTH_STICK, STIFF = range(4)
+ASSEMBLED, STICKS_STILL, WORTH_STICK, _STIFF, IN_PLACE = range(5)
 
 
 def room(points: np.ndarray) -> Problem:
@@ -116,14 +117,14 @@ def room(points: np.ndarray) -> Problem:
         np.zeros((n, 3)),
         np.zeros((n, 3, 12)),
         np.zeros((n, 2), np.int64),
-        np.zeros(4, bool),
+        np.zeros(5, bool),
     )
 
 
 @njit
-def begin_problem(problem, holds_still, worth):
-    """A new step: whether the stick operator holds where the foot is, and whether finding one
-    pays.
+def begin_problem(problem, holds_still, worth, in_place=False):
+    """A new step: whether the stick operator holds where the foot is, whether finding one pays, and
+    whether it tells only how forces change.
     """
     for i in range(len(problem.active)):
         problem.active[i] = problem.evened[i] = False
@@ -132,6 +133,7 @@ def begin_problem(problem, holds_still, worth):
         holds_still,
         worth,
     )
+    problem.flags[IN_PLACE] = in_place
 
 
 @njit
@@ -220,11 +222,12 @@ def find_residual(
         (n,) of CONTACT at the start of the step.
     """
     sticks, listed = problem.flags[STICKS_STILL], near_points(problem)
-    if first or not sticks:
+    stale = sticks and not problem.flags[IN_PLACE]
+    if first or not stale:
         answer = project(base, positions, listed, points)
         if answer != ON:
             return FAR_BASE if answer == UNKNOWN else OFF_BASE, np.inf
-    if not sticks:
+    if not stale:
         for i in listed:
             # the foot turns too little in an iteration to change it
             if after[i].force[2] > 0 and not problem.evened[i]:
@@ -236,12 +239,14 @@ def find_residual(
             if len(listed) == problem.count[2]:
                 for i in listed:
                     even_out(bodies, base, points, i, poses)
+                    problem.evened[i] = True
                 find_stick(
                     stick, bodies, base, points, listed, springs, dynamic, rigid, rims, poses
                 )
                 counts[N_ASSEMBLED] += 1
                 problem.flags[STICKS_STILL] = sticks = True
-    if sticks and stick.key[2] == 0.0:
+                stale = not problem.flags[IN_PLACE]
+    if stale and stick.key[2] == 0.0:
         _displace_all(stick, listed, after, problem.displaced)
     else:
         static_displacement(bodies, base, points, poses, after, listed, problem.displaced)
@@ -284,7 +289,7 @@ def find_residual(
             problem.allowed[i] = SOLVED * width
             if most > 0.0:
                 problem.allowed[i] = min(
-                    problem.allowed[i], max(SHARE * most / problem.rho[i], EXACT * width)
+                    problem.allowed[i], max(FORCE_SHARE * most / problem.rho[i], EXACT * width)
                 )
             error = law_error(
                 after[i].force[0],
@@ -352,8 +357,8 @@ def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, pos
             problem.evened[i] = True
         for a in range(3):
             arms[i, a] = points[i].arm[a]
-    problem.flags[STIFF] = are_stiff(bodies, base, points, listed)
-    if problem.flags[STIFF]:
+    problem.flags[_STIFF] = are_stiff(bodies, base, points, listed)
+    if problem.flags[_STIFF]:
         coupling = couple(bodies, points, arms, listed, poses, rigid, 1.0, springs.own, 0)
         alone = stiffnesses(coupling, False)
         for j in range(count):
@@ -382,7 +387,7 @@ def _coupling(problem, stick):
         for n in range(len(near)):
             taken[n] = problem.active[near[n]]
         return part_of_stick(stick, len(near), marked(taken))
-    if problem.flags[STIFF]:
+    if problem.flags[_STIFF]:
         return coupling_by_levers(
             problem.own[:count], problem.levers[:count], problem.moved[:count]
         )

@@ -9,9 +9,9 @@ import numpy as np
 from fecolumn.contact.bodies import GOES_ON, node_matrix
 from fecolumn.contact.gathered import Gathered, none_gathered
 from fecolumn.contact.points import (
-    BASE,
     BEYOND,
     FLAT_GROUND,
+    GROUND,
     OVER,
     POINT,
     SUNK,
@@ -19,7 +19,7 @@ from fecolumn.contact.points import (
 )
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.record import record
-from fecolumn.contact.tolerances import CLOSE, EDGE
+from fecolumn.contact.tolerances import CLOSE, EDGE_REACH
 from fecolumn.foundation._compiled import interpreted, njit
 
 # Answers of `project`
@@ -124,7 +124,7 @@ def project(base, positions, listed, points):
         if base.tops[g].square > 0 and not base.tops[g].stiff:
             _follow(base.tops[g].square, g, positions, points, moved[g])
     for i in listed:
-        if points[i].master != BASE or points[i].facet == FLAT_GROUND:
+        if points[i].master != GROUND or points[i].facet == FLAT_GROUND:
             continue
         g = points[i].ground
         top = base.tops[g]
@@ -157,7 +157,7 @@ def _follow(square, ground, positions, points, moved):
     """Moved (2,): way [m] in whole squares to the middle of the points on a ground."""
     dx, dy, count = 0.0, 0.0, 0
     for i in range(len(positions)):
-        on_it = points[i].master == BASE and points[i].ground == ground
+        on_it = points[i].master == GROUND and points[i].ground == ground
         if on_it and points[i].facet != FLAT_GROUND:
             dx, dy, count = dx + positions[i, 0], dy + positions[i, 1], count + 1
     dx, dy = dx / max(count, 1), dy / max(count, 1)
@@ -167,12 +167,12 @@ def _follow(square, ground, positions, points, moved):
 @njit
 def _within(lines, x):
     """The place nearest to x from the first to the last of the grid lines [m], and whether x is
-    farther from it than EDGE of the last brick there.
+    farther from it than EDGE_REACH of the last brick there.
     """
     nearest = min(max(x, lines[0]), lines[-1])
     brick = lines[1] - lines[0] if x < lines[0] else lines[-1] - lines[-2]
     # not `>`: a place that is not a number is on no base
-    return nearest, not abs(x - nearest) <= EDGE * brick
+    return nearest, not abs(x - nearest) <= EDGE_REACH * brick
 
 
 @njit
@@ -189,7 +189,7 @@ def project_on_body(bodies, interface, point, x, y):
         interface.facet_first,
         interface.facet_count,
         point.facet,
-        EDGE * interface.width + interface.bulge,
+        EDGE_REACH * interface.width + interface.bulge,
     )
     # of room of their own, made at each call, they would take longer than to find
     shares, nearest, least, side = point.shares, 0, np.inf, 0
@@ -270,7 +270,7 @@ def place_on_masters(bodies, interfaces, points, poses, moved, starts, places):
         that is beyond it then is put high above the surface.
     """
     for i in range(len(points)):
-        if points[i].master == BASE:
+        if points[i].master == GROUND:
             continue
         interface = interfaces[points[i].interface]
         answer = find_seat(bodies, interface, points[i], poses[points[i].interface], places[i])
@@ -341,7 +341,7 @@ def nodes_under(
         np.zeros(len(positions), POINT),
         np.arange(len(positions)) if wanted is None else np.flatnonzero(wanted),
     )
-    points["master"] = BASE
+    points["master"] = GROUND
     base = base_of(
         grid.x, grid.y, grid.number, np.arange(len(grid.points)), np.empty((0, 0)), grid.square
     )

@@ -93,9 +93,9 @@ def same_points(angle, other):
 
 
 @njit
-def holds(stick, interfaces, rims, rigid, poses):
-    """Whether all feet are where the operator was found; of faces that are apart it does not
-    matter.
+def holds(stick, interfaces, rims, rigid, poses, reach):
+    """Whether all feet are where the operator was found, within `reach` times STICK_TURN and
+    STICK_WAY; of faces that are apart it does not matter.
     """
     if stick.key[1] == 0.0 or stick.key[0] != rigid:
         return False
@@ -106,21 +106,22 @@ def holds(stick, interfaces, rims, rigid, poses):
         if not same_points(stick.angles[k], rims[k].angle):
             return False
         for a in range(0 if on_pad else 2):
-            if abs(now.foot[a] - then.foot[a]) > STICK_WAY * interfaces[k].width:
+            if abs(now.foot[a] - then.foot[a]) > reach * STICK_WAY * interfaces[k].width:
                 return False
         for a in range(3):
             for b in range(3):
                 if abs(now.turned[SLAVE, a, b] - then.turned[SLAVE, a, b]) > (
-                    PAD_TURN if on_pad else STICK_TURN
+                    PAD_TURN if on_pad else reach * STICK_TURN
                 ):
                     return False
     return True
 
 
 @njit
-def is_worth(interface, pose, turn, way):
+def is_worth(interface, pose, turn, way, reach):
     """Whether a foot in a pose (of POSE) that in one step turns by `turn` [rad] and goes by `way`
-    [m] stays in its place long enough for finding the operator to pay.
+    [m] stays in its place, within `reach` times STICK_TURN and STICK_WAY, long enough for finding
+    the operator to pay.
     """
     if interface.on_pad:
         return turn < STICK_STAYS * PAD_TURN
@@ -129,9 +130,11 @@ def is_worth(interface, pose, turn, way):
     for a in range(3):
         c, d = (a + 1) % 3, (a + 2) % 3
         sine = np.hypot(sine, turned[SLAVE, 2, c] * axes[d, 2] - turned[SLAVE, 2, d] * axes[c, 2])
-    flat = sine < STICK_TURN
+    stays = reach * STICK_STAYS
     return (
-        flat and turn < STICK_STAYS * STICK_TURN and way < STICK_STAYS * STICK_WAY * interface.width
+        sine < reach * STICK_TURN
+        and turn < stays * STICK_TURN
+        and way < stays * STICK_WAY * interface.width
     )
 
 

@@ -18,7 +18,7 @@ CLOSE = 4e-5
 SOLVED = 1e-11
 #: Force over the strongest one that a residual may stand for, where that is less: the same
 #: thousandth, which a stiff, light or short-stepped foot passes within a far shorter length.
-SHARE = 1e-3
+FORCE_SHARE = 1e-3
 #: Residual that is always small enough: 400 times the rounding of a position, so that a column
 #: twenty times as high as wide reaches it.
 EXACT = 1e-13
@@ -87,6 +87,13 @@ SWEEPS_FIRST, SWEEPS_MOST = 50, 800
 #: Rotation [rad] and horizontal way, within which the compliance of a foot changes by 1e-4 of
 #: itself.
 STICK_TURN, STICK_WAY = 1e-4, 5e-5
+#: Several elastic bodies bend at their joints by more. Their operator serves within so many times
+#: that turn and way, but tells only how forces change: displacement and laws are found where the
+#: points are, so that a step's answer does not depend on when the operator was found. What an
+#: iteration then leaves always lies the same way: it ends at this share of what is allowed, or one
+#: iteration later. Where one leaves more than the last share of what the one before left, the
+#: operator is found anew: as long as some eight iterations.
+IN_PLACE_TURN, IN_PLACE_LEFT, IN_PLACE_SLOW = 10.0, 0.05, 0.3
 #: Cosine of the angle between the normal of a face and the vertical from which on it is level.
 LEVEL = 0.999999999
 #: Rotation [rad] on a pad, whose springs are nearly all of the compliance and the same everywhere.
@@ -161,6 +168,9 @@ POINTS_A_LEVER = 1.5
 #: counts, over the least weight of a body and width of a foot: that of a column which rocks at a
 #: thousandth of its critical tilt.
 APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS = 0.1, 4.0, 1e-5
+#: What the impulses of the rigid loss may miss the laws by, over the largest velocity: they move
+#: nothing, and energy is off by less.
+IMPACT_TOLD = 1e-3
 
 # --- Rolling rim
 # --------------------------------------------------------------------------------------------------
@@ -203,7 +213,16 @@ FIRMER_TIMES = 2
 LINKS_FIRM = 4.0
 #: Displacement of an iteration, over the column's height, below which the column is at rest: ten
 #: thousand times the rounding of a position.
-REST = 1e-11
+REST_WAY = 1e-11
+#: Forces that are not balanced at rest, over the weight of all bodies: reactions are then as exact.
+#: An iteration of much inertia moves a body by little wherever it is. Displacement, over the
+#: height, which rounding of positions and of links' lengths may leave whatever the forces.
+BALANCED, REST_ROUNDING = 1e-8, 1e-14
+#: Iteration to equilibrium from which on the next begins where Newton's step with the stiffness of
+#: modes, links and contact leads: most structures are at rest by then. Times that the way there is
+#: tried, each half as long as the last; inertia beside that stiffness, over that of the iteration,
+#: for what nothing holds; compliance of contact in it, over the largest, where that is rounding.
+HASTEN_FROM, HASTEN_TRIES, LEAST_FIRM, LEAST_COMPLIANCE = 8, 4, 1e-9, 1e-9
 #: Iterations to equilibrium within which the displacement of one must fall to this share, else none
 #: is found: a slender column needs a pad whose stiffness against tilting is 1.6 times its weight
 #: times the height of its centre.
@@ -223,7 +242,7 @@ SLIDES_KEPT = 20
 #: Way beyond the outline of a surface, over the width of the foot on it, within which a point still
 #: stands on it: feet as wide as what they stand on would else lose their outline to the first slip.
 #: On a base plate over the width of its last brick.
-EDGE = 2e-3
+EDGE_REACH = 2e-3
 
 # --- Joints with two sides, over the larger side of the slave's face
 # ----------------------------------------------------------------------------

@@ -7,10 +7,10 @@ import warnings
 
 import numpy as np
 
-from fecolumn.case.sections import GRAVITY, MODEL_ENGINES, REST
+from fecolumn.case.sections import GRAVITY, MODEL_ENGINES, UNTIL_REST
 from fecolumn.engines.ending import (
     AT_REST,
-    EDGE,
+    EDGE_SHARE,
     OVERTURNED,
     REST_SHARE,
     SLID_OFF,
@@ -63,7 +63,7 @@ class Analysis:
         self.motion_steps = len(self.motion.acceleration) if self.motion else 0
         self.until_rest = (
             bool(self.motion)
-            and case.motion.free_vibration_s == REST
+            and case.motion.free_vibration_s == UNTIL_REST
             and not case.integration.duration_s
         )
         self.cut_at_s = self._cut(file)
@@ -154,7 +154,10 @@ class Analysis:
 
     @property
     def still_j(self) -> float:
-        """Energy left of what is at rest [J], at most."""
+        """Largest `energy_left` [J] at which the structure counts as at rest.
+
+        It is REST_SHARE of the energy that overturns the structure.
+        """
         return REST_SHARE * self.barrier_j
 
     @property
@@ -366,7 +369,7 @@ class Analysis:
         if failure.stop is not Stop.OFF_BASE:
             return None
         way = self.case.integration.dt_s * np.hypot(velocity[:, 0], velocity[:, 1]).max()
-        if not base.grid.at_edge(foot, way + EDGE * np.ptp(foot, axis=0)[:2].max()):
+        if not base.grid.at_edge(foot, way + EDGE_SHARE * np.ptp(foot, axis=0)[:2].max()):
             return None
         return Ending(SLID_OFF, f"{Stop.OFF_BASE.value}, at {self.history.last()['time']:.3f} s")
 

@@ -15,7 +15,7 @@ from fecolumn.structures.layout import Layout, layout_of
 from fecolumn.structures.made_layout import check_drawings, said_of
 from fecolumn.structures.model import BodyModel, StructureModel
 from fecolumn.structures.patches import Patch, face_weights
-from fecolumn.structures.reduction import body_of, top_face
+from fecolumn.structures.reduction import bare_model, body_of, top_face
 from fecolumn.structures.shapes import Shape
 from fecolumn.structures.structure import assembled
 
@@ -39,8 +39,12 @@ class MeshedBody:
     patches: dict[str, Patch]
 
 
-def structure_of_elements(case, comm, file) -> tuple[StructureModel, list[MeshedBody]]:
+def structure_of_elements(
+    case, comm, file, layout: Layout | None = None
+) -> tuple[StructureModel, list[MeshedBody]]:
     """The structure of a case at its start, and the elements of each part; the same on every rank.
+
+    layout: as of `checked_layout`, made on the first rank unless given.
 
     Raises
     ------
@@ -49,7 +53,7 @@ def structure_of_elements(case, comm, file) -> tuple[StructureModel, list[Meshed
     """
     from fecolumn.fem.tied_body import known_to_all
 
-    layout = known_to_all(comm, lambda: _checked_layout(case, file))
+    layout = layout or known_to_all(comm, lambda: checked_layout(case, file))
     made = {name: meshed(layout.drawings[name], layout.patches[name], comm) for name in case.bodies}
     structure = assembled(
         case, {name: one.model for name, one in made.items()}, said_of(layout), file
@@ -57,7 +61,14 @@ def structure_of_elements(case, comm, file) -> tuple[StructureModel, list[Meshed
     return structure, [made[name] for name in case.bodies for _ in case.names_of(name)]
 
 
-def _checked_layout(case, file) -> Layout:
+def checked_layout(case, file) -> Layout:
+    """Meshes and contact points of the bodies of a case.
+
+    Raises
+    ------
+    InputError
+        a body without elements, or what `layout_of` refuses.
+    """
     for name, body in case.bodies.items():
         if isinstance(body, (Matrices, Storeys)):
             raise InputError(
@@ -83,7 +94,6 @@ def _checked_layout(case, file) -> Layout:
 def meshed(drawing: Drawing, patches: dict[str, Patch], comm) -> MeshedBody:
     """Elements and contact points of a drawing."""
     from fecolumn.engines.dynamics.checkpoint import node_order
-    from fecolumn.fem.free_body import rigid_fields
 
     body = body_of(drawing.shape, drawing.material, comm)
     found = {name: body.find_nodes(patch.positions, patch.part) for name, patch in patches.items()}
@@ -94,19 +104,11 @@ def meshed(drawing: Drawing, patches: dict[str, Patch], comm) -> MeshedBody:
     row[nodes] = np.arange(len(nodes))
     face = top_face(drawing.faces)
     positions, shares = face_weights(face, drawing.shape.order)
-    model = BodyModel(
-        mass=float(body.total_mass),
-        inertia=rigid_fields(body)[2][3:, 3:],
-        center=body.center,
-        frequencies=np.zeros(0),
-        shapes=np.zeros((len(nodes), 3, 0)),
-        flexibility=np.zeros((0, 0, 3, 3)),
-        arms=body.all_X[nodes] - body.center,
-        dofs=3 * body.n_nodes,
-        surfaces={
-            name: patch.surface(row[found[name]], body.center) for name, patch in patches.items()
-        },
-        marks={"top": (shares @ positions - body.center, np.zeros((3, 0)))},
+    model = bare_model(
+        body,
+        nodes,
+        {name: patch.surface(row[found[name]], body.center) for name, patch in patches.items()},
+        shares @ positions,
     )
     return MeshedBody(
         body, model, nodes, body.find_nodes(positions, face.part), shares, drawing.shape, patches

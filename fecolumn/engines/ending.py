@@ -14,7 +14,7 @@ P_OVERTURN, P_LOST = "P(overturn)", "P(lost: overturned or slid off)"
 
 #: A column whose foot meets the edge of the base has come as near to it before as it goes in a step
 #: and this share of the foot's width; else a step went astray.
-EDGE = 0.05
+EDGE_SHARE = 0.05
 
 #: A column is at rest when its mechanical energy above gravity equilibrium is below this share of
 #: the energy that lifts it onto its edge. A slender column with this energy rocks with 1/2000 of

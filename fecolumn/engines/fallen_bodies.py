@@ -19,8 +19,8 @@ _DROP = 0.5
 class FallenBodies:
     """Which bodies of a structure whose contact is found are at rest, and which have fallen.
 
-    still_j: kinetic energy at which all lies still [J], at most; turn_s: time for which it must
-    [s], so that a body about to fall back is not taken for one at rest.
+    still_j: largest kinetic energy [J] at which all bodies count as lying still. turn_s: how long
+    it must stay that low [s], so that a body about to fall back is not taken for one at rest.
     """
 
     def __init__(self, structure: StructureModel):

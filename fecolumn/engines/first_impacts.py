@@ -12,13 +12,13 @@ import numpy as np
 #: and of the largest tilt after them, below which a step is taken; and standard error of that
 #: change above which it cannot be told. Chosen: the loss of a single impact of elastic bodies
 #: scatters by as much with where in the step it lands.
-SAME = 0.05
+SAME_STEP = 0.05
 #: Starts of each step, shifted by so many parts of it. Chosen: four tell the mean to half the
 #: scatter of one.
 STARTS = 4
 #: Impacts that are looked at, the time [s] within which the first must come, and the time [s] from
 #: then on within which the others must: they bound what the trials cost.
-IMPACTS, FIRST_S, OTHERS_S = 3, 10.0, 2.0
+_IMPACTS, FIRST_S, OTHERS_S = 3, 10.0, 2.0
 #: Of loss and tilt from a step to a shorter one, and the standard error of the former [-]
 Changes = tuple[float, float, float]
 # Energy that impacts take in a step, over that to overturn, from which on something has landed:
@@ -116,8 +116,8 @@ def window_of(rows: dict[str, np.ndarray], barrier_j: float) -> Window | None:
     first_s = float(begins[0])
     limit = min(float(now[-1]), first_s + OTHERS_S)
     number = int(np.count_nonzero(begins <= limit))
-    if number > IMPACTS:
-        limit, number = min(limit, float(begins[IMPACTS])), IMPACTS
+    if number > _IMPACTS:
+        limit, number = min(limit, float(begins[_IMPACTS])), _IMPACTS
     end = min(float(ends[number - 1]), limit)
     if end == limit:  # still landing: the tilt of the last part
         return Window(first_s, limit - _LEFT_OUT * (limit - first_s), limit, number)

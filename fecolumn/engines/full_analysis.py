@@ -7,14 +7,12 @@ import time
 
 import numpy as np
 
-from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.analysis import CHECKPOINT, Analysis
 from fecolumn.engines.pace import Pace
-from fecolumn.engines.reduced_engine import begins_unstrained, upright
+from fecolumn.engines.reduced_engine import begins_unstrained
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.fem.rotation import out_of_frames
-from fecolumn.foundation.schema import InputError
 from fecolumn.structures.pads import warn_of_grounds
 
 
@@ -62,50 +60,16 @@ class FullAnalysis(OfStructure, Analysis):
 
     def built(self, file):
         """The System of the case, and what observes it."""
-        from fecolumn.engines.dynamics.hht import HHT
-        from fecolumn.engines.dynamics.structure import kinematics_of, structure_system
-        from fecolumn.engines.elements import structure_of_elements
+        from fecolumn.engines.full_system import full_system
         from fecolumn.engines.observer import Observer
         from fecolumn.structures.lost import limits_of
         from fecolumn.structures.structure import standing_of
 
-        case, plan = self.case, self.case.integration
-        self.structure, self.meshed = structure_of_elements(case, self.comm, file)
+        case = self.case
+        system, self.structure, self.meshed = full_system(case, self.comm, file)
         #: The structure before any body leans or moves: gravity energy and displacements are
         #: measured from there.
-        self.standing = upright(case, self.structure)
-        damped = [case.modes_of(name) for name in case.bodies for _ in case.names_of(name)]
-        flying = [part.name for part in self.structure.parts if part.airborne]
-        if flying and not begins_unstrained(case, self.structure):
-            raise InputError(
-                file,
-                "integration.start",
-                case.integration.start,
-                f'lets bodies begin at rest, and nothing holds "{flying[0]}" up: in full order say '
-                'start = "drawn", or take engine = "reduced"',
-            )
-        plastic = case.contact.impact == "plastic"
-        if not plastic and any(joint.pad for joint in self.structure.joints):
-            raise InputError(
-                file,
-                "contact.impact",
-                case.contact.impact,
-                "must be plastic where a joint has a pad, whose springs take the place of impacts",
-            )
-        try:
-            system = structure_system(
-                self.standing,
-                [one.body for one in self.meshed],
-                HHT(plan.dt_s, plan.alpha_hht),
-                np.array([0.0, 0.0, -GRAVITY]),
-                filtered=plastic,
-                nodes=[one.nodes for one in self.meshed],
-                damped=damped,
-                kinematics=kinematics_of(plan.kinematics),
-            )
-        except ValueError as error:
-            name, _, told = str(error).partition(": ")
-            raise InputError(file, name, None, told) from None
+        self.standing = system.model
         limits = limits_of(self.standing, standing_of(case, self.standing))
         return system, Observer(
             system, self.meshed, self.standing, limits, case.overturn.displacement_m

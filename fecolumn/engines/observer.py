@@ -15,7 +15,7 @@ from fecolumn.contact.overturning import (
     cap_only_stance,
     is_past_no_return,
 )
-from fecolumn.contact.points import BASE, OVER
+from fecolumn.contact.points import GROUND, OVER
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.engines.structure_analysis import of_both_sides
 from fecolumn.fem.rotation import tilt_angle, twist_angle
@@ -90,7 +90,7 @@ class Observer:
             tilt=tilt_angle(own),
             twist=twist_angle(own),
             slide=self._slid(state.x, moved)[:2],
-            contact_force=forces[carries & (points["master"] == BASE)].sum(axis=0),
+            contact_force=forces[carries & (points["master"] == GROUND)].sum(axis=0),
             active_nodes=int(carries.sum()),
             penetration=max(0.0, -float(state.relative[over, 2].min(initial=0.0))),
             ground=state.ground[:3],

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fecolumn.structures.model import StructureModel
 
 #: File of a running analysis with its pace, from which a study knows how long it will take
-NAME = "pace.json"
+PACE_FILE = "pace.json"
 # Wall time of steps [s], and their least number, after which the pace is known
 _KNOWN_S, _KNOWN_STEPS = 1.0, 3
 #: Wall time [s] between two looks, so that Ctrl-C and progress do not wait; steps until the first
@@ -99,7 +99,7 @@ class Pace:
         if self._analysis.step_times and self._analysis.comm.rank == 0:
             self._analysis.step_times.write(self._analysis.folder)
         with contextlib.suppress(OSError):
-            (self._analysis.folder / NAME).unlink(missing_ok=True)
+            (self._analysis.folder / PACE_FILE).unlink(missing_ok=True)
 
     def _tell(self) -> None:
         """Say how long the rest takes."""
@@ -114,7 +114,7 @@ class Pace:
         if analysis.comm.rank == 0:
             with contextlib.suppress(OSError):
                 write_json(
-                    analysis.folder / NAME, {"whole_s": each * surely, "cheaper": cheaper_keys}
+                    analysis.folder / PACE_FILE, {"whole_s": each * surely, "cheaper": cheaper_keys}
                 )
         said = f"{made:,} steps took {_written(each)} each: about {clock(left)} for the rest"
         if surely < analysis.steps:

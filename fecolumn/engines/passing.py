@@ -7,9 +7,10 @@ import numpy as np
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.convex import hulls_of
 from fecolumn.contact.nearby import pair_keys
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.through import ThroughCheck
 from fecolumn.structures.hulls import hulls_of_parts
-from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.model import StructureModel
 
 # Way of a body between two looks, over the thickness of the thinnest one: none is passed unseen
 _WAY = 0.2

@@ -6,16 +6,23 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.case.sections import GRAVITY
+from fecolumn.case.sections import GRAVITY, Integration
+from fecolumn.contact.overturning import Limits
 from fecolumn.contact.tolerances import PARTS
 from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.links_of_model import StiffLink
 from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.start import of_parts
 from fecolumn.engines.reduced.structure import structure_of, view_of
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import StructureModel
+from fecolumn.structures.place import as_standing
 from fecolumn.structures.structure import standing_of
+
+#: Gravity (3,) [m/s2] in the table frame, in which z is up.
+GRAVITY_DOWN = np.array([0.0, 0.0, -GRAVITY])
+_PLAN = Integration()
 
 
 def upright(case, model: StructureModel) -> StructureModel:
@@ -46,29 +53,65 @@ def engine_of(case, model: StructureModel, file, stands: bool | None = None) -> 
     InputError
         a link too stiff for the step. NoEquilibrium: as of `start.gravity_equilibrium`.
     """
-    plan, gravity = case.integration, np.array([0.0, 0.0, -GRAVITY])
+    plan = case.integration
     stands = not begins_unstrained(case, model) if stands is None else stands
-    standing, hht = upright(case, model), HHT(plan.dt_s, plan.alpha_hht)
+    try:
+        return engine_on(
+            upright(case, model),
+            HHT(plan.dt_s, plan.alpha_hht),
+            lambda engine: of_parts(engine, model.parts, stands),
+            cap=case.overturn.displacement_m,
+            plan=plan,
+            model=model,
+        )
+    except StiffLink as error:
+        name, _, told = str(error).partition(": ")
+        raise InputError(file, name, None, told) from None
+
+
+def engine_on(
+    standing: StructureModel,
+    hht: HHT,
+    begin,
+    *,
+    gravity=GRAVITY_DOWN,
+    limits: Limits | None = None,
+    cap: float = 0.0,
+    plan: Integration = _PLAN,
+    model: StructureModel | None = None,
+) -> Engine:
+    """The reduced engine of a structure.
+
+    Parameters
+    ----------
+    standing
+        the structure upright.
+    begin
+        function of the engine that returns the first motion; see `reduced.start`.
+    gravity
+        (3,) [m/s2].
+    limits
+        when bodies are lost; those of `structures.lost` unless given.
+    cap
+        displacement of the observed mark that counts as overturned [m], 0 for none.
+    plan
+        of which substeps and max_cuts are taken.
+    model
+        the structure at its start, for `begin`; `standing` unless given.
+
+    Raises
+    ------
+    StiffLink
+        a link is too stiff for the step.
+    """
 
     def build(step, meetings=None):
         parts = PARTS if plan.substeps == "impacts" else 1
         return structure_of(standing, step, gravity, parts, meetings)
 
-    try:
-        structure, _ = build(hht)
-    except ValueError as error:
-        name, _, told = str(error).partition(": ")
-        raise InputError(file, name, None, told) from None
-    weight = float(structure.bodies.body["mass"].sum()) * GRAVITY
-    limits = limits_of(standing, standing_of(case, standing))
-    view = view_of(standing, structure, weight, limits, case.overturn.displacement_m)
-    return Engine(
-        build,
-        model.bases,
-        view,
-        hht,
-        lambda engine: of_parts(engine, model.parts, stands),
-        plan.max_cuts,
-        model,
-        plan.substeps,
-    )
+    structure, _ = build(hht)
+    weight = float(structure.bodies.body["mass"].sum()) * float(np.linalg.norm(gravity))
+    limits = limits or limits_of(standing, as_standing(standing))
+    view = view_of(standing, structure, weight, limits, cap)
+    model = model or standing
+    return Engine(build, standing.bases, view, hht, begin, plan.max_cuts, model, plan.substeps)

@@ -21,7 +21,7 @@ from fecolumn.engines.ending import OVERTURNED, SLID_OFF
 from fecolumn.engines.first_impacts import (
     FIRST_S,
     OTHERS_S,
-    SAME,
+    SAME_STEP,
     STARTS,
     Changes,
     TrialResult,
@@ -80,7 +80,7 @@ class StepChoice:
             )
             results, half = self._compared(allowed, found)
             dt = results[-1].dt
-        if found and half and max(half) < SAME:
+        if found and half and max(half) < SAME_STEP:
             dt, place = results[-2].dt, len(results) - 2
             if results[-1].dt > allowed[-1]:
                 results.append(self._result(allowed[-1], found))
@@ -90,13 +90,13 @@ class StepChoice:
             case_id=self._id,
             dt_s=dt,
             agrees_at_half=limit is not None if half else None,
-            converged=limit is not None and max(limit) < SAME if half else None,
+            converged=limit is not None and max(limit) < SAME_STEP if half else None,
             loss_is="rigid_loss_share" if shares else "energy_j",
             impacts=found.impacts if found else 0,
             until_s=found.ends if found else float(first.history.last()["time"]),
             **_changes_told(half),
             loss_change_shortest=_changes_told(limit)["loss_change"],
-            same=SAME,
+            same=SAME_STEP,
             starts=STARTS,
             trials=[one.told(shares) for one in results],
             steps=self._steps,
@@ -117,7 +117,7 @@ class StepChoice:
         for dt in allowed[1:]:
             results.append(self._result(dt, window))
             changes = change(*results[-2:])
-            if max(changes) < SAME:
+            if max(changes) < SAME_STEP:
                 break
         return results, changes
 

@@ -11,10 +11,10 @@ from fecolumn.engines.dynamics.record import Record
 from fecolumn.foundation.atomic import write_csv
 
 #: File of the result folder with a row for each step
-NAME = "step_times.csv"
+STEP_TIMES_FILE = "step_times.csv"
 COUNTS = tuple(field.name for field in dataclasses.fields(Record))
 #: Kinds of steps in the order in which they are told: the first that holds is a step's
-HALVED, IN_PARTS, IMPACT, STANDING, FLYING = (
+HALVED, IN_PARTS, WITH_IMPACT, STANDS_STILL, FLYING = (
     "halved, for it failed",
     "in parts, as a rim rolls fast",
     "with an impact",
@@ -44,7 +44,7 @@ class StepTimes:
     def write(self, folder: Path) -> None:
         """Write the rows."""
         header = ["time [s]", "step [us]", "carrying points", *COUNTS]
-        write_csv(folder / NAME, [header, *self._rows])
+        write_csv(folder / STEP_TIMES_FILE, [header, *self._rows])
 
 
 def read_step_times(path: Path) -> np.ndarray:
@@ -62,9 +62,9 @@ def kinds_of(rows: np.ndarray) -> list[tuple[str, np.ndarray]]:
     tests = [
         (HALVED, count["cuts"] > 0),
         (IN_PARTS, count["parts"] > 0),
-        (IMPACT, count["impacts"] > 0),
+        (WITH_IMPACT, count["impacts"] > 0),
         (FLYING, points == 0),
-        (STANDING, count["contact_iterations"] == 0),
+        (STANDS_STILL, count["contact_iterations"] == 0),
         *(
             (
                 f"more than {low} points carry" if high == np.inf else f"{low + 1} to {high} carry",

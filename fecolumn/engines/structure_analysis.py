@@ -8,6 +8,7 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import FELL, critical_displacement
+from fecolumn.contact.points import GROUND
 from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
 from fecolumn.engines.dynamics.bonds import bonded
 from fecolumn.engines.ending import AT_REST, OVERTURNED, SLID_OFF, STILL_ROCKING, Ending
@@ -24,7 +25,7 @@ from fecolumn.engines.reduced.observe import (
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.lost import limits_of
-from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.model import StructureModel
 from fecolumn.structures.shaking import accelerations, motions_of
 from fecolumn.structures.structure import standing_of
 
@@ -76,7 +77,11 @@ class OfStructure:
 
     @property
     def still_j(self) -> float:
-        """As of Analysis; where contact is found, kinetic energy alone."""
+        """Largest `energy_left` [J] at which the structure counts as at rest.
+
+        Where contact is found during the motion it is a bound of kinetic energy alone, as fallen
+        bodies come to rest anywhere; see `FallenBodies`.
+        """
         return self.collapse.still_j if self.collapse else super().still_j
 
     def energy_left(self) -> float:
@@ -139,7 +144,7 @@ class OfStructure:
 
     def off_ground(self, failure, bases, grounds, foot) -> Ending | None:
         """The ending of a structure whose step failed because a foot met the edge of its ground,
-        one of `bases` and of `grounds` (G,) of GROUND; None for another failure.
+        one of `bases` and of `grounds` (G,) of GROUND_STATE; None for another failure.
 
         Parameters
         ----------

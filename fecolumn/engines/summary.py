@@ -10,7 +10,7 @@ from fecolumn.foundation.digests import digest_of_json
 from fecolumn.foundation.files import Unreadable, read_json
 from fecolumn.foundation.schema import InputError
 
-NAME = "summary.json"
+SUMMARY_FILE = "summary.json"
 # What tables, figures and statistics take from every summary, whichever function wrote it: numbers
 # of at least 0
 _NUMBERS = ("u_max_m", "residual_slide_m", "steps", "wall_s", "s_per_step", "energy_closure_rel")
@@ -39,7 +39,7 @@ def write_sealed(folder: Path, summary: dict) -> dict:
     """Write the summary of an analysis with the digest of what it says; returns it with that."""
     said = {key: value for key, value in summary.items() if key != "digest"}
     whole = said | {"digest": digest_of_json(said)}
-    write_json(Path(folder) / NAME, whole)
+    write_json(Path(folder) / SUMMARY_FILE, whole)
     return whole
 
 
@@ -56,7 +56,7 @@ def summary_of_folder(folder: Path) -> dict:
         return read_summary(folder, str(_id_of(folder)))
     except Unreadable as error:
         raise InputError(
-            folder / NAME,
+            folder / SUMMARY_FILE,
             "",
             None,
             f"{error}; remove it and run the case into this folder again",
@@ -106,7 +106,7 @@ def read_summary(folder: Path, case_id: str) -> dict:
     Unreadable
         there is none, it is damaged, or it is of another case.
     """
-    summary = read_json(Path(folder) / NAME, _MOST_BYTES)
+    summary = read_json(Path(folder) / SUMMARY_FILE, _MOST_BYTES)
     if fault := fault_of(summary, case_id):
         raise Unreadable(f"is damaged: {fault}")
     return summary

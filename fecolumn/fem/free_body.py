@@ -9,7 +9,7 @@ from fecolumn.fem.rayleigh import spectral_shift
 
 # Shift of the singular free-free stiffness over the bound of the first elastic frequency's square:
 # two terms of the series do
-SHARE = 3e-6
+_SHARE = 3e-6
 # Remainder at which the series ends, over the displacement (root of the sum of squares over all
 # nodes)
 REMAINDER = 1e-10
@@ -44,7 +44,7 @@ class FreeBody:
     def __init__(self, body):
         self.body = body
         #: s [1/s2].
-        self.shift = spectral_shift(body, SHARE)
+        self.shift = spectral_shift(body, _SHARE)
         self._factor = effective_factor(body, self.shift, 1.0)
         self.fields, self.momentum, self.masses = rigid_fields(body)
         self._shares = np.linalg.inv(self.masses)

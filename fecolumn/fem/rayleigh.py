@@ -11,7 +11,7 @@ import numpy as np
 ROUNDING = 1e-12
 # Eigenvalue of the scaled mass matrix, over the largest, below which fields are the same but for
 # rounding
-ALIKE = 1e-10
+_ALIKE = 1e-10
 
 
 def elastic_bound(body) -> float:
@@ -33,7 +33,7 @@ def elastic_bound(body) -> float:
     # on a coarse mesh some of the fields are alike: only what has mass of its own counts
     scale = 1 / np.sqrt(np.diag(mass))
     values, vectors = np.linalg.eigh(scale[:, None] * mass * scale)
-    kept = values > ALIKE * values[-1]
+    kept = values > _ALIKE * values[-1]
     basis = scale[:, None] * vectors[:, kept] / np.sqrt(values[kept])
     return float(np.linalg.eigvalsh(basis.T @ stiffness @ basis)[6])
 

@@ -6,8 +6,7 @@ import numpy as np
 
 from fecolumn.fem.body import Body
 from fecolumn.foundation.schema import InputError
-from fecolumn.mesh.bricks import boundary_faces
-from fecolumn.mesh.specimen import SpecimenMesh
+from fecolumn.mesh.bricks import BrickMesh, boundary_faces
 from fecolumn.mesh.surface import face_basis, face_points
 from fecolumn.mesh.tie import project_to_quads
 
@@ -26,17 +25,15 @@ def known_to_all(comm, make):
     return result
 
 
-def column_body(case, specimen: SpecimenMesh, comm) -> Body:
-    """Column and cap as one body with their ties; case: what has `material` and `mesh`."""
+def tied_body(mesh: BrickMesh, ties, material, order: int, comm) -> Body:
+    """The parts of a mesh as one body, held together by its ties (`mesh.tie.Tie`); order: of the
+    elements.
+    """
 
-    def ties(body):
-        return {
-            slave: link
-            for one in specimen.ties
-            for slave, link in _tie_links(body, specimen.body, one)
-        }, ()
+    def links(body):
+        return {slave: link for one in ties for slave, link in _tie_links(body, mesh, one)}, ()
 
-    return Body(comm, specimen.body, case.material, case.mesh.element_order, ties)
+    return Body(comm, mesh, material, order, links)
 
 
 def _tie_links(body: Body, mesh, tie):

@@ -10,7 +10,7 @@ import stat
 from pathlib import Path
 
 # More than any motion of a day at 1 kHz, or any table, has; what is larger was named by mistake
-MOST_BYTES = 500_000_000
+_MOST_BYTES = 500_000_000
 
 
 class Unreadable(ValueError):
@@ -25,7 +25,7 @@ def is_file(path) -> bool:
         return False
 
 
-def read_bytes(path, most: int = MOST_BYTES) -> bytes:
+def read_bytes(path, most: int = _MOST_BYTES) -> bytes:
     """Content of a regular file of at most `most` bytes; neither a device nor a pipe can hold the
     reader up.
 
@@ -60,7 +60,7 @@ def read_bytes(path, most: int = MOST_BYTES) -> bytes:
         raise Unreadable("no such file (its name holds a null character)") from None
 
 
-def read_json(path, most: int = MOST_BYTES):
+def read_json(path, most: int = _MOST_BYTES):
     """What a JSON file holds; numbers that are none (NaN, Infinity) are refused.
 
     Raises

@@ -15,7 +15,7 @@ from fecolumn.foundation.files import Unreadable, read_json
 from fecolumn.foundation.schema import InputError
 
 #: The mark of a folder: {"written": {work: [file, ...]}}, files relative to the folder
-MARK = ".fecolumn.json"
+MARK_FILE = ".fecolumn.json"
 
 
 @contextlib.contextmanager
@@ -49,18 +49,18 @@ def written(folder, work: str, *, names: tuple[str, ...] = (), alone: bool = Fal
         raise InputError(
             "fecolumn " + work, "-o", str(folder), "is a file, or lies in one; a folder is needed"
         ) from None
-    marked = os.path.lexists(folder / MARK)
+    marked = os.path.lexists(folder / MARK_FILE)
     if alone and not marked and any(folder.iterdir()):
         raise InputError(
             "fecolumn " + work,
             "-o",
             str(folder),
-            f"is not empty and holds nothing that fecolumn wrote (no {MARK}); give a "
+            f"is not empty and holds nothing that fecolumn wrote (no {MARK_FILE}); give a "
             "new or an empty folder",
         )
     mark = _read_mark(folder) if marked else {}
     _refuse_foreign(folder, work, names, mark)
-    write_json(folder / MARK, {"written": mark})
+    write_json(folder / MARK_FILE, {"written": mark})
     draft = Path(tempfile.mkdtemp(prefix=UNFINISHED, dir=folder))
     try:
         yield draft
@@ -71,14 +71,14 @@ def written(folder, work: str, *, names: tuple[str, ...] = (), alone: bool = Fal
         old = mark.get(work, [])
         # first claimed, then written: a process that is killed between leaves no file that looks
         # like the user's
-        write_json(folder / MARK, {"written": {**mark, work: sorted({*old, *new})}})
+        write_json(folder / MARK_FILE, {"written": {**mark, work: sorted({*old, *new})}})
         for name in new:
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             os.replace(draft / name, folder / name)
         others = {name for key, files in mark.items() if key != work for name in files}
         for name in {*old} - {*new} - others:
             _remove(folder, name)
-        write_json(folder / MARK, {"written": {**mark, work: new}})
+        write_json(folder / MARK_FILE, {"written": {**mark, work: new}})
     finally:
         shutil.rmtree(draft, ignore_errors=True)
 
@@ -86,7 +86,7 @@ def written(folder, work: str, *, names: tuple[str, ...] = (), alone: bool = Fal
 def _read_mark(folder: Path) -> dict[str, list[str]]:
     """Files that each work wrote."""
     try:
-        mark = read_json(folder / MARK)
+        mark = read_json(folder / MARK_FILE)
         written = mark["written"]
         for names in written.values():
             for name in names:
@@ -94,10 +94,10 @@ def _read_mark(folder: Path) -> dict[str, list[str]]:
                     raise Unreadable("is damaged: it names files outside the folder")
         return {str(work): [str(name) for name in names] for work, names in written.items()}
     except Unreadable as error:
-        raise InputError(folder / MARK, "", None, f"{error}; give another folder") from None
+        raise InputError(folder / MARK_FILE, "", None, f"{error}; give another folder") from None
     except (KeyError, TypeError, AttributeError):
         raise InputError(
-            folder / MARK,
+            folder / MARK_FILE,
             "",
             None,
             "is damaged: it must state what fecolumn wrote here; give another folder",

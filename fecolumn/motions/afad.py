@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.motions.fixed_width import stated_step
+from fecolumn.motions.fixed_width import above_zero
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import check_end, parse_number, read_text
 
-KIND = "AFAD"
+_KIND = "AFAD"
 _FIRST = "STRONG GROUND MOTION RECORDS OF TURK"
 _AXES = {"N-S": "y", "E-W": "x", "U-D": "z"}
 
@@ -59,11 +59,11 @@ def read_afad(path: Path | str) -> Recording:
     return Recording(
         values,
         tuple(_AXES[name] for name in lines[names].split()),
-        stated_step(step, row, "SAMPLING INTERVAL [s]"),
+        above_zero(step, row, "SAMPLING INTERVAL [s]"),
         "cm/s2",
         Path(path).name,
-        f"{KIND}: {' '.join(told)}",
-        KIND,
+        f"{_KIND}: {' '.join(told)}",
+        _KIND,
     )
 
 

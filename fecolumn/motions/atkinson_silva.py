@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 SHEAR_VELOCITY = 3.5  # beta, at the source [km/s]
-DENSITY = 2.8  # at the source [g/cm3]
+_DENSITY = 2.8  # at the source [g/cm3]
 RADIATION, FREE_SURFACE, PARTITION = 0.55, 2.0, 0.7071
 KAPPA = 0.03  # [s]
 
@@ -99,7 +99,7 @@ def fourier_amplitude(frequency: ArrayLike, magnitude: float, distance: float) -
         * RADIATION
         * PARTITION
         * FREE_SURFACE
-        / (4 * math.pi * DENSITY * SHEAR_VELOCITY**3)
+        / (4 * math.pi * _DENSITY * SHEAR_VELOCITY**3)
         * seismic_moment(magnitude)
     )
     loss = np.exp(

@@ -8,7 +8,7 @@ from typing import Any
 
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions import lick
-from fecolumn.motions.ensemble_file import ALL, file_and_number, members
+from fecolumn.motions.ensemble_file import ALL_MOTIONS, file_and_number, members
 from fecolumn.motions.record import UnusableRecord
 
 _SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends included
@@ -34,17 +34,17 @@ def chosen_motions(source: Any, key: str, file: Path | str) -> list[Any]:
     """
     if not isinstance(source, str):
         return [source]
-    if source.startswith(lick.PREFIX):
-        place, mark, wanted = "", lick.PREFIX, source.removeprefix(lick.PREFIX)
+    if source.startswith(lick.LICK_PREFIX):
+        place, mark, wanted = "", lick.LICK_PREFIX, source.removeprefix(lick.LICK_PREFIX)
     else:
         place, wanted = file_and_number(source) or ("", "")
         mark = f"{place}#"
     span = _SPAN.fullmatch(wanted)
-    if wanted != ALL and not span:
+    if wanted != ALL_MOTIONS and not span:
         return [source]
     try:
         count = (
-            len(members(str(Path(file).resolve().parent / f"{place}#{ALL}")))
+            len(members(str(Path(file).resolve().parent / f"{place}#{ALL_MOTIONS}")))
             if place
             else lick.COUNT
         )

@@ -9,11 +9,11 @@ from typing import Any
 from numpy.typing import NDArray
 
 from fecolumn.motions.directions import Channel, direction_of, recorded
-from fecolumn.motions.fixed_width import check_peak, layout, number_block, stated_step
+from fecolumn.motions.fixed_width import above_zero, check_peak, layout, number_block
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import read_text
 
-KIND = "COSMOS"
+_KIND = "COSMOS"
 _FIRST = re.compile(r"\(\s*format\s+v[\d. ]+with\s+(\d+)\s+text lines", re.IGNORECASE)
 _BLOCK = re.compile(
     r"^\s*(?P<count>\d+)\s+(?P<what>integer-header|real-header|comment|\w+)\b.*?"
@@ -66,7 +66,7 @@ def read_cosmos(path: Path | str) -> Recording:
         channels.append(channel)
         units, source = unit, source or told
         place = _next(lines, place)
-    return recorded(channels, units, path, f"{KIND}: {source}", KIND)
+    return recorded(channels, units, path, f"{_KIND}: {source}", _KIND)
 
 
 def _next(lines: list[str], place: int) -> int:
@@ -115,7 +115,7 @@ def _channel(lines: list[str], first: int) -> tuple[Channel, str, str, int]:
     direction = _DIRECTIONS.get(azimuth, direction_of(str(azimuth)) if azimuth >= 0 else "")
     told = f"{direction:g} deg" if isinstance(direction, float) else direction
     station = lines[first + 4].strip() if first + 4 < len(lines) else ""
-    dt = 1e-3 * stated_step(reals[_STEP_MS], row, "the step, 62nd number of the real header, [ms]")
+    dt = 1e-3 * above_zero(reals[_STEP_MS], row, "the step, 62nd number of the real header, [ms]")
     return Channel(factor * values, direction, dt, told), unit, station, place
 
 

@@ -6,11 +6,11 @@ import re
 from pathlib import Path
 
 from fecolumn.motions.directions import Channel, direction_of, recorded
-from fecolumn.motions.fixed_width import check_peak, layout, number_block, stated_step
+from fecolumn.motions.fixed_width import above_zero, check_peak, layout, number_block
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import read_text, unit_named
 
-KIND = "CSMIP"
+_KIND = "CSMIP"
 _NUMBER = r"-?\d*\.?\d*"
 # Heads of a channel: text, then a line before each block of samples
 _FIRST = re.compile(r"\s*(un)?corrected accelerogram\b", re.IGNORECASE)
@@ -74,7 +74,7 @@ def read_csmip(path: Path | str) -> Recording:
         units = unit
     _only_ends(lines, after, len(lines))
     told = next((line.strip() for line in lines[:12] if "station" in line.lower()), "")
-    return recorded(channels, units, path, f"{KIND}: {' '.join(told.split())}", KIND)
+    return recorded(channels, units, path, f"{_KIND}: {' '.join(told.split())}", _KIND)
 
 
 def _only_ends(lines: list[str], first: int, last: int) -> None:
@@ -114,9 +114,9 @@ def _channel(lines: list[str], start: int) -> tuple[Channel, str, int]:
     if not volume.get("what", "accel").lower().startswith("accel"):
         raise UnusableRecord(f"line {row}: {volume['what']} data stands before accelerations")
     if "rate" in volume:
-        dt = 1.0 / stated_step(volume["rate"], row, "points a second")
+        dt = 1.0 / above_zero(volume["rate"], row, "points a second")
     else:
-        dt = stated_step(volume["dt"], row, "the step [s]")
+        dt = above_zero(volume["dt"], row, "the step [s]")
     many, width = layout(volume["format"], row)
     values, place = number_block(lines, place + 1, int(volume["count"][:9]), many, width)
     if peak:

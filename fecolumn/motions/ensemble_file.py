@@ -21,7 +21,7 @@ from fecolumn.motions.record import MOST_SAMPLES, GroundMotion, UnusableRecord, 
 
 FORMAT = "fecolumn ensemble 1"
 _MEMBER = re.compile(r"(?P<file>.+\.(?:h5|hdf5))#(?P<number>[^#]*)", re.IGNORECASE)
-ALL = "*"
+ALL_MOTIONS = "*"
 #: How the table beside an ensemble begins
 TABLE_HEAD = "name,number,dt_s,length_s,"
 
@@ -113,7 +113,7 @@ def members(source: str) -> list[str]:
         as read_ensemble.
     """
     found = file_and_number(source)
-    if not found or found[1] != ALL:
+    if not found or found[1] != ALL_MOTIONS:
         return [source]
     with _open(found[0]) as file:
         return [f"{found[0]}#{number}" for number in range(1, len(file["motions"]) + 1)]

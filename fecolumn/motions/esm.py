@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from fecolumn.motions.fixed_width import above_zero
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import parse_number, read_text, unit_named
 
@@ -78,13 +79,7 @@ def _stated(header: dict[str, Any], key: str) -> float:
     if key not in header:
         raise UnusableRecord(f"header incomplete: an ESM file states {key}")
     row, text = header[key]
-    try:
-        value = parse_number(text)
-    except ValueError:
-        value = np.nan
-    if not 0 < value < np.inf:
-        raise UnusableRecord(f"line {row}: {key} = {text!r} must be a number greater than 0")
-    return value
+    return above_zero(text, row, key)
 
 
 def _value(word: str, row: int) -> float:

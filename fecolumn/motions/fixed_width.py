@@ -121,13 +121,13 @@ def check_peak(values: NDArray[Any], stated: str, unit: str) -> None:
         )
 
 
-def stated_step(text: str, row: int, what: str) -> float:
-    """Step of a header [its unit], which is finite and above 0.
+def above_zero(text: str, row: int, what: str) -> float:
+    """Number of a header, in its own unit, such as the step; `what` names it.
 
     Raises
     ------
     UnusableRecord
-        it is not.
+        it is no finite number above 0.
     """
     try:
         value = parse_number(text)

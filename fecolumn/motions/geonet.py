@@ -12,7 +12,7 @@ from fecolumn.motions.fixed_width import check_peak, number_block
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import read_text
 
-KIND = "GeoNet"
+_KIND = "GeoNet"
 _FIRST = re.compile(r"^\s*(?P<raw>un)?corrected accelerogram\b.*\bgns science", re.IGNORECASE)
 # Lines of text, then ten lines of ten numbers, all of eight characters
 _TEXT, _ROWS, _WIDTH = 16, 10, 8
@@ -48,7 +48,7 @@ def read_geonet(path: Path | str) -> Recording:
         channels.append(channel)
         source = source or " ".join(lines[place + 1].split())
         place = after
-    return recorded(channels, "mm/s2", path, f"{KIND}: {source}", KIND)
+    return recorded(channels, "mm/s2", path, f"{_KIND}: {source}", _KIND)
 
 
 def _channel(lines: list[str], start: int) -> tuple[Channel, int]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 from pathlib import Path
 
-PREFIX, COUNT, SEED, TIME_SCALE = "lick:", 115, 810, 0.5
+LICK_PREFIX, COUNT, SEED, TIME_SCALE = "lick:", 115, 810, 0.5
 
 
 def lick_source(source: str) -> str:
@@ -29,7 +29,7 @@ def lick_source(source: str) -> str:
                 write_ensemble(
                     seeded_ensemble(read_model(LICK), COUNT, SEED, "fixed", TIME_SCALE), file
                 )
-    return f"{file}#{source.removeprefix(PREFIX)}"
+    return f"{file}#{source.removeprefix(LICK_PREFIX)}"
 
 
 @functools.cache

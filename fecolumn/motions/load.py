@@ -22,7 +22,7 @@ from fecolumn.motions.cosmos import looks_like_cosmos, read_cosmos
 from fecolumn.motions.csmip import looks_like_csmip, read_csmip
 from fecolumn.motions.ensemble_file import file_and_number, read_member
 from fecolumn.motions.esm import looks_like_esm, read_esm
-from fecolumn.motions.fema_p695 import PREFIX, read_fema_p695
+from fecolumn.motions.fema_p695 import FEMA_PREFIX, read_fema_p695
 from fecolumn.motions.geonet import looks_like_geonet, read_geonet
 from fecolumn.motions.processing import (
     delay,
@@ -67,7 +67,7 @@ _NETWORKS = (
 )
 # [m/s2], 5 g: more was recorded nowhere, and a unit may be wrong
 _UNLIKELY = 50.0
-_SOURCES = f"a file of a record, ensemble.h5#NUMBER, lick:NUMBER or {PREFIX}SET/INDEX"
+_SOURCES = f"a file of a record, ensemble.h5#NUMBER, lick:NUMBER or {FEMA_PREFIX}SET/INDEX"
 # Over a file's peak: sampled band-limited, a motion of few rows may peak higher between them
 _HIGHER = 0.02
 _LARGEST_RATIO = 20_000  # of steps: the filter between them has 128 times as many terms
@@ -249,9 +249,9 @@ def recording_of(motion: Motion, key: str, file: Path | str) -> Recording:
     """
     source = getattr(motion, key)
     try:
-        if source.startswith(lick.PREFIX):
+        if source.startswith(lick.LICK_PREFIX):
             source = lick.lick_source(source)
-        if source.startswith(PREFIX):
+        if source.startswith(FEMA_PREFIX):
             recording = read_fema_p695(source)
         elif file_and_number(source):
             member = read_member(source)

@@ -12,7 +12,7 @@ from fecolumn.case.sections import GRAVITY
 
 # Samples of a motion [-], its step [s] and acceleration [m/s2]: beyond them a file is damaged or
 # its unit is wrong
-MOST_SAMPLES, STEPS_S, LARGEST = 10_000_000, (1e-6, 10.0), 1e3
+MOST_SAMPLES, STEPS_S, _LARGEST = 10_000_000, (1e-6, 10.0), 1e3
 METRES_PER_S2 = {"g": GRAVITY, "m/s2": 1.0, "cm/s2": 1e-2, "mm/s2": 1e-3}
 
 
@@ -79,10 +79,10 @@ def sound(motion: GroundMotion) -> GroundMotion:
         raise UnusableRecord(
             f"is sampled at {motion.dt:g} s; must be in [{STEPS_S[0]:g}, {STEPS_S[1]:g}] s"
         )
-    if not motion.pga.max() <= LARGEST:  # not so for nan
+    if not motion.pga.max() <= _LARGEST:  # not so for nan
         raise UnusableRecord(
             f"holds an acceleration of {motion.pga.max():g} m/s2; must be finite and at "
-            f"most {LARGEST:g}, about 100 g: its unit may be another"
+            f"most {_LARGEST:g}, about 100 g: its unit may be another"
         )
     return motion
 

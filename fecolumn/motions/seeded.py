@@ -22,8 +22,8 @@ from fecolumn.motions.stochastic import Component, EnsembleShape, bidirectional
 from fecolumn.motions.target import Target
 from fecolumn.motions.variability import drawn
 
-FOLDER = Path(__file__).parent
-LICK = FOLDER / "lick.toml"
+TARGETS_FOLDER = Path(__file__).parent
+LICK = TARGETS_FOLDER / "lick.toml"
 VARIABILITIES = ("fixed", "drawn")
 
 

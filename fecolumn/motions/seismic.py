@@ -14,8 +14,8 @@ from fecolumn.foundation.files import Unreadable, read_bytes
 from fecolumn.motions.record import Recording, UnusableRecord
 
 #: Formats by the name that ObsPy has for each.
-NAMES = {"KNET": "K-NET or KiK-net", "SAC": "SAC", "MSEED": "miniSEED", "GSE2": "GSE2"}
-INSTALL = "pip install 'fecolumn[records]' (ObsPy) reads it"
+_NAMES = {"KNET": "K-NET or KiK-net", "SAC": "SAC", "MSEED": "miniSEED", "GSE2": "GSE2"}
+_INSTALL = "pip install 'fecolumn[records]' (ObsPy) reads it"
 # Axis by the last letter of a channel such as HNE
 _AXES = {"E": "x", "N": "y", "Z": "z"}
 
@@ -50,9 +50,9 @@ def read_seismic(path: Path | str, kind: str) -> Recording:
     UnusableRecord
         ObsPy is missing, cannot read it, or it has gaps.
     """
-    name = NAMES[kind]
+    name = _NAMES[kind]
     if importlib.util.find_spec("obspy") is None:
-        raise UnusableRecord(f"is a {name} file: {INSTALL}")
+        raise UnusableRecord(f"is a {name} file: {_INSTALL}")
     import obspy
 
     try:

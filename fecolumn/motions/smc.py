@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from fecolumn.motions.fixed_width import check_peak, number_block, stated_step
+from fecolumn.motions.fixed_width import above_zero, check_peak, number_block
 from fecolumn.motions.record import Recording, UnusableRecord
 from fecolumn.motions.text import read_text
 
-KIND = "SMC"
+_KIND = "SMC"
 _FIRST = re.compile(r"^\s*\d?\s*(?P<what>UN)?CORRECTED ACCELEROGRAM\s*$")
 # Lines of text; whole numbers, eight a line of ten characters; real ones, five of fifteen
 _TEXT, _INTEGERS, _REALS = 11, (48, 8, 10), (50, 5, 15)
@@ -50,7 +50,7 @@ def read_smc(path: Path | str) -> Recording:
     for i in range(place, min(place + int(comments), len(lines))):
         if not lines[i].startswith("|"):
             raise UnusableRecord(f"line {i + 1}: must be a comment that starts with |")
-    dt = 1.0 / stated_step(str(reals[_RATE]), after + 1, "samples a second")
+    dt = 1.0 / above_zero(str(reals[_RATE]), after + 1, "samples a second")
     values, end = number_block(lines, place + int(comments), int(count), 8, 10)
     if any(line.strip() for line in lines[end:]):
         raise UnusableRecord(f"line {end + 1}: more follows than {count:g} samples")
@@ -58,4 +58,6 @@ def read_smc(path: Path | str) -> Recording:
     if peaks[0] != reals[0] and peaks[1] != reals[0]:
         check_peak(values, f"{max(map(abs, peaks)):.6E}", "cm/s2")
     told = " ".join(lines[5].split())
-    return Recording(values[:, None], ("",), dt, "cm/s2", Path(path).name, f"{KIND}: {told}", KIND)
+    return Recording(
+        values[:, None], ("",), dt, "cm/s2", Path(path).name, f"{_KIND}: {told}", _KIND
+    )

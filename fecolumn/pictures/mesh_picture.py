@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.contact.points import GROUND
 from fecolumn.foundation.atomic import write_bytes
 from fecolumn.mesh.bricks import BASE, CAP, FLANGE, LOWER, PART_NAMES, UPPER
 from fecolumn.pictures.off_screen import projection_axes, rendered
-from fecolumn.structures.model import GROUND
 
 _COLOURS = ("#c67b5c", "#9fb2c1", "#d8c08a", "#7f9a75", "#b58fa8", "#8c8fb5", "#c9a27e", "#86aeb0")
 _OF_PARTS = {FLANGE: "#7f9a75", LOWER: "#c67b5c", UPPER: "#9fb2c1", CAP: "#d8c08a", BASE: "#cfd1cc"}

@@ -8,10 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case.bodies import Cone, Matrices, Meshed, Plate, Prism, Storeys
+from fecolumn.case.bodies import Meshed, Plate
 from fecolumn.case.column_keys import Column
 from fecolumn.case.ground import Ground
 from fecolumn.case.sections import Cap, Flange, Material
+from fecolumn.contact.points import GROUND
 from fecolumn.engines.reduced_engine import upright
 from fecolumn.engines.scene.structure_scene import structure_scene
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
@@ -27,7 +28,6 @@ from fecolumn.pictures.mesh_picture import mesh_picture
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.made_layout import keep_models
-from fecolumn.structures.model import GROUND
 from fecolumn.structures.place import touching
 from fecolumn.structures.reduction import body_of
 from fecolumn.structures.shapes import shape_of
@@ -40,6 +40,8 @@ from fecolumn.structures.tied import built_of
 FILES = "specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt"
 # Below so many widths high Timoshenko's beam is too short to compare with
 _STUBBY = 2.0
+# Kinds of bodies with a closed form of volume, mass and inertia, or with a mesh that is its own
+_CLOSED_FORMS = ("tube", "cylinder", "block", "plate", "slab", "mesh")
 _NOTHING = BrickMesh(np.zeros((0, 3)), np.zeros((0, 8), np.int64), np.zeros(0, np.int8))
 
 
@@ -112,7 +114,7 @@ def _each(scene):
 
 def _closed_forms(drawings: dict[str, Drawing], scene) -> list[str]:
     """Masses of bodies and grounds, and the first bending of bodies, beside closed forms."""
-    rows = [(name, row) for name, drawing in drawings.items() for row in _rows(drawing)]
+    rows = [(name, row) for name, drawing in drawings.items() for row in closed_form_rows(drawing)]
     for piece, mesh in _each(scene):
         if piece.held:
             volume = float(np.prod(np.ptp(mesh.points, axis=0)))
@@ -129,10 +131,13 @@ def _closed_forms(drawings: dict[str, Drawing], scene) -> list[str]:
     return ["", *_table(columns, table)] if table else []
 
 
-def _rows(drawing: Drawing) -> list[QualityRow]:
+def closed_form_rows(drawing: Drawing) -> list[QualityRow]:
+    """Volume, mass, inertia and first bending of a body's mesh beside their closed forms; none of
+    a kind without closed forms, or where the body is turned or its foot is a dome.
+    """
     body = drawing.body
     # of what is turned, has a dome or is none of these there is no form but the mesh itself
-    if isinstance(body, (Cone, Matrices, Prism, Storeys)) or getattr(body, "foot_radius_m", None):
+    if body.kind not in _CLOSED_FORMS or getattr(body, "foot_radius_m", None):
         return []
     if getattr(body, "turned_deg", 0.0):
         return []

@@ -16,7 +16,7 @@ from fecolumn.statistics.hazard import HazardCurve
 
 _G = 9.80665  # m/s2
 #: Units at the end of a measure's name: that of SI, and the factor to it.
-UNITS = {
+_UNITS = {
     "_m_s2": ("_m_s2", 1.0),
     "_cm_s2": ("_m_s2", 1e-2),
     "_gal": ("_m_s2", 1e-2),
@@ -70,14 +70,14 @@ def _own(path: Path, header: list[str], rows: list[tuple[int, list[str]]]) -> Ha
     if len(kinds) != 1 or len(header) != 2:
         raise InputError(path, "header", ", ".join(header), f"must be {_NEEDED}")
     measure, kind = header[1 - kinds[0]], header[kinds[0]]
-    unit = next((one for one in UNITS if measure.endswith(one) and measure != one), None)
+    unit = next((one for one in _UNITS if measure.endswith(one) and measure != one), None)
     if unit is None:
         raise InputError(
             path,
             "header",
             measure,
             "must end in its unit, one of "
-            f"{', '.join(one[1:] for one in UNITS)}, such as {measure.split('_')[0]}_m_s2",
+            f"{', '.join(one[1:] for one in _UNITS)}, such as {measure.split('_')[0]}_m_s2",
         )
     found = []
     for number, row in rows:
@@ -98,7 +98,7 @@ def _own(path: Path, header: list[str], rows: list[tuple[int, list[str]]]) -> Ha
                 _text(rows, number, kinds[0]),
                 "must not be exceeded more often than the weaker intensity in the line before",
             )
-    name, factor = measure.removesuffix(unit) + UNITS[unit][0], UNITS[unit][1]
+    name, factor = measure.removesuffix(unit) + _UNITS[unit][0], _UNITS[unit][1]
     return _curve(path, name, *np.array([one[1:] for one in found]).T * [[factor], [1.0]])
 
 

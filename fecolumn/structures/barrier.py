@@ -10,9 +10,10 @@ import numpy as np
 from fecolumn.case.sections import GRAVITY, Initial
 from fecolumn.contact import overturning
 from fecolumn.contact.overturning import Stance, stance
+from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import edge_points
-from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.model import StructureModel
 from fecolumn.structures.place import Standing, footing, placed, supports_of
 
 # Directions [deg] in which a body is leaned; the least energy is in that of its weakest edge

@@ -7,8 +7,9 @@ import dataclasses
 import numpy as np
 
 from fecolumn.case.check_bond import cohesion_of, shear_stiffness_of
+from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.model import GROUND, Bond, Joint
+from fecolumn.structures.model import Bond, Joint
 from fecolumn.structures.place import Standing, touching
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from fecolumn.case.bodies import Matrices
 from fecolumn.case.check_bodies import material_of
 from fecolumn.contact.law import interface_compliance
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.rim import Rim
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures import model as models
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.model import Joint
 from fecolumn.structures.place import loads
@@ -82,7 +82,7 @@ def joint_of(case, contact: dict, bodies, places, sizes, file) -> Joint:
         f"{shown}: {title} on {where}",
         places[body, number],
         contact["slave_surface"],
-        models.GROUND if master is None else places[tuple(master)],
+        GROUND if master is None else places[tuple(master)],
         contact["master_surface"],
         contact_keys.friction_coefficient,
         law,
@@ -109,7 +109,7 @@ def with_hertz(case, joints, standing, copies) -> list[Joint]:
             bodies = [
                 case.bodies[copies[place][0]]
                 for place in (joint.slave, joint.master)
-                if place != models.GROUND
+                if place != GROUND
             ]
             if bodies[0].contact_stiffness_n_m3 is None:
                 materials = [

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from fecolumn.case.link import PULLING, PUSHING
-from fecolumn.structures import model as models
+from fecolumn.contact.points import GROUND
 from fecolumn.structures.model import Link
 from fecolumn.structures.place import Standing
 from fecolumn.structures.store import (
@@ -23,17 +23,17 @@ def links_at_copies(case, name: str, places, standing: list[Standing]):
     for number in numbers:
         a = places[body, number]
         origin = np.array(case.bodies[body].places[number])
-        other = models.GROUND
+        other = GROUND
         if keys.to not in case.grounds:
             other_body, (other_number,) = case.meant_by(keys.to)
             other = places[other_body, other_number]
         start, end = origin + keys.point_m, origin + keys.to_point_m
-        ground = list(case.grounds).index(keys.to) if other == models.GROUND else 0
+        ground = list(case.grounds).index(keys.to) if other == GROUND else 0
         if standing[a].held >= 0:
             a, other, start, end = other, a, end, start
         # what a fixed body holds, its ground holds
-        if other != models.GROUND and standing[other].held >= 0:
-            other, ground = models.GROUND, standing[other].held
+        if other != GROUND and standing[other].held >= 0:
+            other, ground = GROUND, standing[other].held
         pulls, pushes = keys.kind in PULLING, keys.kind in PUSHING
         yield Link(
             name if len(numbers) == 1 else f"{name} {number + 1}",
@@ -41,7 +41,7 @@ def links_at_copies(case, name: str, places, standing: list[Standing]):
             a,
             start - standing[a].center,
             other,
-            end if other == models.GROUND else end - standing[other].center,
+            end if other == GROUND else end - standing[other].center,
             keys.stiffness_n_m,
             keys.damping_n_s_m,
             0.0 - keys.prestress_n if pushes and not pulls else keys.prestress_n,
@@ -62,7 +62,7 @@ def with_shapes(link: Link, copies, standing: list[Standing], keys: dict) -> Lin
     """A link with the shapes of the modes at its ends; keys: of the bodies in `store`."""
 
     def shape(place: int, arm: np.ndarray):
-        if place == models.GROUND or not len(standing[place].model.frequencies):
+        if place == GROUND or not len(standing[place].model.frequencies):
             return None
         key = keys.get(copies[place][0])
         found = key and shape_at(key, arm)

@@ -11,14 +11,14 @@ from scipy.optimize import linprog
 from scipy.spatial import cKDTree
 
 from fecolumn.case.sections import GRAVITY
+from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
 from fecolumn.structures.bonds import pulls_of_bonds
-from fecolumn.structures.model import GROUND
 from fecolumn.structures.place import footing
 
 #: Contact points of one body, above which its compliance alone has more than 3000^2 numbers.
-MOST_POINTS = 1000
+_MOST_POINTS = 1000
 # Over the smaller body's size: how deep points of one body may lie in another, and how far a link's
 # end may lie outside
 _DEPTH, _OUTSIDE = 1e-4, 1e-6
@@ -32,14 +32,14 @@ _DIRECTIONS = 8
 def check_points(name: str, patches, file) -> None:
     """Refuse a body with more contact points than an analysis can carry."""
     count = sum(len(patch.positions) for patch in patches.values())
-    if count > MOST_POINTS:
+    if count > _MOST_POINTS:
         most = max(patches, key=lambda one: len(patches[one].positions))
         raise InputError(
             file,
             f"bodies.{name}.element_size_m",
             None,
             f'"{name}" has {count} contact points, most of them on its {most}; at most '
-            f"{MOST_POINTS}: "
+            f"{_MOST_POINTS}: "
             "make its elements larger, or contact.interior_points or allowance_m of "
             "the interface smaller",
         )

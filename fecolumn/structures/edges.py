@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from fecolumn.contact.tolerances import EDGE, ROUND_NODES
+from fecolumn.contact.tolerances import EDGE_REACH, ROUND_NODES
 from fecolumn.structures.faces import Face, apart, over, triangles_of
 from fecolumn.structures.feet import ball_of, foot_of
 from fecolumn.structures.meetings import Meeting, allowance_of, place_of
@@ -86,13 +86,13 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
     whole = whole_face(other, lower.order)
     nodes = whole.positions[whole.outlines]
     size = np.ptp(nodes, axis=0).max()
-    on = _distance(nodes @ plane, sides) < EDGE * size
+    on = _distance(nodes @ plane, sides) < EDGE_REACH * size
     if len(sides) < ROUND_NODES or convex_outline(other) is None:
         # of a circle all nodes carry; of a polygon those that the slave's outline may come to, and
         # the corners
         region = triangles_of(face.corners @ plane - shift @ plane)
         on &= over(nodes @ plane, region, 2 * allowance) | (
-            cKDTree(outlines[0][:, 0]).query(nodes)[0] < EDGE * size
+            cKDTree(outlines[0][:, 0]).query(nodes)[0] < EDGE_REACH * size
         )
     # where the outlines of either face lie over the slave's, and as far as they may slide
     lines = np.concatenate([face.outline, outlines[0] + shift]) @ face.axes[:, :2]

@@ -8,13 +8,13 @@ import math
 import numpy as np
 
 from fecolumn.case.ground import Ground
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.unbounded_base import rigid_base, unbounded_base, window
 from fecolumn.foundation._compiled import cache_folder
 from fecolumn.foundation.digests import remove_damaged
 from fecolumn.foundation.lock import alone
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.base_plate import depths, plate_line
-from fecolumn.structures.model import GROUND
 from fecolumn.structures.store import key_of
 
 # Fine elements along the side of a foot, by its area and at least; coarse ones are so much larger

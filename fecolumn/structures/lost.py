@@ -5,23 +5,40 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.overturning import FAR, Limits
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.structures.barrier import is_level, stances
-from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.model import StructureModel
 from fecolumn.structures.place import Standing, supports_of
 
 
 def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
-    """Limits of the parts of a structure; standing: the parts upright.
+    """When each part of a structure counts as lost (overturned).
 
-    A body that level faces alone support has the point of no return of its Stance on what is below
-    it. The top of the barrier of potential energy is where it leans by its critical tilt; a body
-    beyond it comes back only where its edge is pushed under it, by friction at most, and on the
-    ground by no more than the ground still moves. So it is for one body on the ground, for each of
-    a stack, and for equal columns below a slab, which lean as one of them would alone. What links
-    or bodies beside it hold, or what rolls on a dome, is lost at 45 degrees or, wider than high,
-    where it leans by its critical tilt and the angle of friction. One whose contact is found goes
-    on until it lies.
+    There are four rules, one for each kind of support:
+
+    1. A part that only level faces support has a point of no return. Beyond its critical tilt,
+       gravity overturns it. It returns only if friction pushes its edge back under its centre of
+       mass; on the ground the push is bounded by the ground motion that is still to come. This is
+       the rule for one body on the ground, for each body of a stack, and for equal columns below
+       one slab, which lean together as one column would alone.
+    2. A part that links or side faces hold, or that rolls on a dome, is lost at 45 degrees, or at
+       its critical tilt plus the angle of friction where that is more, but at 90 degrees at most.
+       If a link holds it and its critical tilt is above 45 degrees, it is lost at 90 degrees.
+    3. A part whose contact is found during the motion is never lost: the analysis goes on until it
+       lies on the ground.
+    4. Any other part is lost at 45 degrees.
+
+    Parameters
+    ----------
+    structure
+        with n parts.
+    standing
+        (n,) the same parts upright, in their places.
+
+    Returns
+    -------
+    Limits: tilts (n,) [rad] beyond which a part is lost, inf where rules 1 and 3 hold; standing
+    (n,) and corners (k, 2) [m] with the Stances of rule 1.
     """
     joints = list(structure.joints)
     found, supports = stances(structure, standing), supports_of(standing, joints)
@@ -46,7 +63,7 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
             tilts[place] = max(FAR, min(steepest, np.pi / 2))
             continue
         below = [one for one, _ in supports[place]]
-        rows[place]["below"] = below[0] if len(below) == 1 and below[0] != GROUND else BASE
+        rows[place]["below"] = below[0] if len(below) == 1 else GROUND
         rows[place]["ground"] = below == [GROUND] and _moves_with_ground(place, supports, standing)
         rows[place]["first"] = sum(map(len, corners))
         rows[place]["count"] = len(stance.corners)

@@ -147,8 +147,24 @@ def _across_gaps(gaps: list[_Gap]) -> list[Meeting]:
 
 
 def _refuse(case, name: str, interface, gaps: list[_Gap], near: bool, faces, file) -> None:
-    """Refuse a joint of whose faces none touch, or some nearly; gaps: between those that look at
-    one another.
+    """Raise the InputError of a joint whose bodies do not touch at the start.
+
+    The message names the two bodies, how far apart their nearest faces are or how deep the bodies
+    lie in one another [m], and what to change in the case.
+
+    Parameters
+    ----------
+    name, interface
+        name of the joint in the case, and its keys.
+    gaps
+        one _Gap for each pair of parallel faces that look at one another; its gap [m] is positive
+        where they are apart.
+    near
+        whether a pair of faces nearly coincides: only its gap is told then.
+    faces
+        plane faces of each body of the case, by its name.
+    file
+        of the case, named in the message.
     """
     slave, on = interface.slave, interface.on
     way_out = f"move one by bodies.NAME.at_m, or leave out joints.{name}"

@@ -17,9 +17,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fecolumn.contact.pad import Pad
-
-#: Master of a joint and end of a link that is no body.
-GROUND = -1
+from fecolumn.contact.points import GROUND
 
 
 @dataclass(frozen=True)

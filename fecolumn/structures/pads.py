@@ -9,8 +9,9 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.pad import pad_below
+from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.model import GROUND, Joint, StructureModel
+from fecolumn.structures.model import Joint, StructureModel
 from fecolumn.structures.place import Standing, loads
 
 # Steps in a period of the vertical vibration on a pad: needed, and for 3 % in frequency (period

@@ -54,14 +54,14 @@ def slave_patch(face: Face, order: int, interior: int) -> Patch:
     inside; see `contact.footprint`.
     """
     whole = whole_face(face, order)
-    chosen = footprint(
+    nodes, areas = footprint(
         np.arange(len(whole.positions)),
         (whole.positions - whole.origin) @ whole.axes,
         whole.areas,
         whole.outlines,
         interior,
     )
-    return replace(node_patch(whole, chosen.nodes), areas=chosen.areas)
+    return replace(node_patch(whole, nodes), areas=areas)
 
 
 def node_patch(whole: Patch, nodes: np.ndarray) -> Patch:

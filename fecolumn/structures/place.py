@@ -12,13 +12,14 @@ import numpy as np
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.interface import interface_of
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import SAME_OUTLINE
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import over
-from fecolumn.structures.model import GROUND, BodyModel, Joint
+from fecolumn.structures.model import BodyModel, Joint, StructureModel
 from fecolumn.structures.outlines import corners_of_overlap, inwards
 
 # Over the size of a body: places that several supports give it must agree this well
@@ -39,6 +40,13 @@ class Standing:
     center: np.ndarray
     start: object
     held: int = -1
+
+
+def as_standing(structure: StructureModel) -> list[Standing]:
+    """The parts of a structure where they are, without a start."""
+    return [
+        Standing(part.name, part.model, part.center, None, part.held) for part in structure.parts
+    ]
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ they touch.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,31 +17,15 @@ from fecolumn.structures.patches import Patch, face_weights
 from fecolumn.structures.shapes import Shape
 
 
-class _Meshing(NamedTuple):
-    element_order: int
-
-
-class _Column(NamedTuple):
-    """What `dynamics.assembly.column_body` reads of a case."""
-
-    material: Material
-    mesh: _Meshing
-
-
 def body_of(shape: Shape, material: Material, comm=None):
     """The `fem.body.Body` of a mesh with its ties, of this process alone unless `comm` says
     more.
     """
     from mpi4py import MPI
 
-    from fecolumn.fem.tied_body import column_body
-    from fecolumn.mesh.specimen import SpecimenMesh
+    from fecolumn.fem.tied_body import tied_body
 
-    return column_body(
-        _Column(material, _Meshing(shape.order)),
-        SpecimenMesh(shape.mesh, None, shape.ties, np.zeros(0, int)),
-        comm or MPI.COMM_SELF,
-    )
+    return tied_body(shape.mesh, shape.ties, material, shape.order, comm or MPI.COMM_SELF)
 
 
 def elastic_model(
@@ -61,32 +45,74 @@ def elastic_model(
     patches
         by the names of the surfaces.
     """
-    from fecolumn.fem.reduction import reduced_at
-
     body = body_of(shape, material)
     found = {name: body.find_nodes(patch.positions, patch.part) for name, patch in patches.items()}
     nodes = np.unique(np.concatenate(list(found.values())))
-    reduced = reduced_at(body, nodes, n_modes)
     positions, shares = face_weights(top_face(faces), shape.order)
+    surfaces = {
+        name: patch.surface(np.searchsorted(nodes, found[name]), body.center)
+        for name, patch in patches.items()
+    }
     top = body.find_nodes(positions, top_face(faces).part)
-    shape_of_top = np.einsum("i,iam->am", shares, reduced.at(top))
-    marks = {"top": (shares @ positions - body.center, shape_of_top)}
-    model = BodyModel(
+    bare = bare_model(body, nodes, surfaces, shares @ positions)
+    model, fields = with_elasticity(bare, body, nodes, n_modes, (top, shares))
+    return model, (body.all_X - body.center, fields)
+
+
+def bare_model(body, nodes: np.ndarray, surfaces, top: np.ndarray) -> BodyModel:
+    """BodyModel of a `fem.body.Body` with nodes (n,) of it, without modes and flexibility.
+
+    Parameters
+    ----------
+    surfaces
+        by name, with their rows among the nodes.
+    top
+        (3,) [m] place of the mark "top".
+    """
+    from fecolumn.fem.free_body import rigid_fields
+
+    return BodyModel(
         mass=float(body.total_mass),
-        inertia=reduced.inertia,
+        inertia=rigid_fields(body)[2][3:, 3:],
         center=body.center,
-        frequencies=reduced.frequencies,
-        shapes=reduced.at(nodes),
-        flexibility=reduced.flexibility,
+        frequencies=np.zeros(0),
+        shapes=np.zeros((len(nodes), 3, 0)),
+        flexibility=np.zeros((0, 0, 3, 3)),
         arms=body.all_X[nodes] - body.center,
         dofs=3 * body.n_nodes,
-        surfaces={
-            name: patch.surface(np.searchsorted(nodes, found[name]), body.center)
-            for name, patch in patches.items()
-        },
-        marks=marks,
+        surfaces=surfaces,
+        marks={"top": (top - body.center, np.zeros((3, 0)))},
     )
-    return model, (body.all_X - body.center, reduced.fields)
+
+
+def with_elasticity(
+    model: BodyModel, body, nodes: np.ndarray, n_modes: int, top
+) -> tuple[BodyModel, np.ndarray]:
+    """A bare model with elastic modes and flexibility; also the shapes (m, n_owned, 3)
+    [1/sqrt(kg)] of the modes all over the body.
+
+    Parameters
+    ----------
+    nodes
+        (n,) of the body that are the rows of the model.
+    n_modes
+        elastic modes to keep, the lowest.
+    top
+        nodes (k,) whose mean is the mark "top", and their shares (k,) in it.
+    """
+    from fecolumn.fem.reduction import reduced_at
+
+    found, (highest, shares) = reduced_at(body, nodes, n_modes), top
+    shape_of_top = np.einsum("i,iam->am", shares, found.at(highest))
+    made = replace(
+        model,
+        inertia=found.inertia,
+        frequencies=found.frequencies,
+        shapes=found.at(nodes),
+        flexibility=found.flexibility,
+        marks={"top": (model.marks["top"][0], shape_of_top)},
+    )
+    return made, found.fields
 
 
 def rigid_model(

@@ -11,8 +11,9 @@ import numpy as np
 from fecolumn.case.bodies import Matrices, Prism, Storeys
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import GRAVITY
+from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.model import StructureModel
 from fecolumn.structures.place import loads
 from fecolumn.structures.size import LARGE, largest_side
 

@@ -24,12 +24,12 @@ from fecolumn.structures.lines import count_at_ends, count_at_spots, fine_at_end
 from fecolumn.structures.tied import is_tied, tied_counts, tied_mesh
 
 # Elements around a round body, and along the geometric mean of a block's sides
-AROUND, ALONG = 24, 8
+AROUND, _ALONG = 24, 8
 # Length of linear elements along a bar over its depth d: a length l makes bending stiffer by (l /
 # d)^2 / 2
 _LONG = 0.2
 # Elements along the longer side of a plate, away from what stands on it
-ACROSS = 8
+_ACROSS = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,18 +58,24 @@ def shape_of(key: str, body, file, spots=()) -> Shape:
     ------
     InputError
         a mesh file that cannot be used, or parts that cannot be tied.
+    ValueError
+        a kind without a mesh.
     """
     if is_tied(body):
         return Shape(*tied_mesh(key, body, file))
-    if isinstance(body, Meshed):
-        return _own(key, body, file)
-    if isinstance(body, (Plate, Storeys)):
-        return _plate(body, spots)
-    if isinstance(body, Block):
-        return _block(body)
-    if isinstance(body, Prism):
-        return _prism(key, body, file)
-    return _round(key, body, file)
+    # by the word, so that a kind that comes from the class of another one has to be named here
+    match body.kind:
+        case "mesh":
+            return _own(key, body, file)
+        case "plate" | "slab" | "storeys":
+            return _plate(body, spots)
+        case "block":
+            return _block(body)
+        case "prism":
+            return _prism(key, body, file)
+        case "tube" | "cylinder" | "cone":
+            return _round(key, body, file)
+    raise ValueError(f"{key}: shape_of names no mesh of kind {body.kind!r}")
 
 
 def element_size(body) -> float:
@@ -77,14 +83,14 @@ def element_size(body) -> float:
     if body.element_size_m is not None:
         return body.element_size_m
     if isinstance(body, (Plate, Storeys)):
-        return max(body.length_m, body.width_m) / ACROSS
+        return max(body.length_m, body.width_m) / _ACROSS
     if isinstance(body, Block):
         return min(
-            math.sqrt(body.length_m * body.width_m) / ALONG, min(body.length_m, body.width_m) / 4
+            math.sqrt(body.length_m * body.width_m) / _ALONG, min(body.length_m, body.width_m) / 4
         )
     if isinstance(body, Prism):
         across = math.sqrt(abs(signed_area(body.outline_m)))
-        return min(math.sqrt(across * body.width_m) / ALONG, min(across, body.width_m) / 4)
+        return min(math.sqrt(across * body.width_m) / _ALONG, min(across, body.width_m) / 4)
     return (
         math.pi
         * (body.outer_diameter_m - (body.wall_m if isinstance(body, Tube) else 0.0))
@@ -209,7 +215,7 @@ def _plate_lines(body: Plate | Storeys, spots) -> tuple[float, list]:
     takes them.
     """
     coarse = getattr(body, "coarse_size_m", None) or max(
-        element_size(body), max(body.length_m, body.width_m) / ACROSS
+        element_size(body), max(body.length_m, body.width_m) / _ACROSS
     )
     return coarse, [
         [(spot[2 * axis], spot[2 * axis + 1], body.element_size_m or spot[4]) for spot in spots]

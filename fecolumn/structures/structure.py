@@ -9,8 +9,8 @@ import numpy as np
 from fecolumn.case.bodies import Matrices
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import Initial
+from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures import model as models
 from fecolumn.structures.bonds import check_starts, with_bonds
 from fecolumn.structures.case_joints import joint_of, with_hertz
 from fecolumn.structures.case_links import links_at_copies, with_shapes
@@ -141,7 +141,7 @@ def _airborne(standing: list[Standing], joints, links) -> set[int]:
     """Places of the parts that no joint without a gap, and no link, ties to a ground."""
     pairs = [(joint.slave, joint.master) for joint in joints if not joint.gap]
     pairs += [(link.a, link.b) for link in links if link.stiffness]
-    held = {models.GROUND} | {place for place, part in enumerate(standing) if part.held >= 0}
+    held = {GROUND} | {place for place, part in enumerate(standing) if part.held >= 0}
     while more := {one for pair in pairs if held & set(pair) for one in pair} - held:
         held |= more
     return set(range(len(standing))) - held

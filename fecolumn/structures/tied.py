@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from fecolumn.case.bodies import Block, Cylinder, Meshed
+from fecolumn.case.bodies import Block, Meshed
 from fecolumn.case.column_keys import Base, Column, Mesh
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.case.sizes import sized
@@ -44,8 +44,10 @@ def built_of(body) -> Built:
     ------
     InputError
         a mesh of one's own cannot be read.
+    ValueError
+        a kind that is none of mesh, block, cylinder and tube.
     """
-    if isinstance(body, Meshed):
+    if body.kind == "mesh":
         if not own_mesh(body.drawn).has_foot:
             raise InputError(
                 body.mesh_file, "cap", None, "must be left out of a mesh without a flat foot"
@@ -56,7 +58,7 @@ def built_of(body) -> Built:
             mesh_size_m=body.mesh_size_m,
             cut_foot_m=body.cut_foot_m,
         )
-    elif isinstance(body, Block):
+    elif body.kind == "block":
         column = Column(
             shape="block",
             length_m=body.length_m,
@@ -64,14 +66,16 @@ def built_of(body) -> Built:
             height_m=body.height_m,
             fine_height_m=body.fine_height_m,
         )
-    else:
+    elif body.kind in ("cylinder", "tube"):
         column = Column(
-            shape="solid" if isinstance(body, Cylinder) else "tube",
+            shape="solid" if body.kind == "cylinder" else "tube",
             outer_diameter_m=body.outer_diameter_m,
             wall_m=getattr(body, "wall_m", None),
             height_m=body.height_m,
             fine_height_m=body.fine_height_m,
         )
+    else:
+        raise ValueError(f"no mesh of two grids, or with a plate, of kind {body.kind!r}")
     mesh = Mesh(
         fine_size_m=body.element_size_m,
         coarse_size_m=body.coarse_size_m,

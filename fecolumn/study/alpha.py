@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-ALPHA, IMPACT = "integration.alpha_hht", "contact.impact"
+ALPHA_KEY, _IMPACT = "integration.alpha_hht", "contact.impact"
 _PLASTIC = "plastic"  # a case's default
 
 
@@ -21,16 +21,16 @@ def alpha_note(tables: dict[str, Any], axes: dict[str, Any]) -> str:
     """
     contact = tables.get("contact")
     levels = list(
-        axes.get(IMPACT)
+        axes.get(_IMPACT)
         or [contact.get("impact", _PLASTIC) if isinstance(contact, dict) else _PLASTIC]
     )
     if _PLASTIC not in levels:
         return ""
-    where = "" if len(levels) == 1 else f" of the settings with {IMPACT} = 'plastic'"
+    where = "" if len(levels) == 1 else f" of the settings with {_IMPACT} = 'plastic'"
     return (
         f"In the scheme{where} alpha is kept from contact, impact and rigid motion, and "
         "damps elastic modes alone: that it changes little is "
-        f"partly built in, and says nothing of the literal scheme ({IMPACT} = 'none', "
+        f"partly built in, and says nothing of the literal scheme ({_IMPACT} = 'none', "
         "integration.engine = 'full'), where alpha decides what an "
         "impact takes."
     )

@@ -36,7 +36,7 @@ from fecolumn.motions.chosen import chosen_motions
 from fecolumn.study.keys import LatinHypercube
 
 # A study's tables that hold axes
-TABLES = ("axes", "zip", "latin_hypercube")
+_TABLES = ("axes", "zip", "latin_hypercube")
 _SAMPLES = tuple(field.name for field in dataclasses.fields(LatinHypercube))
 
 
@@ -68,7 +68,7 @@ def read_factors(tables: dict[str, Any], path: Path) -> list[AxisFactor]:
         no axis at all, unknown key, a key twice, a list that is none, lists of several lengths, a
         bad range.
     """
-    if not any(name in tables for name in TABLES):
+    if not any(name in tables for name in _TABLES):
         raise InputError(
             path,
             "axes",

@@ -281,7 +281,7 @@ def _until_decided(
     for motions in looks:
         rows = work(sequential.stage_analyses(plan, motions, verdicts))
         verdicts = sequential.judge(plan, rows, rule, looks, motions, verdicts)
-        still = sum(verdict.word == sequential.OPEN for verdict in verdicts)
+        still = sum(verdict.word == sequential.STILL_OPEN for verdict in verdicts)
         print(
             f"{motions} motions: {len(verdicts) - still} of {len(verdicts)} pairs of "
             "settings decided",

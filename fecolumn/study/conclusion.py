@@ -16,7 +16,7 @@ from fecolumn.statistics.ecdf import censored, proportion_interval
 from fecolumn.statistics.equivalence import difference_shortfall, distance_bound, equality_shortfall
 from fecolumn.statistics.holm import holm
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
-from fecolumn.study.alpha import ALPHA, alpha_note
+from fecolumn.study.alpha import ALPHA_KEY, alpha_note
 from fecolumn.study.plan import Plan, member_of
 from fecolumn.study.store import DONE
 from fecolumn.study.substeps import SettingTables, substeps_note
@@ -67,7 +67,7 @@ def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
     parts = [_overturns(settings)]
     if pairs:
         parts += [_differences(pairs, settings), _shortfall(pairs)]
-        if any(pair.axis == ALPHA for pair in pairs):
+        if any(pair.axis == ALPHA_KEY for pair in pairs):
             parts.append(alpha_note(plan.case, plan.axes))
     return " ".join(part for part in (*parts, parts_made) if part)
 

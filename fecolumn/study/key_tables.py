@@ -121,7 +121,7 @@ def tables() -> list[Table]:
 
 def _of_structures() -> list[Table]:
     """Tables of a structure's case beside those that it has in common with a column's."""
-    from fecolumn.case.bodies import KINDS, Footed
+    from fecolumn.case.bodies import BODY_KINDS, Footed
     from fecolumn.case.body_keys import Placed, Solid, Stuff
     from fecolumn.case.ground import Ground
     from fecolumn.case.joint import Interface
@@ -149,7 +149,9 @@ def _of_structures() -> list[Table]:
         'body, or "BODY.MARK", whose displacement is u_top, such as "building.floor '
         "2\"; left out: the highest body's top",
     )
-    bodies = [own(kind) for kind in (Placed, Stuff, Solid, Footed, *dict.fromkeys(KINDS.values()))]
+    bodies = [
+        own(kind) for kind in (Placed, Stuff, Solid, Footed, *dict.fromkeys(BODY_KINDS.values()))
+    ]
     others = {
         "bodies.NAME.flange": Flange,
         "bodies.NAME.cap": Cap,

@@ -168,10 +168,10 @@ def _fit(args: argparse.Namespace) -> int:
 def _read_target(source: str) -> tuple[Target, Components]:
     from fecolumn.foundation.schema import InputError, build
     from fecolumn.foundation.toml_file import read_toml
-    from fecolumn.motions.seeded import FOLDER, Components, check_components, check_target
+    from fecolumn.motions.seeded import TARGETS_FOLDER, Components, check_components, check_target
     from fecolumn.motions.target import Target
 
-    path = FOLDER / "lick_target.toml" if source == _LICK else source
+    path = TARGETS_FOLDER / "lick_target.toml" if source == _LICK else source
     tables = read_toml(path)
     for name in ("target", "components"):
         if not isinstance(tables.get(name), dict):

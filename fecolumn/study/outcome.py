@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 from fecolumn.engines.summary import read_summary
 from fecolumn.foundation.files import Unreadable
 
-#: Words of an outcome. RETURNED: it was never begun, because its worker ended; FULL: the disk is,
-#: and nobody can go on.
-DONE, FAILED, RETURNED, FULL = "done", "failed", "returned", "full"
+#: Words of an outcome. RETURNED: it was never begun, because its worker ended. DISK_FULL: nobody
+#: can go on.
+DONE, FAILED, RETURNED, DISK_FULL = "done", "failed", "returned", "full"
 
 
 class Task(NamedTuple):
@@ -32,7 +32,7 @@ class TaskOutcome(NamedTuple):
     id
         of the analysis.
     word
-        DONE, FAILED, RETURNED or FULL.
+        DONE, FAILED, RETURNED or DISK_FULL.
     reason
         why, unless DONE.
     wall_s

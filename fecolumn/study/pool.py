@@ -21,7 +21,7 @@ from fecolumn.study.outcome import DONE, Task, TaskOutcome, outcomes_of_dead
 from fecolumn.study.team import StudyError
 from fecolumn.study.worker import ONE_THREAD, analysis_function, die_with_parent, in_words, work_off
 
-READY, BROKEN = "ready", "broken"
+READY, _BROKEN = "ready", "broken"
 
 # Successes are told together, failures at once
 _TELL_S = 0.1
@@ -191,7 +191,7 @@ def _serve(connection: Connection, entry: str, file: str) -> None:
 
         run = analysis_function(entry)
     except BaseException as error:
-        connection.send((BROKEN, f"{entry} cannot be used: {in_words(error)}"))
+        connection.send((_BROKEN, f"{entry} cannot be used: {in_words(error)}"))
         return
     connection.send(READY)
     batches: queue.SimpleQueue[list[Task] | None] = queue.SimpleQueue()

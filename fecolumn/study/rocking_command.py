@@ -59,7 +59,7 @@ def main(args) -> int:
 
 def _spectrum(args, folder) -> None:
     from fecolumn.engines.rocking.case import read_model_case
-    from fecolumn.engines.rocking.spectra_table import FREQUENCIES, SHAPES, spectra_table
+    from fecolumn.engines.rocking.spectra_table import FREQUENCIES, PULSE_SHAPES, spectra_table
     from fecolumn.engines.rocking.swing import FASTEST
     from fecolumn.foundation.atomic import write_csv
     from fecolumn.foundation.schema import InputError
@@ -80,7 +80,8 @@ def _spectrum(args, folder) -> None:
         )
     _parameters(case, folder)
     print(
-        f"{len(SHAPES)} pulses at {len(FREQUENCIES)} frequencies, amplitudes up to 14 g tan(alpha)",
+        f"{len(PULSE_SHAPES)} pulses at {len(FREQUENCIES)} frequencies, "
+        "amplitudes up to 14 g tan(alpha)",
         file=sys.stderr,
         flush=True,
     )

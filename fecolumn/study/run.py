@@ -11,12 +11,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, TextIO
 
-from fecolumn.case.sections import REST, Motion
-from fecolumn.engines.pace import NAME as PACE
+from fecolumn.case.sections import UNTIL_REST, Motion
+from fecolumn.engines.pace import PACE_FILE as PACE
 from fecolumn.foundation.atomic import disk_full
 from fecolumn.foundation.files import Unreadable, read_json
 from fecolumn.study.mixture import other_code
-from fecolumn.study.outcome import FULL, RETURNED, TaskOutcome
+from fecolumn.study.outcome import DISK_FULL, RETURNED, TaskOutcome
 from fecolumn.study.plan import Plan, PlannedAnalysis
 from fecolumn.study.pool import LocalPool
 from fecolumn.study.preparation import preparation
@@ -170,7 +170,7 @@ def check_motions(plan: Plan) -> None:
         ground = load_motion(motion, dt_s, plan.file)
         for analysis in users[motion]:
             given, free = analysis.case.integration.duration_s, motion.longest_free_vibration_s
-            if motion.free_vibration_s == REST:
+            if motion.free_vibration_s == UNTIL_REST:
                 free = min(_TO_REST_S, free)
             analysis.duration_s = given or ground.duration + free
             if given and given < ground.duration - dt_s:
@@ -198,7 +198,7 @@ def _work_off(
             team.give([store.task(analysis) for analysis in batch])
         for outcome in team.collect(timeout_s=0.5):
             analysis = given.pop(outcome.id)
-            if outcome.word == FULL:
+            if outcome.word == DISK_FULL:
                 raise StudyError(f"{_DISK_FULL} ({outcome.reason})")
             if outcome.word == RETURNED:
                 queue.appendleft(analysis)

@@ -21,7 +21,7 @@ from fecolumn.statistics.holm import holm
 from fecolumn.study.conclusion import SettingPair, pairs_of, settings_of
 from fecolumn.study.plan import Plan, member_of
 
-DIFFER, ALIKE, OPEN = "differ", "alike", "open"
+DIFFER, ALIKE, STILL_OPEN = "differ", "alike", "open"
 #: Motions of the first stage; each stage has twice as many as the one before.
 FIRST = 40
 
@@ -67,9 +67,11 @@ class Verdict:
     def text(self, rule: Rule) -> str:
         """One line for a reader."""
         pair = self.pair
-        judged = {DIFFER: "differ", ALIKE: f"alike within {rule.margin:g}", OPEN: "not decided"}[
-            self.word
-        ]
+        judged = {
+            DIFFER: "differ",
+            ALIKE: f"alike within {rule.margin:g}",
+            STILL_OPEN: "not decided",
+        }[self.word]
         return (
             f"{pair.names[0]} and {pair.names[1]}: {judged}; distance {pair.distance:.3f}, "
             f"at most {pair.bound:.3f}, p = {pair.p:.4f}, N = {pair.n}"
@@ -108,7 +110,7 @@ def stage_analyses(plan: Plan, motions: int, verdicts: list[Verdict]) -> set[str
     open_settings = {
         repr(values)
         for verdict in verdicts
-        if verdict.word == OPEN
+        if verdict.word == STILL_OPEN
         for values in verdict.pair.settings
     }
     return {
@@ -140,10 +142,10 @@ def judge(
     """
     level = rule.error * motions / sum(looks)
     pairs = pairs_of(settings_of(plan, rows), confidence=1 - level)
-    decided = {verdict.pair.names: verdict for verdict in before if verdict.word != OPEN}
+    decided = {verdict.pair.names: verdict for verdict in before if verdict.word != STILL_OPEN}
     corrected = holm([pair.p for pair in pairs])
     found = []
     for pair, p in zip(pairs, corrected):
-        word = DIFFER if p < level else ALIKE if pair.bound <= rule.margin else OPEN
+        word = DIFFER if p < level else ALIKE if pair.bound <= rule.margin else STILL_OPEN
         found.append(decided.get(pair.names) or Verdict(pair, word))
     return found

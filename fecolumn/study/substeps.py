@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-STEP, SUBSTEPS = "integration.dt_s", "integration.substeps"
+_STEP, _SUBSTEPS = "integration.dt_s", "integration.substeps"
 _ROLLING = "rolling"  # a case's default
 _CAUSES = {_ROLLING: "in which a round rim rolls fast", "impacts": "in which a point lands"}
 
@@ -32,8 +32,8 @@ def substeps_note(tables: dict[str, Any], settings: Iterable[SettingTables]) -> 
     default = integration.get("substeps", _ROLLING) if isinstance(integration, dict) else _ROLLING
     counted: dict[Any, dict[Any, list[Any]]] = {}
     for values, runs in settings:
-        counts = counted.setdefault(values.get(SUBSTEPS, default), {}).setdefault(
-            values.get(STEP), []
+        counts = counted.setdefault(values.get(_SUBSTEPS, default), {}).setdefault(
+            values.get(_STEP), []
         )
         counts += [(run.get("parts", 0), run["steps"]) for run in runs.values() if "steps" in run]
     said = []

@@ -19,7 +19,7 @@ from typing import IO, Any
 
 from fecolumn.foundation.atomic import disk_full
 from fecolumn.foundation.files import is_file
-from fecolumn.study.outcome import FAILED, FULL, Task, TaskOutcome, finished_outcome
+from fecolumn.study.outcome import DISK_FULL, FAILED, Task, TaskOutcome, finished_outcome
 
 # One thread a worker: BLAS threads of several workers on the same cores only disturb each other.
 ONE_THREAD = dict.fromkeys(
@@ -67,7 +67,7 @@ def work_off(batch: list[Task], run: AnalysisFunction, file: str) -> Iterator[Ta
         told["wall_s"] = time.monotonic() - began
         give_back_memory()
         if problem:
-            yield TaskOutcome(task.id, FULL if full else FAILED, problem, **told)
+            yield TaskOutcome(task.id, DISK_FULL if full else FAILED, problem, **told)
             if full:
                 return
         else:

@@ -5,9 +5,9 @@ One module a case: run(engine, long) returns its Result.
 
 #: Engines of the suite: the two kinematics of the full order, the reduced engine with and without
 #: modes, and rocking models of rigid bodies.
-FULL, REDUCED, MODELS = ("corotated", "total_lagrangian"), ("reduced", "rigid"), ("models",)
+FULL, REDUCED, _MODELS = ("corotated", "total_lagrangian"), ("reduced", "rigid"), ("models",)
 ELEMENTS = FULL + REDUCED
-ALL_ENGINES = ELEMENTS + MODELS
+ALL_ENGINES = ELEMENTS + _MODELS
 #: Modules of this package that hold a case, in the order of the table, with the engines it applies
 #: to; the manual (theory) says why.
 CASES = {
@@ -30,9 +30,9 @@ CASES = {
     "structures_feet": REDUCED,
     "devices": REDUCED,
     "full_structures": ("corotated",),
-    "rocking_models": MODELS,
-    "rocking_tables": MODELS,
-    "wobbling_models": MODELS,
-    "podium": MODELS,
-    "masonry": MODELS,
+    "rocking_models": _MODELS,
+    "rocking_tables": _MODELS,
+    "wobbling_models": _MODELS,
+    "podium": _MODELS,
+    "masonry": _MODELS,
 }

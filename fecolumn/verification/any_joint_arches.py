@@ -15,12 +15,13 @@ from scipy.optimize import linprog
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
+from fecolumn.contact.points import GROUND
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.model import GROUND, StructureModel
+from fecolumn.structures.model import StructureModel
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.boxes import sine_pulse
 from fecolumn.verification.result import Row

@@ -14,7 +14,7 @@ from fecolumn.verification.result import Row
 # Inclinations [deg] of slopes, directions [deg] of their fall lines from x to y
 _SLOPES, _DIRECTIONS = (10.0, 25.0, 40.0), (0.0, 90.0, 33.0)
 #: By how much what decides whether something slides is off its limit
-OFF = 1e-6
+OFF_LIMIT = 1e-6
 
 
 def slope_rows(engine: str):
@@ -27,12 +27,14 @@ def slope_rows(engine: str):
     slides, stays, stops, far, stood = [], [], [], [], 0
     for degrees in _SLOPES:
         angle = np.radians(degrees)
-        each = OFF * GRAVITY * np.sin(angle)
+        each = OFF_LIMIT * GRAVITY * np.sin(angle)
         for direction in _DIRECTIONS:
             limit = np.tan(angle)
-            one = acceleration_of(slope(engine, degrees, limit * (1 - OFF), direction), "block")
+            one = acceleration_of(
+                slope(engine, degrees, limit * (1 - OFF_LIMIT), direction), "block"
+            )
             slides.append(np.linalg.norm(one) / each - 1)
-            less, more = limit * (1 - OFF), limit * (1 + OFF)
+            less, more = limit * (1 - OFF_LIMIT), limit * (1 + OFF_LIMIT)
             stays.append(_creeps(slope(engine, degrees, more, direction, "rest"), 0.0) / each)
             stops.append(_creeps(slope(engine, degrees, more, direction), 10.0) / each)
             stood += _stands(engine, degrees, less, direction)

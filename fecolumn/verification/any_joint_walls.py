@@ -9,7 +9,7 @@ import warnings
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.verification.boxes import sine_pulse
 from fecolumn.verification.joint_bodies import engines
@@ -17,10 +17,11 @@ from fecolumn.verification.result import Row
 
 #: Length, width and height of a stone [m]; a half stone at the end of a course lifts at the
 #: acceleration of length / 2 height before it slides
-STONE, FRICTION = (0.3, 0.25, 0.25), 0.7
+STONE, _FRICTION = (0.3, 0.25, 0.25), 0.7
 # Amplitude of the sine over that which lifts a half stone, its period [s] and how long it lasts [s]
 _SHAKEN, _PERIOD, _LASTS = 1.5, 0.4, 0.2
-# What the last proximal step, of less than tolerances.REST over the height, leaves of the weight
+# What the last proximal step, of less than tolerances.REST_WAY over the height, leaves of the
+# weight
 _AT_REST = 1e-7
 # Courses and stones of the lowest one, of 10 and 32 stones in all
 _SMALL, _WALL = (3, 3), (5, 6)
@@ -59,7 +60,7 @@ def wall_tables(courses: int, stones: int, engine: str, gap: float = 0.0) -> dic
             stones=dict(between=["stone", "stone"]) | opened,
             halves=dict(between=["stone", "half"]) | opened,
         ),
-        contact=dict(friction_coefficient=FRICTION, interior_points=0),
+        contact=dict(friction_coefficient=_FRICTION, interior_points=0),
         integration=dict(engine=engine, dt_s=1e-3, duration_s=10.0)
         | (dict(n_modes=5) if engine == "reduced" else {}),
     )
@@ -95,7 +96,7 @@ def wall_rows(engine: str):
         bodies = made.structure.bodies.body
         weight = bodies["mass"].sum() * GRAVITY
         # of the points on the ground, whose axes are those of the table frame
-        on_ground = made.points["master"] == BASE
+        on_ground = made.points["master"] == GROUND
         carried = made.motion.contact["force"][on_ground].sum(axis=0)
         told = f"wall of {name} stones, gap 0"
         yield Row(

@@ -10,11 +10,11 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
-from fecolumn.verification.any_joint_slopes import OFF, acceleration_of, begun, places
+from fecolumn.verification.any_joint_slopes import OFF_LIMIT, acceleration_of, begun, places
 from fecolumn.verification.result import Row
 
-#: By how much a thrust or a friction is farther within its limit than OFF, and far within it
-FARTHER, FAR = 1e-4, 0.1
+#: By how much a thrust or a friction is farther within its limit than OFF_LIMIT, and far within it
+FARTHER, _FAR = 1e-4, 0.1
 # Masses [kg] of the wedge and of the abutment that is pushed, height [m] of the wedge's middle
 _WEDGE, _ABUTMENT, _LEVEL = 100.0, 40.0, 1.0
 # Inclination [deg] of its faces from the vertical, positive where it narrows downwards, and mu
@@ -72,7 +72,7 @@ def _thrust_rows(engine: str):
     )
     yield from _limit_rows(engine, _by_thrust, label, "thrust")
     errors = []
-    for trial in _by_thrust(FAR):
+    for trial in _by_thrust(_FAR):
         made = wedge(engine, *trial[:3])
         errors.append(_upwards(made, 0.02, trial) / wedge_acceleration(*trial) - 1)
     yield Row(
@@ -82,7 +82,7 @@ def _thrust_rows(engine: str):
         1e-6,
     )
     crept, stood = [], 0
-    for outside, within in _two(_by_thrust, -OFF, OFF):
+    for outside, within in _two(_by_thrust, -OFF_LIMIT, OFF_LIMIT):
         found = places(wedge(engine, *outside[:3], start="rest"), "wedge", 0.0, 0.5)
         crept.append(np.linalg.norm(found[2] - found[0]) / abs(wedge_acceleration(*within)))
         stood += _stands(engine, *within[:3])
@@ -108,7 +108,7 @@ def _jam_rows(engine: str):
     if engine == "rigid":
         yield from _limit_rows(engine, _by_friction, label, "friction")
         errors = []
-        for trial in _by_friction(FAR):
+        for trial in _by_friction(_FAR):
             # at up to 600 m/s2, which lifts the abutment, and soon turns the tendon
             made = wedge(engine, *trial[:3], dt=5e-6)
             errors.append(_upwards(made, 1e-4, trial) / wedge_acceleration(*trial) - 1)
@@ -136,7 +136,7 @@ def _jam_rows(engine: str):
             1e-6,
         )
     crept = []
-    for outside, within in _two(_by_friction, -OFF, OFF):
+    for outside, within in _two(_by_friction, -OFF_LIMIT, OFF_LIMIT):
         found = places(wedge(engine, *outside[:3]), "wedge", 2.0, 0.5)
         crept.append(np.linalg.norm(found[2] - found[0]) / abs(wedge_acceleration(*within)))
     yield Row(
@@ -164,13 +164,13 @@ def _limit(engine: str, two: tuple[WedgeTrial, WedgeTrial], each: float, modulus
 
 
 def _limit_rows(engine: str, kinds: Callable, label: str, what: str):
-    """Where accelerations OFF and FARTHER within the limit, on a line, say that the limit is, and
-    the first beside the closed form.
+    """Where accelerations OFF_LIMIT and FARTHER within the limit, on a line, say that the limit is,
+    and the first beside the closed form.
     """
     limits, errors = [], []
-    for near, more in _two(kinds, OFF, FARTHER):
+    for near, more in _two(kinds, OFF_LIMIT, FARTHER):
         one, other = (_upwards(wedge(engine, *trial[:3]), 0.05, trial) for trial in (near, more))
-        limits.append(OFF - one * (FARTHER - OFF) / (other - one))
+        limits.append(OFF_LIMIT - one * (FARTHER - OFF_LIMIT) / (other - one))
         errors.append(one / wedge_acceleration(*near) - 1)
     yield Row(
         f"{label}: {what} of the limit over that of statics, largest error",

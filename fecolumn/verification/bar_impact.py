@@ -49,16 +49,20 @@ from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification import FULL
 from fecolumn.verification.hht_scheme import amplification, principal
 from fecolumn.verification.models import block_system, box
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import afloat
-from fecolumn.verification.trials import begin_trial
 
-LENGTH, AREA, MODULUS, DENSITY, SPEED = 2.0, 0.2, 200e9, 7800.0, 1.5
-WAVE = np.sqrt(MODULUS / DENSITY)
-FORCE, TIME, MASS = DENSITY * WAVE * AREA * SPEED, 2 * LENGTH / WAVE, DENSITY * AREA * LENGTH
-ENERGY = MASS * SPEED**2 / 2
-ALPHAS = (0.0, -0.1, -0.333)
-IMPACTS = ("plastic", "none")
+_LENGTH, AREA, MODULUS, _DENSITY, SPEED = 2.0, 0.2, 200e9, 7800.0, 1.5
+_WAVE = np.sqrt(MODULUS / _DENSITY)
+FORCE, _TIME, _MASS = (
+    _DENSITY * _WAVE * AREA * SPEED,
+    2 * _LENGTH / _WAVE,
+    _DENSITY * AREA * _LENGTH,
+)
+_ENERGY = _MASS * SPEED**2 / 2
+_ALPHAS = (0.0, -0.1, -0.333)
+_IMPACTS = ("plastic", "none")
 BRICKS = (16, 32, 64, 128)
 
 
@@ -106,17 +110,17 @@ class Strike:
     @property
     def mean(self) -> float:
         """Force [N] over the middle half of the contact."""
-        return float(self.force[np.abs(self.time / TIME - 0.5) < 0.25].mean())
+        return float(self.force[np.abs(self.time / _TIME - 0.5) < 0.25].mean())
 
 
 def strike(engine: str, bricks: int, alpha: float, impact: str, arrival: float = 0.5) -> Strike:
     """Impact of a bar of `bricks` that touches `arrival` of a step after the start."""
-    dt, half = LENGTH / bricks / WAVE, np.sqrt(AREA) / 2
-    bar = Material(youngs_modulus_pa=MODULUS, poissons_ratio=0.0, density_kg_m3=DENSITY)
-    wall = Material(youngs_modulus_pa=1e15, poissons_ratio=0.0, density_kg_m3=DENSITY)
+    dt, half = _LENGTH / bricks / _WAVE, np.sqrt(AREA) / 2
+    bar = Material(youngs_modulus_pa=MODULUS, poissons_ratio=0.0, density_kg_m3=_DENSITY)
+    wall = Material(youngs_modulus_pa=1e15, poissons_ratio=0.0, density_kg_m3=_DENSITY)
     system = block_system(
         engine,
-        box([-half, half], [-half, half], np.linspace(0, LENGTH, bricks + 1)),
+        box([-half, half], [-half, half], np.linspace(0, _LENGTH, bricks + 1)),
         box([-1, 1], [-1, 1], [-0.1, 0]),
         HHT(dt, alpha),
         material=bar,
@@ -134,7 +138,7 @@ def strike(engine: str, bricks: int, alpha: float, impact: str, arrival: float =
         n_modes=3 * system.body.n_nodes,
     )
     time, force, taken = [-arrival * dt], [0.0], []
-    while time[-1] < 1.25 * TIME:
+    while time[-1] < 1.25 * _TIME:
         state = trial.step()
         ledger = trial.energy()
         time.append(time[-1] + dt)
@@ -180,7 +184,7 @@ def damped(bricks: int, alpha: float) -> float:
         [np.abs(np.linalg.eigvals(amplification(alpha, angle))).max() for angle in angles]
     )
     return (
-        float(ENERGY * np.sum(8 / (np.pi * odd) ** 2 * (1 - radii ** (4 * bricks))))
+        float(_ENERGY * np.sum(8 / (np.pi * odd) ** 2 * (1 - radii ** (4 * bricks))))
         if alpha
         else 0.0
     )
@@ -192,18 +196,18 @@ def run(engine: str, long: bool) -> CaseRows:
     The reduced engine with all modes that the bar has; it knows the plastic law only.
     """
     bricks = BRICKS + (256,) if long else BRICKS
-    impacts = IMPACTS if engine in FULL else IMPACTS[:1]
+    impacts = _IMPACTS if engine in FULL else _IMPACTS[:1]
     strikes = {
         (impact, alpha): {n: strike(engine, n, alpha, impact) for n in bricks}
         for impact in impacts
-        for alpha in ALPHAS
+        for alpha in _ALPHAS
     }
     result = CaseRows(size=(7.2, 5.2))
     for (impact, alpha), series in strikes.items():
         result.rows += bar_rows(
-            impact, alpha, series, closure=1e-6 if engine != "total_lagrangian" else SPEED / WAVE
+            impact, alpha, series, closure=1e-6 if engine != "total_lagrangian" else SPEED / _WAVE
         )
-    for alpha in ALPHAS:
+    for alpha in _ALPHAS:
         last = strike(engine, bricks[-1], alpha, "plastic", arrival=1 - 1e-6)
         result.rows.append(
             Row(
@@ -232,11 +236,11 @@ def bar_rows(impact: str, alpha: float, series: dict[int, Strike], closure: floa
     """
     bricks, name = max(series), f"{impact}, alpha {alpha:g}"
     last = series[bricks]
-    width, sliver = front(bricks, alpha), ENERGY / bricks
-    landing = last.foot / MASS * ENERGY
+    width, sliver = front(bricks, alpha), _ENERGY / bricks
+    landing = last.foot / _MASS * _ENERGY
     slope = order(series, lambda one: one.contact)
     found = [
-        Row(f"{name}, {bricks} bricks: contact time [s]", TIME, last.duration, width + 1 / bricks),
+        Row(f"{name}, {bricks} bricks: contact time [s]", _TIME, last.duration, width + 1 / bricks),
         Row(
             f"{name}: contact force, mean of the middle half [N]",
             FORCE,
@@ -261,11 +265,11 @@ def bar_rows(impact: str, alpha: float, series: dict[int, Strike], closure: floa
             f"{name}: taken by HHT [J]",
             damped(bricks, alpha),
             last.damping,
-            (landing or sliver) if alpha else 1e-6 * ENERGY,
+            (landing or sliver) if alpha else 1e-6 * _ENERGY,
             scale=1.0,
             order=order(series, lambda one: one.damping) if alpha else None,
         ),
-        Row(f"{name}: ledger closure / energy [-]", 0.0, last.closure / ENERGY, closure),
+        Row(f"{name}: ledger closure / energy [-]", 0.0, last.closure / _ENERGY, closure),
     ]
     if impact == "plastic":
         found += [
@@ -299,7 +303,7 @@ def draw_bar(figure, strikes) -> None:
             label=f"{n} bricks",
         )
     for axes, impact in ((alphas, "plastic"), (literal, "none")):
-        for alpha, (colour, dashes) in zip(ALPHAS if (impact, 0.0) in strikes else (), LINES):
+        for alpha, (colour, dashes) in zip(_ALPHAS if (impact, 0.0) in strikes else (), LINES):
             one = strikes[impact, alpha][64]
             axes.plot(
                 1e3 * one.time,
@@ -315,7 +319,7 @@ def draw_bar(figure, strikes) -> None:
     )
     for axes, title in zip((meshes, alphas, literal), titles):
         axes.plot(
-            1e3 * np.array([-0.05, 0, 0, 1, 1, 1.25]) * [1, 1, 1, TIME, TIME, TIME],
+            1e3 * np.array([-0.05, 0, 0, 1, 1, 1.25]) * [1, 1, 1, _TIME, _TIME, _TIME],
             FORCE / 1e6 * np.array([0, 0, 1, 1, 0, 0]),
             "k-",
             linewidth=0.7,
@@ -326,17 +330,17 @@ def draw_bar(figure, strikes) -> None:
             title=title,
             xlabel="time since contact [ms]",
             ylabel="contact force [MN]",
-            xlim=(-0.05, 1.25e3 * TIME),
+            xlim=(-0.05, 1.25e3 * _TIME),
             ylim=(-0.5, 20),
         )
         axes.legend(loc="upper right")
     if ("none", 0.0) not in strikes:
         literal.remove()
-    for alpha, mark, (colour, _) in zip(ALPHAS, "os^", LINES):
+    for alpha, mark, (colour, _) in zip(_ALPHAS, "os^", LINES):
         series = strikes["plastic", alpha]
         lost = np.array(
             [
-                (1 - one.rebound / SPEED, one.contact / ENERGY, one.damping / ENERGY)
+                (1 - one.rebound / SPEED, one.contact / _ENERGY, one.damping / _ENERGY)
                 for one in series.values()
             ]
         ).T

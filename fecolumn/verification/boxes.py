@@ -3,20 +3,20 @@ them is known.
 """
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
-from fecolumn.case import sections as case
+from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import Limits
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.engines.dynamics.hht import HHT
-from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.start import of_parts
-from fecolumn.engines.reduced.structure import structure_of, view_of
+from fecolumn.engines.reduced_engine import engine_on
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
+from fecolumn.structures.model import BodyModel, Joint, Part, StructureModel, Surface
 
-GRAVITY = np.array([0.0, 0.0, -case.GRAVITY])
 # each point gives way by this [m/N]
 GIVES = 1e-10
 
@@ -103,25 +103,12 @@ def joint(slave, master, model, surface="foot", on="head", friction=0.7, restitu
 
 
 def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=0):
-    """An Engine of a StructureModel of these."""
+    """An Engine of a StructureModel of these, of which a body beyond 45 degrees is lost."""
     base = rigid_base(np.concatenate([p.center + p.model.arms for p in parts]))
     model = StructureModel(tuple(parts), tuple(joints), tuple(links), base, (observed, "top"))
-    hht = HHT(dt, alpha)
-    structure, _ = structure_of(model, hht, GRAVITY)
-    view = view_of(
-        model,
-        structure,
-        structure.bodies.body["mass"].sum() * case.GRAVITY,
-        Limits.of_tilt(len(model.parts)),
-    )
-    return Engine(
-        lambda step: structure_of(model, step, GRAVITY),
-        (base,),
-        view,
-        hht,
-        lambda made: of_parts(made, parts, stands),
-        model=model,
-    )
+    limits = Limits.of_tilt(len(model.parts))
+    begin = partial(of_parts, parts=parts, stands=stands)
+    return engine_on(model, HHT(dt, alpha), begin, limits=limits)
 
 
 def stack(dt=1e-3, alpha=-0.05):
@@ -143,7 +130,7 @@ def block_on_a_heavy_one(dt: float):
     breadth, height = 0.3, 0.9
     up, low = box_model(breadth, breadth, height), box_model(1.0, 1.0, 0.5, density=2e4)
     alpha = np.arctan(breadth / height)
-    p = np.sqrt(-0.75 * GRAVITY[2] / (np.hypot(breadth, height) / 2))
+    p = np.sqrt(0.75 * GRAVITY / (np.hypot(breadth, height) / 2))
     spin, toe = np.array([0, 0.5 * alpha * p, 0]), np.array([breadth / 2, 0, 0])
     tipped = part("up", up, (0, 0, 0.5), spin=spin, velocity=np.cross(spin, up.center - toe))
     return (
@@ -220,7 +207,7 @@ def bent(ratio: float, dt: float, tilt: float, breadth=1.2, height=8.0):
         for one in (joint(k, GROUND, pier), joint(k, 2, pier, surface="head", on="foot"))
     ]
     below = sum(
-        one.model.mass * case.GRAVITY * (there[2] - one.center[2])
+        one.model.mass * GRAVITY * (there[2] - one.center[2])
         for one, there in zip(leaning, upright)
     )
     return (

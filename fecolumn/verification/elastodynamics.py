@@ -49,43 +49,43 @@ from fecolumn.verification.result import CaseRows, Row, order_of
 from fecolumn.verification.trial import Trial, afloat
 
 # Steel of models.block_system; strains of 3e-5 keep both kinematics linear
-SIDE, AMPLITUDE, SHEAR, POISSON, DENSITY = 0.1, 1e-6, 200e9 / 2.6, 0.3, 7850.0
-WAVE = np.pi / SIDE
-FREQUENCY = WAVE * np.sqrt(2 * SHEAR / DENSITY)
+_SIDE, _AMPLITUDE, _SHEAR, POISSON, _DENSITY = 0.1, 1e-6, 200e9 / 2.6, 0.3, 7850.0
+_WAVE = np.pi / _SIDE
+_FREQUENCY = _WAVE * np.sqrt(2 * _SHEAR / _DENSITY)
 # Mean square of the mode's shape
 MEAN = 1 + 4 / np.pi**2
-PERIOD = 2 * np.pi / FREQUENCY
+PERIOD = 2 * np.pi / _FREQUENCY
 # [m/s2], [m]. The solver's tolerance is a share of the weight and must lie above rounding, which
 # for steps this short is that of 10 g
-GRAVITY, HEIGHT = 300.0, 1e-3
+_GRAVITY, _HEIGHT = 300.0, 1e-3
 CROOKED = 0.15
 # By degree: bricks a side, the periods they run through, steps a period, tolerance of the order
 MESHES = {1: (6, 8, 12), 2: (3, 4, 6)}
-PERIODS = {1: 1.0, 2: 0.125}
-STEPS = {1: 120, 2: 480}
+_PERIODS = {1: 1.0, 2: 0.125}
+_STEPS = {1: 120, 2: 480}
 BEND = {1: 0.05, 2: 0.13}
-ALPHAS = (0.0, -0.1, -0.333)
+_ALPHAS = (0.0, -0.1, -0.333)
 # Steps a period of the convergence in dt, on bricks of degree 2
-COUNTS = (16, 24, 36)
+_COUNTS = (16, 24, 36)
 
 
 def bricks(number: int, crooked: float):
     """Cube of `number` bricks a side, inner corners moved along the diagonal by `crooked` of a
     brick to and fro.
     """
-    line = np.linspace(0, SIDE, number + 1)
+    line = np.linspace(0, _SIDE, number + 1)
     mesh = box(line, line, line)
-    place = np.rint(mesh.points / SIDE * number)
+    place = np.rint(mesh.points / _SIDE * number)
     inner = np.all((place > 0) & (place < number), axis=1)
     sign = np.where(place.sum(axis=1) % 2, 1.0, -1.0) * inner
     return replace(
-        mesh, points=mesh.points + (crooked * SIDE / number) * sign[:, None] * [1.0, -1.0, 1.0]
+        mesh, points=mesh.points + (crooked * _SIDE / number) * sign[:, None] * [1.0, -1.0, 1.0]
     )
 
 
 def shape(x, sin, cos):
     """The mode (3,) at x, in the functions of numpy or ufl."""
-    X, Y, Z = (WAVE * x[axis] for axis in range(3))
+    X, Y, Z = (_WAVE * x[axis] for axis in range(3))
     return cos(X) * sin(Y), -cos(Y) * (sin(X) + sin(Z)), sin(Y) * cos(Z)
 
 
@@ -101,33 +101,36 @@ def error(
     """L2 error of displacement and velocity after `periods` of `steps` each, over their amplitudes
     [-].
     """
-    plate, dt = [-SIDE, 2 * SIDE], PERIOD / steps
+    plate, dt = [-_SIDE, 2 * _SIDE], PERIOD / steps
     system = block_system(
         engine,
         bricks(number, crooked),
-        box(plate, plate, [-SIDE, 0]),
+        box(plate, plate, [-_SIDE, 0]),
         HHT(dt, alpha),
-        gravity=(0, 0, -GRAVITY),
+        gravity=(0, 0, -_GRAVITY),
         order=degree,
     )
     column = system.body
-    mode, fall = np.stack(shape(column.X.T, np.sin, np.cos), axis=1), np.array([0.0, 0.0, -GRAVITY])
+    mode, fall = (
+        np.stack(shape(column.X.T, np.sin, np.cos), axis=1),
+        np.array([0.0, 0.0, -_GRAVITY]),
+    )
     still = np.zeros_like(mode)
     trial = Trial(
         system,
         lambda system: afloat(
-            system, still, AMPLITUDE * FREQUENCY * mode, still + fall, height=HEIGHT
+            system, still, _AMPLITUDE * _FREQUENCY * mode, still + fall, height=_HEIGHT
         ),
     )
     for _ in range(round(periods * steps)):
         trial.step()
     time = periods * PERIOD
-    moved = trial.state.x - column.X - [0.0, 0.0, HEIGHT] - fall * time**2 / 2
+    moved = trial.state.x - column.X - [0.0, 0.0, _HEIGHT] - fall * time**2 / 2
     speed = trial.state.v - fall * time
     return float(
         np.hypot(
-            distance(column, moved / AMPLITUDE, np.sin(2 * np.pi * periods)),
-            distance(column, speed / (AMPLITUDE * FREQUENCY), np.cos(2 * np.pi * periods)),
+            distance(column, moved / _AMPLITUDE, np.sin(2 * np.pi * periods)),
+            distance(column, speed / (_AMPLITUDE * _FREQUENCY), np.cos(2 * np.pi * periods)),
         )
     )
 
@@ -144,7 +147,7 @@ def distance(column, field: np.ndarray, factor: float) -> float:
     square = fem.assemble_scalar(
         fem.form(ufl.inner(wrong, wrong) * ufl.dx(metadata={"quadrature_degree": 6}))
     )
-    return float(np.sqrt(square / (SIDE**3 * MEAN)))
+    return float(np.sqrt(square / (_SIDE**3 * MEAN)))
 
 
 def run(engine: str, long: bool) -> CaseRows:
@@ -155,7 +158,7 @@ def run(engine: str, long: bool) -> CaseRows:
     for degree, numbers in meshes.items():
         for crooked in (0.0, CROOKED):
             errors = [
-                error(engine, number, degree, STEPS[degree], PERIODS[degree], crooked=crooked)
+                error(engine, number, degree, _STEPS[degree], _PERIODS[degree], crooked=crooked)
                 for number in numbers
             ]
             spatial[degree, crooked] = np.pi / np.array(numbers), errors
@@ -184,10 +187,10 @@ def run(engine: str, long: bool) -> CaseRows:
     number = meshes[2][-1]
     remains = error(engine, number, 2, 240)
     temporal = {
-        alpha: [error(engine, number, 2, count, alpha=alpha) for count in COUNTS]
-        for alpha in (ALPHAS if whole else ALPHAS[1:2])
+        alpha: [error(engine, number, 2, count, alpha=alpha) for count in _COUNTS]
+        for alpha in (_ALPHAS if whole else _ALPHAS[1:2])
     }
-    steps = 2 * np.pi / np.array(COUNTS)
+    steps = 2 * np.pi / np.array(_COUNTS)
     for alpha, errors in temporal.items():
         bend = (remains / errors[-1] + 0.15 * steps[0] ** 2) / np.log(steps[0] / steps[-1])
         order = order_of(steps, errors)

@@ -43,14 +43,21 @@ disturbance of 1 um/s does not grow in this window.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
-from mpi4py import MPI
 
+from fecolumn.engines.elements import checked_layout
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification import FULL
-from fecolumn.verification.models import column_case, column_system, shaking
+from fecolumn.verification.models import (
+    column_case,
+    column_system,
+    shaking,
+    system_of,
+    with_shape,
+)
 from fecolumn.verification.moving_base import (
     InertialTrial,
     by_hht,
@@ -58,27 +65,25 @@ from fecolumn.verification.moving_base import (
     hht_path,
     on_exact_path,
 )
-from fecolumn.verification.one_column import build_system, share_specimen_mesh
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import RigidRocking, Trial, solver_drift
-from fecolumn.verification.trials import begin_trial
 
 RIGID = {"base": {"youngs_modulus_pa": 1e15}}
 QUIET_STEPS = 50
 DISTURBANCE = 1e-6  # m/s
 # of the ledger; the work of a moving base is not told apart by them
-LOSSES = ("friction", "impact", "contact")
+_LOSSES = ("friction", "impact", "contact")
 
 
 def turned_system(turn, engine: str, **tables):
     """The coarse specimen with its body's mesh turned by `turn` (3, 3); the base stays."""
     case = column_case(engine, **tables)
-    mesh = share_specimen_mesh(case, MPI.COMM_SELF)
-    return build_system(
-        case,
-        MPI.COMM_SELF,
-        replace(mesh, body=replace(mesh.body, points=mesh.body.points @ turn.T)),
-    )
+
+    def turned(shape):
+        return replace(shape, mesh=replace(shape.mesh, points=shape.mesh.points @ turn.T))
+
+    return system_of(case, with_shape(checked_layout(case, "verification"), turned, turn))
 
 
 def run(engine: str, long: bool) -> CaseRows:
@@ -152,17 +157,18 @@ def run(engine: str, long: bool) -> CaseRows:
         begin_trial(engine, system, standing).shake(later)[QUIET_STEPS:],
     )
     turn = rotation_matrix([0, 0, np.pi / 6])
+    turned = partial(turned_system, turn, engine)
     rigid = begin_trial(engine, column_system(engine, **RIGID)).shake(motion)
     elasticity = np.linalg.norm(rigid - reference, axis=2).max() / largest
     compare(
         "body and motion turned by 30 deg, rigid base",
-        begin_trial(engine, turned_system(turn, engine, **RIGID)).shake(motion @ turn.T) @ turn,
+        begin_trial(engine, turned(**RIGID)).shake(motion @ turn.T) @ turn,
         allowed + 200e9 / 1e15 * elasticity,
         rigid,
     )
     compare(
         "body and motion turned by 30 deg, elastic base",
-        begin_trial(engine, turned_system(turn, engine)).shake(motion @ turn.T) @ turn,
+        begin_trial(engine, turned()).shake(motion @ turn.T) @ turn,
         allowed + elasticity,
     )
     between = rotation_matrix([0, 0, np.radians(10)])
@@ -225,14 +231,14 @@ def frame_ledgers(table: Trial, inertial: InertialTrial, drift: float) -> list[R
     """The ledgers of the two frames at the end, `drift` [m/s] apart."""
     of_table, of_inertial = table.energy(), inertial.trial.energy()
     gained = inertial.trial.mechanical() - inertial.trial.ledger.start
-    lost = sum(of_table[name] for name in (*LOSSES, "closure"))
+    lost = sum(of_table[name] for name in (*_LOSSES, "closure"))
     allowed = 2 * drift / np.sqrt(2 * gained / table.system.body.total_mass)
     return [
         Row("base moving: work of the base [J]", gained - lost, inertial.work, allowed),
         Row(
             "base moving: loss of friction, impact and contact [J]",
-            sum(of_table[name] for name in LOSSES),
-            sum(of_inertial[name] for name in LOSSES) - inertial.work,
+            sum(of_table[name] for name in _LOSSES),
+            sum(of_inertial[name] for name in _LOSSES) - inertial.work,
             allowed,
             scale=gained,
         ),

@@ -48,17 +48,18 @@ from fecolumn.case.sections import Material
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import block_system, box
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
-from fecolumn.verification.trials import begin_trial
+from fecolumn.verification.trial import contact_nodes
 
 LARGEST, CURVATURE = 0.01, 100.0  # a under full load and R [m]
-LENGTH = LARGEST / 8  # of the slice of the cylinder [m]
-MODULI, DENSITY = (70e9, 210e9), 7850.0  # of block and base [Pa, kg/m3]
-RIM, DEPTH = 1.2, 0.5  # half-width and depth of the equal bricks over a
-GROWTH = (
+_LENGTH = LARGEST / 8  # of the slice of the cylinder [m]
+_MODULI, _DENSITY = (70e9, 210e9), 7850.0  # of block and base [Pa, kg/m3]
+_RIM, DEPTH = 1.2, 0.5  # half-width and depth of the equal bricks over a
+_GROWTH = (
     5  # of the bricks beyond, over as many of them as lie along a: a finer mesh is finer everywhere
 )
-QUANTITIES = {"radius": "o-", "peak": "s:", "spread": "^--"}  # errors of Pressed
+_QUANTITIES = {"radius": "o-", "peak": "s:", "spread": "^--"}  # errors of Pressed
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +81,7 @@ class Hertz:
     axes: int
     poisson: float
     size: float
-    moduli: tuple[float, float] = MODULI
+    moduli: tuple[float, float] = _MODULI
 
     @property
     def name(self) -> str:
@@ -99,7 +100,7 @@ class Hertz:
 
     def load(self, a):
         """P [N]."""
-        return (np.pi / 4 * a**2 * LENGTH, 4 / 3 * a**3)[self.axes - 1] * self.modulus / CURVATURE
+        return (np.pi / 4 * a**2 * _LENGTH, 4 / 3 * a**3)[self.axes - 1] * self.modulus / CURVATURE
 
     def peak(self, a):
         """p0 [Pa]."""
@@ -107,11 +108,11 @@ class Hertz:
 
     def softness(self, a):
         """Approach / P without the blocks' own compliance [m/N]."""
-        return (-2 * np.log(a) / (np.pi * LENGTH), 3 / 4 / a)[self.axes - 1] / self.modulus
+        return (-2 * np.log(a) / (np.pi * _LENGTH), 3 / 4 / a)[self.axes - 1] / self.modulus
 
     def steepness(self, a):
         """|a d softness / da| [m/N]."""
-        return (2 / (np.pi * LENGTH), 3 / 4 / a)[self.axes - 1] / self.modulus
+        return (2 / (np.pi * _LENGTH), 3 / 4 / a)[self.axes - 1] / self.modulus
 
     def left(self, a):
         """What size and strains may change in the radius, relative."""
@@ -168,9 +169,9 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
     """A block with `bricks` along the largest radius at rest under the loads that belong to `radii`
     [m].
     """
-    h, far, growth = LARGEST / bricks, exact.size * LARGEST, GROWTH ** (1 / bricks)
+    h, far, growth = LARGEST / bricks, exact.size * LARGEST, _GROWTH ** (1 / bricks)
     half, up = (
-        graded_lines(h, RIM * LARGEST, far / 2, growth),
+        graded_lines(h, _RIM * LARGEST, far / 2, growth),
         graded_lines(h, DEPTH * LARGEST, far, growth),
     )
     x = np.concatenate([-half[:0:-1], half])
@@ -178,7 +179,7 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
     y, under = (
         (x, x)
         if exact.axes == 2
-        else (LENGTH * np.array([-0.5, 0.5]), LENGTH * np.array([-0.5, 0.5]) * (1 + 1e-8))
+        else (_LENGTH * np.array([-0.5, 0.5]), _LENGTH * np.array([-0.5, 0.5]) * (1 + 1e-8))
     )
     mesh = box(x, y, up)
     mesh = replace(
@@ -187,7 +188,7 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
         + np.outer((mesh.points[:, : exact.axes] ** 2).sum(axis=1) / (2 * CURVATURE), [0, 0, 1]),
     )
     block, base = (
-        Material(youngs_modulus_pa=modulus, poissons_ratio=exact.poisson, density_kg_m3=DENSITY)
+        Material(youngs_modulus_pa=modulus, poissons_ratio=exact.poisson, density_kg_m3=_DENSITY)
         for modulus in exact.moduli
     )
     system = block_system(
@@ -199,7 +200,7 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
         base_material=base,
         friction=friction,
         filtered=exact.axes == 1,
-        foot_height=(RIM * LARGEST + h) ** 2 / (2 * CURVATURE),
+        foot_height=(_RIM * LARGEST + h) ** 2 / (2 * CURVATURE),
     )
     found = []
     for a in radii:
@@ -214,13 +215,13 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
 def measured_contact(exact: Hertz, system, state, a: float, h: float) -> Pressed:
     """What a state at rest under the load of radius `a` [m] shows."""
     squares, column = (system.interface.reference[:, : exact.axes] ** 2).sum(axis=1), system.body
-    forces, p0 = state.forces[:, 2], exact.peak(a)
+    forces, p0, areas = state.forces[:, 2], exact.peak(a), contact_nodes(system)[1]
     radius = np.sqrt(forces @ squares / forces.sum() / exact.moment)
-    pressures = forces / system.footprint.areas / p0
+    pressures = forces / areas / p0
     wrong = pressures - np.sqrt(np.maximum(1 - squares / a**2, 0))
-    contact = 2 * a * LENGTH if exact.axes == 1 else np.pi * a**2
+    contact = 2 * a * _LENGTH if exact.axes == 1 else np.pi * a**2
     sunk = column.node_mass @ (column.X - state.x)[:, 2] / column.total_mass
-    rubbed = np.linalg.norm(state.forces[:, :2], axis=1) / system.footprint.areas / p0
+    rubbed = np.linalg.norm(state.forces[:, :2], axis=1) / areas / p0
     return Pressed(
         h,
         a,
@@ -228,7 +229,7 @@ def measured_contact(exact: Hertz, system, state, a: float, h: float) -> Pressed
         pressures,
         radius / a - 1,
         pressures[squares.argmin()] - 1,
-        np.sqrt(wrong**2 @ system.footprint.areas / contact),
+        np.sqrt(wrong**2 @ areas / contact),
         sunk,
         rubbed.max(),
     )
@@ -257,7 +258,7 @@ def run(engine: str, long: bool) -> CaseRows:
             )
         )
     cylinder = next(iter(meshes))
-    rough = press(engine, replace(cylinder, moduli=MODULI[:1] * 2), 8, [LARGEST], friction=0.3)[0]
+    rough = press(engine, replace(cylinder, moduli=_MODULI[:1] * 2), 8, [LARGEST], friction=0.3)[0]
     result.rows.append(
         Row(
             "cylinder, equal materials, rough: largest friction / peak pressure [-]",
@@ -283,7 +284,7 @@ def contact_rows(exact: Hertz, series: dict[int, list[Pressed]]) -> list[Row]:
     allowed = exact.allowed(least.a, h)
     order = {
         quantity: -np.polyfit(np.log(list(series)), np.log(worst(quantity, series)), 1)[0]
-        for quantity in QUANTITIES
+        for quantity in _QUANTITIES
     }
     ratio, spring = (
         exact.load(full.a) / exact.load(least.a),
@@ -385,7 +386,7 @@ def draw_contact(figure, found) -> None:
             label=exact.name,
         )
         sizes = 1 / np.array(list(series))
-        for quantity, mark in QUANTITIES.items():
+        for quantity, mark in _QUANTITIES.items():
             errors.loglog(
                 sizes, worst(quantity, series), mark, color=colour, markersize=3.5, linewidth=0.9
             )
@@ -402,7 +403,7 @@ def draw_contact(figure, found) -> None:
     for exact, colour in zip(found, colours):
         errors.plot([], [], "-", color=colour, label=exact.name)
     for label, mark in zip(
-        ("contact radius", "peak pressure", "pressure, rms / peak"), QUANTITIES.values()
+        ("contact radius", "peak pressure", "pressure, rms / peak"), _QUANTITIES.values()
     ):
         errors.plot([], [], mark, color="0.4", markersize=3.5, linewidth=0.9, label=label)
     errors.set(

@@ -42,20 +42,20 @@ from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.fem.modes import free_modes
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import block_system, box
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import afloat
-from fecolumn.verification.trials import begin_trial
 
-ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
+_ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
 PER_PERIOD = (16, 32, 64, 128)
-PERIODS = 2
+_PERIODS = 2
 # dt over period of the damping and period error: the rows are of the middle one
-COARSE = (0.05, 0.1, 0.2, 0.4)
-STIFF = 1e5
+_COARSE = (0.05, 0.1, 0.2, 0.4)
+_STIFF = 1e5
 FIELDS = ("u", "v", "a at t + alpha dt")
 # Amplitude of the modal coordinate [m sqrt(kg)]: the block moves by 1e-5 m, far above rounding and
 # far below finite strains
-AMPLITUDE = 1e-4
+_AMPLITUDE = 1e-4
 # Of the amplification matrix, whose longest step lasts 15 s: see Tolerances
 MATRIX_AMPLITUDE = 1e-5
 
@@ -88,7 +88,7 @@ class Mode:
         )
 
     def steps(
-        self, alpha: float, angle: float, start, count: int, amplitude: float = AMPLITUDE
+        self, alpha: float, angle: float, start, count: int, amplitude: float = _AMPLITUDE
     ) -> tuple[np.ndarray, np.ndarray, float]:
         """Z = (u, dt v, dt^2 a) of the mode (count + 1, 3) from z0 = `start`, at w dt = `angle`;
         with the mechanical energy (count + 1,) and the ledger's closure, both over the first
@@ -165,11 +165,11 @@ def run(engine: str, long: bool) -> CaseRows:
     """The whole case in either engine; `long` has nothing to add."""
     mode = Mode(engine)
     result, errors, departure = CaseRows(size=(7.2, 5.2)), {}, 0.0
-    for alpha in ALPHAS:
+    for alpha in _ALPHAS:
         found = []
         for number in PER_PERIOD:
             angle = 2 * np.pi / number
-            error, away, drift = convergence(mode, alpha, angle, PERIODS * number)
+            error, away, drift = convergence(mode, alpha, angle, _PERIODS * number)
             found.append(error)
             departure = max(departure, away)
         errors[alpha] = np.array(found)
@@ -186,7 +186,7 @@ def run(engine: str, long: bool) -> CaseRows:
             )
         if alpha == 0:
             result.rows.append(
-                Row(f"energy, largest change in {PERIODS} periods, alpha 0 [-]", 0.0, drift, 1e-6)
+                Row(f"energy, largest change in {_PERIODS} periods, alpha 0 [-]", 0.0, drift, 1e-6)
             )
     result.rows.append(
         Row(
@@ -197,9 +197,9 @@ def run(engine: str, long: bool) -> CaseRows:
         )
     )
 
-    damped = {alpha: decays(mode, alpha) for alpha in ALPHAS}
+    damped = {alpha: decays(mode, alpha) for alpha in _ALPHAS}
     for alpha, series in damped.items():
-        exact, computed, closure = series[COARSE.index(0.1)]
+        exact, computed, closure = series[_COARSE.index(0.1)]
         result.rows += [
             Row(
                 f"damping ratio at dt / T = 0.1, alpha {alpha:g} [-]",
@@ -219,8 +219,8 @@ def run(engine: str, long: bool) -> CaseRows:
     worst = max(abs(closure) for series in damped.values() for _, _, closure in series)
     result.rows.append(Row("ledger closure / energy, worst alpha and dt [-]", 0.0, worst, 1e-6))
 
-    angles, radii, departure = 2 * np.pi * np.geomspace(0.05, STIFF / (2 * np.pi), 12), {}, 0.0
-    for alpha in ALPHAS:
+    angles, radii, departure = 2 * np.pi * np.geomspace(0.05, _STIFF / (2 * np.pi), 12), {}, 0.0
+    for alpha in _ALPHAS:
         matrices = [mode.matrix(alpha, angle) for angle in angles]
         departure = max(
             departure,
@@ -233,7 +233,7 @@ def run(engine: str, long: bool) -> CaseRows:
         limit = (1 + alpha) / (1 - alpha)
         result.rows.append(
             Row(
-                f"spectral radius at w dt = {STIFF:g}, alpha {alpha:g} [-]",
+                f"spectral radius at w dt = {_STIFF:g}, alpha {alpha:g} [-]",
                 limit,
                 radii[alpha][-1],
                 1e-3,
@@ -241,7 +241,7 @@ def run(engine: str, long: bool) -> CaseRows:
         )
     result.rows.append(
         Row(
-            f"entries of the amplification matrix, w dt 0.3 to {STIFF:g}, largest departure [-]",
+            f"entries of the amplification matrix, w dt 0.3 to {_STIFF:g}, largest departure [-]",
             0.0,
             departure,
             1e-6,
@@ -274,10 +274,10 @@ def decays(
     mode: Mode, alpha: float
 ) -> list[tuple[tuple[float, float], tuple[float, float], float]]:
     """(damping ratio, period error) of the method and of five periods of the solver, and its
-    closure, for each of COARSE.
+    closure, for each of _COARSE.
     """
     found = []
-    for ratio in COARSE:
+    for ratio in _COARSE:
         angle = 2 * np.pi * ratio
         history, _, closure = mode.steps(alpha, angle, (1, 0, -(angle**2)), round(5 / ratio))
         both = principal(np.linalg.eigvals(amplification(alpha, angle))), of_history(history[:, 0])
@@ -297,7 +297,7 @@ def draw_scheme(figure, errors, damped, angles, radii) -> None:
         np.geomspace(0.05, angles[-1] / (2 * np.pi), 300),
     )
     shapes = ("o", 3, "$u$"), ("s", 6, "$v$"), ("^", 3.5, r"$a$, as of $t + \alpha\,\Delta t$")
-    for alpha, (colour, dashes) in zip(ALPHAS, LINES):
+    for alpha, (colour, dashes) in zip(_ALPHAS, LINES):
         line = dict(color=colour, linestyle=dashes, label=rf"$\alpha$ = {alpha:g}")
         mark = dict(color=colour, linestyle="none", markersize=3.5)
         pairs = np.array(
@@ -316,7 +316,7 @@ def draw_scheme(figure, errors, damped, angles, radii) -> None:
             (period, 2 * np.pi * fine / pairs[:, 1] - 1, found[:, 1]),
         ):
             axes.plot(fine, 100 * exact, **line)
-            axes.plot(COARSE, 100 * computed, marker="o", **mark)
+            axes.plot(_COARSE, 100 * computed, marker="o", **mark)
         radius.semilogx(wide, largest, **line)
         radius.semilogx(angles / (2 * np.pi), radii[alpha], marker="o", **mark)
         if alpha in (0.0, -0.333):
@@ -361,7 +361,7 @@ def draw_scheme(figure, errors, damped, angles, radii) -> None:
     )
     converged.set_xticks(ratios, [f"1/{number}" for number in PER_PERIOD])
     converged.set_xticks([], minor=True)
-    converged.set(ylabel=f"largest error / amplitude, {PERIODS} periods")
+    converged.set(ylabel=f"largest error / amplitude, {_PERIODS} periods")
     damping.plot([], [], "ko", markersize=3.5, label="solver")
     damping.set(ylabel="damping ratio [%]", xlim=(0, None), ylim=(-0.2, None))
     period.set(ylabel="period error [%]", xlim=(0, None), ylim=(0, None))

@@ -22,7 +22,7 @@ from fecolumn.structures.structure import structure_model
 #: Half length, half width, half height of the block above and height of the one below [m]
 B, W, H, BELOW = 0.2, 0.15, 0.4, 0.1
 #: Step [s]; tilt of a block that is let go [rad]
-DT, TILT = 5e-4, 0.05
+JOINT_DT, TILT = 5e-4, 0.05
 #: Displacements of the block above [m], each to both sides.
 DISPLACED = (0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1e-2)
 #: Inertia of the block above about its middle axis along y, over its mass [m2]
@@ -30,7 +30,7 @@ INERTIA = (B**2 + H**2) / 3
 
 
 def block_tables(
-    engine: str, above: dict, below: dict | None = None, dt: float = DT, **more
+    engine: str, above: dict, below: dict | None = None, dt: float = JOINT_DT, **more
 ) -> dict:
     """Tables of a case; above, below: keys beside those of a block."""
     shape = dict(kind="block", length_m=2 * B, width_m=2 * W) if "kind" not in above else {}

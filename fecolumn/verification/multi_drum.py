@@ -20,7 +20,7 @@ from fecolumn.structures.structure import structure_model
 from fecolumn.verification.result import Row
 
 #: Step [s]
-DT = 1e-3
+DRUMS_DT = 1e-3
 # Heights [m] from below, widths of foot and head of the column [m], density [kg/m3], friction
 _HEIGHTS, _WIDTHS, _DENSITY, _FRICTION = 7 * (0.82,) + (0.21,), (1.11, 0.90), 2620.0, 0.7
 # Of a first half of the pulse [s], accelerations [g] and whether the independent planar program
@@ -67,7 +67,7 @@ def multi_drum_rows():
         )
 
 
-def drum_pulse(a: float, tp: float, rest: float, dt: float = DT) -> np.ndarray:
+def drum_pulse(a: float, tp: float, rest: float, dt: float = DRUMS_DT) -> np.ndarray:
     """Ground accelerations (n, 3) [m/s2] at the ends of steps: a [g] along x for tp [s], -a/2 for
     twice as long, then rest [s].
     """
@@ -111,7 +111,7 @@ def drum_case(folder: Path):
             bodies=bodies,
             joints=joints,
             contact=dict(friction_coefficient=_FRICTION, interior_points=0),
-            integration=dict(engine="rigid", dt_s=DT, duration_s=20.0),
+            integration=dict(engine="rigid", dt_s=DRUMS_DT, duration_s=20.0),
         ),
         "drums.toml",
     )

@@ -46,7 +46,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from mpi4py import MPI
 
 from fecolumn.case.sections import Material
 from fecolumn.contact.projection import nodes_under
@@ -56,18 +55,17 @@ from fecolumn.mesh.bricks import LOWER, UPPER
 from fecolumn.mesh.column import divisions, section
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.verification.models import block_system, column_case
-from fecolumn.verification.one_column import share_specimen_mesh
 from fecolumn.verification.result import CaseRows, Row, order_of
-from fecolumn.verification.tied import STRETCH, Tied, end_areas, tied_blocks
-from fecolumn.verification.trial import Trial
+from fecolumn.verification.tied import STRETCH, column_of, end_areas, tied_blocks
+from fecolumn.verification.trial import Trial, contact_nodes
 
-SIDE, HEIGHT = 1.0, 0.5  # [m] of each block
+_SIDE, _HEIGHT = 1.0, 0.5  # [m] of each block
 # Soft, so that displacements of 5 um stand clear of the contact's 1e-12 m
 SOFT = Material(youngs_modulus_pa=1e9, poissons_ratio=0.0, density_kg_m3=2000.0)
-GRADED = SIDE * np.array([0.0, 0.08, 0.2, 0.4, 0.55, 0.8, 1.0])
+GRADED = _SIDE * np.array([0.0, 0.08, 0.2, 0.4, 0.55, 0.8, 1.0])
 SQUARE = 1.12  # displacement of a loaded square's centre, times E / (pressure side)
 # of bricks of the foot on bricks of the base
-COLOURS = {
+_COLOURS = {
     (3, 2): ("#0072B2", "o"),
     (2, 3): ("#D55E00", "s"),
 }
@@ -79,11 +77,11 @@ def run(engine: str, long: bool) -> CaseRows:
     result = CaseRows([*matching_rows(engine), shaken(engine)], size=(7.2, 2.8))
     pairs = {
         pair: [stand(engine, even(pair[0] * n), even(pair[1] * n)) for n in counts]
-        for pair in COLOURS
+        for pair in _COLOURS
     }
     for (foot, base), series in pairs.items():
         result.rows += unmatched_rows(f"{foot} foot bricks on {base}", series)
-    sizes = SIDE / HEIGHT / (2 * np.array(counts))
+    sizes = _SIDE / _HEIGHT / (2 * np.array(counts))
     tied = [pulled_blocks(engine, 3 * n, 2 * n) for n in counts]
     allowed = SQUARE * pairs[3, 2][-1].imbalance * sizes[-1]
     result.rows += [
@@ -126,8 +124,8 @@ def run(engine: str, long: bool) -> CaseRows:
                 title=f"{foot} foot bricks (dots) on {base}",
                 xticks=(),
                 yticks=(),
-                xlim=(0, SIDE),
-                ylim=(0, SIDE),
+                xlim=(0, _SIDE),
+                ylim=(0, _SIDE),
             )
             axes.grid(False)
         left.colorbar(
@@ -140,7 +138,7 @@ def run(engine: str, long: bool) -> CaseRows:
             pad=0.02,
         )
         for (foot, base), series in pairs.items():
-            (colour, marker), size = COLOURS[foot, base], [one.size for one in series]
+            (colour, marker), size = _COLOURS[foot, base], [one.size for one in series]
             style = {"color": colour, "marker": marker, "markersize": 3.5}
             errors.loglog(
                 size,
@@ -173,7 +171,7 @@ def run(engine: str, long: bool) -> CaseRows:
 
 def even(n: int) -> np.ndarray:
     """Grid lines (n + 1,) [m] of equal bricks."""
-    return np.linspace(0, SIDE, n + 1)
+    return np.linspace(0, _SIDE, n + 1)
 
 
 def block_on_block(engine: str, foot, base, distortion: float = 0.0):
@@ -186,7 +184,7 @@ def block_on_block(engine: str, foot, base, distortion: float = 0.0):
     random = np.random.default_rng(1)
 
     def block(lines, bottom):
-        z = bottom + np.linspace(0, HEIGHT, 2 * max(1, round((len(lines) - 1) / 4)) + 1)
+        z = bottom + np.linspace(0, _HEIGHT, 2 * max(1, round((len(lines) - 1) / 4)) + 1)
         mesh = swept_grid(lines, lines[0] + lines[-1] - lines[::-1], z, LOWER)
         inside = np.all(
             (mesh.points > mesh.points.min(axis=0)) & (mesh.points < mesh.points.max(axis=0)),
@@ -200,19 +198,19 @@ def block_on_block(engine: str, foot, base, distortion: float = 0.0):
 
     # wider by a hair: no point of the rim may leave the plate as the block strains
     nested = set(np.round(base, 9)) <= set(np.round(foot, 9))
-    wider = SIDE / 2 + (base - SIDE / 2) * (1 + (1e-8 if nested else 1e-6))
+    wider = _SIDE / 2 + (base - _SIDE / 2) * (1 + (1e-8 if nested else 1e-6))
     mesh = block(foot, 0.0)
     system = block_system(
         engine,
         mesh,
-        block(wider, -HEIGHT),
+        block(wider, -_HEIGHT),
         HHT(1e-3, -0.05),
         material=SOFT,
         filtered=not distortion,
     )
     if distortion:
         column, loads = system.body, np.zeros_like(system.bodies.unit_loads)
-        loads[2, :, 2] = column.total_mass / SIDE**2 * end_areas(column, mesh, HEIGHT)
+        loads[2, :, 2] = column.total_mass / _SIDE**2 * end_areas(column, mesh, _HEIGHT)
         system.bodies.unit_loads = loads
     return system
 
@@ -252,23 +250,24 @@ def stand(engine: str, foot, base, distortion: float = 0.0) -> StandingBlock:
     """Gravity equilibrium of `block_on_block`."""
     system = block_on_block(engine, foot, base, distortion)
     state, plate, points = standing(system), system.base, system.interface.reference
-    exact = system.weight / SIDE**2
-    pressure = state.forces[:, 2] / (exact * system.footprint.areas)
+    exact = system.weight / _SIDE**2
+    areas = contact_nodes(system)[1]
+    pressure = state.forces[:, 2] / (exact * areas)
     nodes, weights = nodes_under(plate.grid, points)
     moved = plate.displacement(nodes, weights, -state.forces)[:, 2]
-    above = plate.body.X[:, 2] + HEIGHT
-    wrong = np.abs(moved * SOFT.youngs_modulus_pa / exact + above) / HEIGHT
+    above = plate.body.X[:, 2] + _HEIGHT
+    wrong = np.abs(moved * SOFT.youngs_modulus_pa / exact + above) / _HEIGHT
     arrived, due = np.zeros((2, len(plate.nodes)))
-    np.add.at(arrived, nodes, weights * system.footprint.areas[:, None])
+    np.add.at(arrived, nodes, weights * areas[:, None])
     due[plate.grid.number] = np.outer(
         *(np.convolve(np.diff(lines), (0.5, 0.5)) for lines in (plate.grid.x, plate.grid.y))
     )
     order = np.lexsort(np.round(points[:, :2].T, 9)).reshape(len(foot), len(foot))
     return StandingBlock(
-        np.diff(base).max() / HEIGHT,
+        np.diff(base).max() / _HEIGHT,
         np.abs(pressure - 1).max(),
         wrong.max(),
-        wrong[np.abs(above - HEIGHT / 2) < 1e-9].max(initial=0.0),
+        wrong[np.abs(above - _HEIGHT / 2) < 1e-9].max(initial=0.0),
         np.abs(arrived / due - 1).max(),
         points[order, :2].transpose(2, 0, 1),
         pressure[order],
@@ -295,12 +294,12 @@ def matching_rows(engine: str) -> list[Row]:
 def shaken(engine: str) -> Row:
     """Spread of the pressure while the base shakes vertically with half a g at 50 Hz."""
     trial, worst = Trial(block_on_block(engine, GRADED, GRADED)), 0.0
-    trial.stepper.tolerance = 1e-9
+    trial.stepper.tolerance, areas = 1e-9, contact_nodes(trial.system)[1]
     for step in range(1, 21):
         forces = trial.step(
             (0.0, 0.0, 4.9 * np.sin(2 * np.pi * 50 * step * trial.system.hht.dt))
         ).forces[:, 2]
-        worst = max(worst, np.ptp(forces / trial.system.footprint.areas) * SIDE**2 / forces.sum())
+        worst = max(worst, np.ptp(forces / areas) * _SIDE**2 / forces.sum())
     return Row("pressure: spread under vertical shaking, graded bricks [-]", 0.0, worst, 1e-6)
 
 
@@ -333,9 +332,9 @@ def pulled_blocks(engine: str, lower: int, upper: int) -> float:
     """Largest error of the displacement of tied blocks under tension, relative to the stretch of
     one of them.
     """
-    blocks = tied_blocks(engine, even(lower), even(upper), HEIGHT)
+    blocks = tied_blocks(engine, even(lower), even(upper), _HEIGHT)
     wrong = blocks.pulled()[0] - blocks.uniaxial()
-    return float(np.abs(wrong - wrong.mean(axis=0)).max() / (STRETCH * HEIGHT))
+    return float(np.abs(wrong - wrong.mean(axis=0)).max() / (STRETCH * _HEIGHT))
 
 
 def tie_rows(engine: str) -> list[Row]:
@@ -343,9 +342,9 @@ def tie_rows(engine: str) -> list[Row]:
     column's elongation.
     """
     case, rows = column_case(engine), []
-    specimen = Tied(case, share_specimen_mesh(case, MPI.COMM_SELF))
+    specimen = column_of(case)
     for label, one in (
-        ("tied blocks, 3 to 2", tied_blocks(engine, even(6), even(4), HEIGHT)),
+        ("tied blocks, 3 to 2", tied_blocks(engine, even(6), even(4), _HEIGHT)),
         ("coarse specimen with cap", specimen),
     ):
         rows += [
@@ -358,8 +357,8 @@ def tie_rows(engine: str) -> list[Row]:
                 1.5 * STRETCH,
             ),
         ]
-    bare = replace(case, cap=None)
-    moved, lower, upper = Tied(bare, share_specimen_mesh(bare, MPI.COMM_SELF)).pulled()
+    moved, lower, upper = column_of(column_case(engine, cap=False)).pulled()
+    case = case.short
     column, fine = case.column, case.column.fine_height_m
     ratio = lower.sum() / upper.sum()
     found = moved[:, 2] @ (upper / upper.sum() - lower / lower.sum())

@@ -27,18 +27,18 @@ from fecolumn.engines.rocking.storeys import PROFILES, storeys
 from fecolumn.motions.directivity_pulse import MEAN_GAMMA, MEAN_PHASE
 from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES
 from fecolumn.motions.record import GroundMotion
+from fecolumn.verification.podium_structure import ALPHA, GAMMA
 from fecolumn.verification.result import CaseRows, Row
 
 #: eta to restitution CRV, CAV and kinetic energy kept CRV, CAV, of tan alpha = 0.15 and gamma = 10
 #: [D]
-KEPT = {
+_KEPT = {
     0: (0.9563, 0.9563, 0.9146, 0.9146),
     3: (0.9561, 0.8389, 0.9141, 0.9192),
     6: (0.9560, 0.7347, 0.9140, 0.9237),
     9: (0.9560, 0.6417, 0.9140, 0.9278),
 }
-ALPHA, GAMMA = math.atan(0.15), 10.0
-STIFF = (0.04, 0.02)  # periods [s]
+_STIFF = (0.04, 0.02)  # periods [s]
 
 
 def run(engine: str, long: bool = False) -> CaseRows:
@@ -49,7 +49,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
 
 
 def _impacts():
-    for eta, (*restitution, kept_crv, kept_cav) in KEPT.items():
+    for eta, (*restitution, kept_crv, kept_cav) in _KEPT.items():
         for law, exact, energy in zip(LAWS, restitution, (kept_crv, kept_cav)):
             yield Row(
                 f"restitution {law}, eta {eta} [-] (D of Eqs. 5, 6)",
@@ -144,13 +144,13 @@ def _sizes():
 
 def steady_shear(podium: Podium) -> float:
     """Base shear over M g tan alpha when a slowly growing acceleration lifts the podium."""
-    from fecolumn.engines.rocking.podium_motion import SHEAR, TILT
+    from fecolumn.engines.rocking.podium_motion import PODIUM_SHEAR, PODIUM_TILT
 
     time = np.arange(0, 40, 0.01)
     ground = np.column_stack([-0.03 * 9.80665 * np.clip(time / 5.0, 0, 6), 0 * time])
     rows, *_ = podium.shake(ground, 0.01)
-    lifted = int(np.argmax(np.abs(rows[:, TILT]) > 0))
-    return float(abs(rows[lifted - 1, SHEAR]) * podium.building_mass / podium.static_shear)
+    lifted = int(np.argmax(np.abs(rows[:, PODIUM_TILT]) > 0))
+    return float(abs(rows[lifted - 1, PODIUM_SHEAR]) * podium.building_mass / podium.static_shear)
 
 
 def _stiff():
@@ -163,10 +163,10 @@ def _stiff():
         Podium(ALPHA, 1.5, 1e4, 1e5, storeys("shear", 3, 1e5, period), CRV)
         .respond(rest, tilt=0.5 * ALPHA)
         .impact_times[:2]
-        for period in STIFF
+        for period in _STIFF
     ]
     for number, (wanted, soft, stiff) in enumerate(zip(exact, *found), 1):
-        order = math.log((soft - wanted) / (stiff - wanted), STIFF[0] / STIFF[1])
+        order = math.log((soft - wanted) / (stiff - wanted), _STIFF[0] / _STIFF[1])
         yield Row(
             f"building of T to 0: impact {number}, that of a frame which carries its mass [s]",
             wanted,

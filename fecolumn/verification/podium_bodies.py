@@ -47,18 +47,18 @@ from fecolumn.verification.result import Row
 
 #: Periods of the storey on a fixed slab [s], down to what the weight holds; share of alpha from
 #: which the podium is let go; step [s]
-PERIODS, SHARE, DT = (0.3, 0.1, 0.06), 0.1, 2.5e-4
+_PERIODS, _SHARE, _DT = (0.3, 0.1, 0.06), 0.1, 2.5e-4
 #: Time before the impact [s] from which rates are fitted, and around it within which the step knows
 #: it
 BEFORE, SKIPPED = 4e-3, 5e-4
 #: Longer than the fall to the impact takes [s]
-FALL = 0.32
+_FALL = 0.32
 _ALLOWED = 3e-3
 
 
 def podium_rows() -> Iterator[Row]:
     """Rows of all periods."""
-    for period in PERIODS:
+    for period in _PERIODS:
         found, words = struck(period), f"podium below a storey of {period:g} s"
         yield Row(
             f"{words}: velocity of the slab right after an impact over that before, CAV [-] (D)",
@@ -80,7 +80,7 @@ def podium_rows() -> Iterator[Row]:
         )
 
 
-def struck(period: float, dt: float = DT) -> dict:
+def struck(period: float, dt: float = _DT) -> dict:
     """Velocities after over before the first impact: of the `slab` right after it and its `mean`
     over the swing of the floor, `momentum` that of the momentum of both, and of the `floor`.
     """
@@ -88,8 +88,8 @@ def struck(period: float, dt: float = DT) -> dict:
     slab, floor = 4 / 3 + carried * (1 + squared), carried * (1 - squared)
     swing = 2 * math.pi / period * math.sqrt(1 + floor / slab)
     history = let_go(
-        podium_case(1, period, SHARE * ALPHA, dt, building=dict(damping_ratio=0.0)),
-        FALL + 2 * math.pi / swing,
+        podium_case(1, period, _SHARE * ALPHA, dt, building=dict(damping_ratio=0.0)),
+        _FALL + 2 * math.pi / swing,
     )
     time, tilt, drift = history["time"], tilt_of(history), history["storey/building 1/drift"][:, 0]
     moved = 2 * HALF_DIAGONAL * np.sign(tilt) * (math.sin(ALPHA) - np.sin(ALPHA - np.abs(tilt)))

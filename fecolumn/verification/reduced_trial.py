@@ -4,6 +4,7 @@ and static flexibility.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 from weakref import WeakKeyDictionary
 
@@ -16,10 +17,12 @@ from fecolumn.engines.reduced import start as starts
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, RATE
 from fecolumn.engines.reduced.motion import copy
 from fecolumn.engines.reduced.observe import COLUMNS
+from fecolumn.engines.reduced_engine import engine_on
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.verification.one_foot import engine_on, foot_model, on_base
-from fecolumn.verification.trial import N_MODES, Trial
+from fecolumn.structures.reduction import with_elasticity
+from fecolumn.verification import FULL
+from fecolumn.verification.trial import N_MODES, Trial, highest_nodes
 
 # what is known of a body: making it takes seconds, and one body serves many trials
 _REDUCED: WeakKeyDictionary = WeakKeyDictionary()
@@ -31,7 +34,7 @@ class ReducedColumn:
     Attributes
     ----------
     model
-        ColumnModel.
+        BodyModel.
     shapes
         (m, n_owned, 3) of its modes.
     rigid, momentum
@@ -39,14 +42,14 @@ class ReducedColumn:
     """
 
     def __init__(self, system, n_modes: int):
-        body, free = (
-            system.body,
-            3 * (system.body.n_nodes - len(system.body.constraint.nodes)) - 6,
-        )
-        height = body.all_X[:, 2]
-        top = np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height))
-        self.model, self.shapes = foot_model(
-            body, system.footprint.nodes, system.footprint.areas, top, min(n_modes, free)
+        body, top = system.body, highest_nodes(system.body)
+        free = 3 * (body.n_nodes - len(body.constraint.nodes)) - 6
+        self.model, self.shapes = with_elasticity(
+            system.model.parts[0].model,
+            body,
+            system.interface.foot.nodes[0],
+            min(n_modes, free),
+            (top, np.full(len(top), 1 / len(top))),
         )
         self.rigid, self.momentum, self.masses = rigid_fields(body)
 
@@ -194,9 +197,9 @@ class ReducedTrial(Trial):
                 else self.reduction.projected(engine, first, system)
             )
 
-        ratio = system.damping.each[0].ratio if system.damping else 0.0
-        structure = on_base(self.reduction.model, system.base, damping_ratio=ratio, **system.laws)
-        self.engine = engine_on(structure, system.hht, begin, system.gravity)
+        (part,) = system.model.parts
+        structure = replace(system.model, parts=(replace(part, model=self.reduction.model),))
+        self.engine = engine_on(structure, system.hht, begin, gravity=system.gravity)
         self.state = self.start = self._state()
 
     def _state(self) -> Expanded:
@@ -217,3 +220,14 @@ class ReducedTrial(Trial):
     def mechanical(self) -> float:
         """Kinetic, strain and potential energy [J] together."""
         return float(self.engine.mechanical())
+
+
+def begin_trial(
+    engine: str, system, start=standing, impact: str = "plastic", n_modes: int = N_MODES
+) -> Trial:
+    """A trial of a system in an engine of `verification.ELEMENTS`; arguments as of `Trial`, n_modes
+    of `ReducedTrial`.
+    """
+    if engine in FULL:
+        return Trial(system, start, impact)
+    return ReducedTrial(system, start, n_modes if engine == "reduced" else 0)

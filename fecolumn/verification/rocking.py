@@ -39,15 +39,14 @@ from scipy.optimize import brentq
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.gravity import tilted
 from fecolumn.fem.rotation import tilt_angle
-from fecolumn.verification.models import column_system
+from fecolumn.verification.models import STEEL, column_system
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import RigidRocking, Trial
-from fecolumn.verification.trials import begin_trial
 
-AMPLITUDES = (0.1, 0.2, 0.4, 0.6, 0.8)
-STEEL = 2e11
-MODULI = (2e10, STEEL, 2e13)
-STEPS = (2e-3, 1e-3, 5e-4)
+_AMPLITUDES = (0.1, 0.2, 0.4, 0.6, 0.8)
+_MODULI = (2e10, STEEL, 2e13)
+_STEPS = (2e-3, 1e-3, 5e-4)
 
 
 def run(engine: str, long: bool) -> CaseRows:
@@ -56,7 +55,7 @@ def run(engine: str, long: bool) -> CaseRows:
     """
     whole = long or engine != "total_lagrangian"
     result, periods = CaseRows(size=(7.2, 2.6)), []
-    for amplitude in AMPLITUDES if whole else (0.4,):
+    for amplitude in _AMPLITUDES if whole else (0.4,):
         found = free_rocking(engine, amplitude)
         result.rows += found
         periods.append((amplitude, found[0].exact, found[0].computed))
@@ -66,9 +65,9 @@ def run(engine: str, long: bool) -> CaseRows:
     losses = {
         modulus: {
             dt: impact_losses(engine, modulus, dt)
-            for dt in (STEPS if whole and modulus >= STEEL else STEPS[1:2])
+            for dt in (_STEPS if whole and modulus >= STEEL else _STEPS[1:2])
         }
-        for modulus in (MODULI if whole else MODULI[1:2])
+        for modulus in (_MODULI if whole else _MODULI[1:2])
     }
     result.rows += loss_rows(losses)
     if whole:
@@ -230,7 +229,7 @@ def loss_rows(losses) -> list[Row]:
     """
     rows = []
     for modulus, series in losses.items():
-        if modulus == max(MODULI):
+        if modulus == max(_MODULI):
             errors = [
                 np.mean([abs(lost / exact - 1) for lost, exact, _ in runs])
                 for runs in series.values()
@@ -297,10 +296,10 @@ def between_nodes(engine: str) -> Row:
     x steel.
     """
     stiff = {
-        "material": {"youngs_modulus_pa": max(MODULI)},
-        "base": {"youngs_modulus_pa": max(MODULI)},
+        "material": {"youngs_modulus_pa": max(_MODULI)},
+        "base": {"youngs_modulus_pa": max(_MODULI)},
     }
-    sector = column_system(engine).laws["rim"].sector
+    sector = column_system(engine).interface.interfaces["sector"][0]
     lost = []
     for azimuth in (0.0, sector / 4):
         _, one, trial, _ = release(engine, 0.4, azimuth, **stiff)

@@ -30,6 +30,7 @@ import math
 import numpy as np
 
 from fecolumn.case.model_sections import BlockSection, FrameSection
+from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.impact import (
@@ -38,7 +39,6 @@ from fecolumn.engines.rocking.impact import (
     housner_restitution,
     rectangular_restitution,
 )
-from fecolumn.engines.rocking.swing import GRAVITY
 from fecolumn.motions.record import GroundMotion
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.rocking_pulses import TEN, draw_overturning, overturning_rows

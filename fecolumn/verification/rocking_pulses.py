@@ -21,7 +21,7 @@ from fecolumn.engines.rocking.overturning import (
     overturning_bands,
     slenderness_factor,
 )
-from fecolumn.engines.rocking.swing import PEAK, rock_one, row_of_block
+from fecolumn.engines.rocking.swing import PEAK_TILT, rock_one, row_of_block
 from fecolumn.verification.result import Row
 
 TEN = math.radians(10)
@@ -249,7 +249,7 @@ def _worst_impulses():
                 f"impulses of {share:g} of the least that overturns with number "
                 f"{number}: overturned [-] (D)",
                 falls,
-                float(np.isinf(found[PEAK])),
+                float(np.isinf(found[PEAK_TILT])),
                 0.0,
             )
     limit = least_impulse(TEN, p, kept)

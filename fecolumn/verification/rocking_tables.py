@@ -27,9 +27,9 @@ from fecolumn.engines.rocking.overturning import half_sine_overturning, half_sin
 from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.verification.result import CaseRows, Row
 
-TABLES = Path(__file__).with_name("tables")
-GAMMA = 10.0  # of the podium's table
-TEN = math.radians(10)
+_TABLES = Path(__file__).with_name("tables")
+_GAMMA = 10.0  # of the podium's table
+_TEN = math.radians(10)
 _WITHIN = 0.005
 _FROM, _MOST = 1.0, 1  # w_p/p, impacts
 
@@ -46,7 +46,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
 
 def read(name: str) -> list[dict[str, str]]:
     """Rows of a table."""
-    with (TABLES / f"{name}.csv").open(newline="") as text:
+    with (_TABLES / f"{name}.csv").open(newline="") as text:
         return list(csv.DictReader(text))
 
 
@@ -55,7 +55,7 @@ def _restitutions():
     for law in LAWS:
         off = max(
             abs(
-                podium_restitution(law, float(row["alpha_rad"]), GAMMA, float(row["eta"]))
+                podium_restitution(law, float(row["alpha_rad"]), _GAMMA, float(row["eta"]))
                 - float(row[f"COR_{law}"])
             )
             for row in rows
@@ -116,7 +116,7 @@ def lost_bands(shape: str, rows) -> tuple[int, int]:
         ]
         if bands:
             ends = np.array([(low * (1 + _WITHIN), high * (1 - _WITHIN)) for low, high, _ in bands])
-            found = outcomes(shape, ratio, ends.ravel(), TEN).reshape(ends.shape)
+            found = outcomes(shape, ratio, ends.ravel(), _TEN).reshape(ends.shape)
             wanted = np.array([[impacts] for _, _, impacts in bands])
             missed += int(((found < 0) | (wanted == 0) & (found != 0)).any(axis=1).sum())
             count += len(bands)

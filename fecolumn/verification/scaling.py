@@ -36,14 +36,13 @@ import numpy as np
 from fecolumn.case.sections import GRAVITY
 from fecolumn.foundation.toml_file import merge
 from fecolumn.pictures.figures.style import LINES
-from fecolumn.verification.models import COARSE, column_system, shaking
+from fecolumn.verification.models import COARSE, STEEL, column_system, shaking
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import solver_drift
-from fecolumn.verification.trials import begin_trial
 
-STEEL = 200e9
-STEP = 1e-3  # s, of the first specimen
-LOSSES = ("friction", "impact", "contact")
+_STEP = 1e-3  # s, of the first specimen
+_LOSSES = ("friction", "impact", "contact")
 
 
 def sized_system(engine: str, size: float, modulus: float):
@@ -60,7 +59,7 @@ def sized_system(engine: str, size: float, modulus: float):
         engine,
         **merge(
             tables,
-            {"material": elastic, "base": elastic, "integration": {"dt_s": np.sqrt(size) * STEP}},
+            {"material": elastic, "base": elastic, "integration": {"dt_s": np.sqrt(size) * _STEP}},
         ),
     )
 
@@ -69,7 +68,7 @@ def run(engine: str, long: bool) -> CaseRows:
     """Rows of specimens of three sizes, with E in proportion and with the same E."""
     result = CaseRows(size=(7.2, 3.6))
     steps = 200 if long or engine != "total_lagrangian" else 125
-    diameter, times = COARSE["column"]["outer_diameter_m"], STEP * np.arange(1, steps + 1)
+    diameter, times = COARSE["column"]["outer_diameter_m"], _STEP * np.arange(1, steps + 1)
 
     def analysed(size, modulus):
         """Path of top and foot over the diameter, (n, 2, 3), and the trial."""
@@ -83,7 +82,7 @@ def run(engine: str, long: bool) -> CaseRows:
     largest, drift = np.linalg.norm(first, axis=2).max(), solver_drift(trial.system, times)
     allowed, lost = (
         (drift * times).max() / diameter / largest,
-        sum(trial.energy()[name] for name in LOSSES),
+        sum(trial.energy()[name] for name in _LOSSES),
     )
     paths, series = {}, {}
     for size in (4, 16, 0.25) if long or engine != "total_lagrangian" else (4,):
@@ -104,7 +103,7 @@ def run(engine: str, long: bool) -> CaseRows:
                 Row(
                     "size and E x 4: energy lost [J]",
                     size**4 * lost,
-                    sum(larger.energy()[name] for name in LOSSES),
+                    sum(larger.energy()[name] for name in _LOSSES),
                     2 * drift[-1] / speed,
                     scale=size**4 * trial.energy()["base_work"],
                 )

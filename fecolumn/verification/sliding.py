@@ -45,16 +45,16 @@ from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.verification.coulomb_block import NewmarkBlock, TurningBlock
 from fecolumn.verification.models import block_system, box, column_system
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.rocking import ramp
 from fecolumn.verification.trial import Trial
-from fecolumn.verification.trials import begin_trial
 
 SLOPE, FRICTION = 0.3, 0.3
 RESISTANCE = FRICTION * GRAVITY
-AMPLITUDE = 2 * RESISTANCE
-FREQUENCY = 4 * np.pi  # of pulse and turning ground [rad/s]
-STEPS = (8e-3, 4e-3, 2e-3, 1e-3)
+_AMPLITUDE = 2 * RESISTANCE
+_FREQUENCY = 4 * np.pi  # of pulse and turning ground [rad/s]
+_STEPS = (8e-3, 4e-3, 2e-3, 1e-3)
 SHIFTS = (0.0, 0.3, 0.7)  # of the pulse [dt]: where in a step its events fall must not matter
 # Drawn step sizes: every so manieth step, and how
 MARKS = {
@@ -80,8 +80,8 @@ def run(engine: str, long: bool) -> CaseRows:
     ]
     if long or engine != "total_lagrangian":
         result.rows.append(threshold(engine))
-    pulses = {dt: [one_sine(engine, dt, shift) for shift in SHIFTS] for dt in STEPS}
-    turns = {dt: two_directions(engine, dt) for dt in STEPS}
+    pulses = {dt: [one_sine(engine, dt, shift) for shift in SHIFTS] for dt in _STEPS}
+    turns = {dt: two_directions(engine, dt) for dt in _STEPS}
     result.rows += pulse_rows(pulses) + turn_rows(turns) + [rest(engine)]
 
     def draw(figure):
@@ -89,7 +89,7 @@ def run(engine: str, long: bool) -> CaseRows:
         fine = np.linspace(0, 0.7, 300)
         left.plot(
             fine,
-            1e3 * NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE).displacement(fine),
+            1e3 * NewmarkBlock(_AMPLITUDE, _FREQUENCY, RESISTANCE).displacement(fine),
             "k-",
             label="Newmark (1965)",
         )
@@ -107,10 +107,10 @@ def run(engine: str, long: bool) -> CaseRows:
         middle.set(xlabel="$u_x$ [mm]", ylabel="$u_y$ [mm]")
         middle.set_aspect("equal", "datalim")
         middle.legend()
-        steps = 1e3 * np.array(STEPS)
+        steps = 1e3 * np.array(_STEPS)
         for errors, label, style in (
             (mean_errors(pulses), "one-sine, mean of 3", "o-"),
-            ([turns[dt][0] for dt in STEPS], "two directions", "s--"),
+            ([turns[dt][0] for dt in _STEPS], "two directions", "s--"),
         ):
             right.loglog(
                 steps,
@@ -246,7 +246,7 @@ def one_sine(engine: str, dt: float, shift: float):
     starts `shift` dt late.
     """
     exact, trial = (
-        NewmarkBlock(AMPLITUDE, FREQUENCY, RESISTANCE),
+        NewmarkBlock(_AMPLITUDE, _FREQUENCY, RESISTANCE),
         begin_trial(engine, block(engine, dt)),
     )
     start, path = centre(trial), [0.0]
@@ -254,7 +254,7 @@ def one_sine(engine: str, dt: float, shift: float):
         time = trial.state.time + (1 - shift) * dt
         trial.step(
             (
-                AMPLITUDE * np.sin(exact.frequency * time)
+                _AMPLITUDE * np.sin(exact.frequency * time)
                 if 0 < time < 2 * np.pi / exact.frequency
                 else 0.0,
                 0.0,
@@ -280,10 +280,10 @@ def mean_errors(pulses) -> list[float]:
 
 def pulse_rows(pulses) -> list[Row]:
     """Distance of the worst shift and friction energy, with the order in dt of the mean error."""
-    order, rows = np.polyfit(np.log(STEPS), np.log(mean_errors(pulses)), 1)[0], []
+    order, rows = np.polyfit(np.log(_STEPS), np.log(mean_errors(pulses)), 1)[0], []
     for dt, runs in pulses.items():
         exact, _, path, taken = max(runs, key=lambda one: abs(one[2][-1] - one[0].distance))
-        allowed = (11 / 24 * AMPLITUDE * exact.frequency * exact.stop + 2 * RESISTANCE / 2) * dt**2
+        allowed = (11 / 24 * _AMPLITUDE * exact.frequency * exact.stop + 2 * RESISTANCE / 2) * dt**2
         rows.append(
             Row(
                 f"slip after one sine, A = 2 mu g, dt {dt:g} s, worst of 3; of the path [m]",
@@ -309,7 +309,7 @@ def two_directions(engine: str, dt: float, seconds: float = 0.6):
     """(error of the slip [m], path (n, 2) [m], exact path, largest angle between friction and
     -velocity [rad]).
     """
-    exact = TurningBlock(AMPLITUDE, FREQUENCY, RESISTANCE, seconds)
+    exact = TurningBlock(_AMPLITUDE, _FREQUENCY, RESISTANCE, seconds)
 
     def moving(system):
         state = standing(system)  # at rest, the base's acceleration just begun
@@ -335,9 +335,9 @@ def two_directions(engine: str, dt: float, seconds: float = 0.6):
 
 def turn_rows(turns) -> list[Row]:
     """Slip after the ground has turned, and the direction of friction, with their orders in dt."""
-    w, T, rows = FREQUENCY, 0.6, []
+    w, T, rows = _FREQUENCY, 0.6, []
     order, direction = (
-        np.polyfit(np.log(STEPS), np.log([turn[k] for turn in turns.values()]), 1)[0]
+        np.polyfit(np.log(_STEPS), np.log([turn[k] for turn in turns.values()]), 1)[0]
         for k in (0, 3)
     )
     for dt, (error, _, ode, _) in turns.items():
@@ -347,7 +347,7 @@ def turn_rows(turns) -> list[Row]:
                 f"slip under turning ground, dt {dt:g} s, distance to exact [m]",
                 0.0,
                 error,
-                (AMPLITUDE / 12 + RESISTANCE / 24) * (w * dt) ** 2 * T**2 / 2 / size,
+                (_AMPLITUDE / 12 + RESISTANCE / 24) * (w * dt) ** 2 * T**2 / 2 / size,
                 scale=size,
                 order=order,
             )

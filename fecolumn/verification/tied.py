@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-import numpy as np
-from mpi4py import MPI
+from typing import Any
 
-from fecolumn.fem.corotated import Corotated
+import numpy as np
+
+from fecolumn.case.sections import Material
+from fecolumn.engines.dynamics.structure import kinematics_of
+from fecolumn.engines.elements import checked_layout
 from fecolumn.fem.effective import effective_factor
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.fem.tied_body import column_body
-from fecolumn.fem.total_lagrangian import TotalLagrangian
 from fecolumn.mesh.bricks import LOWER, UPPER, boundary_faces, merged_mesh
 from fecolumn.mesh.gmsh_section import swept_grid
-from fecolumn.mesh.specimen import SpecimenMesh
 from fecolumn.mesh.surface import nodal_areas
 from fecolumn.mesh.tie import adjust, tie
-from fecolumn.verification.models import column_case
+from fecolumn.structures.reduction import body_of
+from fecolumn.structures.shapes import Shape
 
 # Strain of the tests: square terms of the strain measures are 1e-7 of it, rounding of positions
 # 1e-8 a brick
@@ -37,7 +38,13 @@ def tied_blocks(engine: str, lower, upper, height: float) -> Tied:
 
     mesh = merged_mesh([block(lower, 0.0, LOWER), block(upper, height, UPPER)])
     ties = (tie(mesh, LOWER, UPPER, height, 1e-9, 1e-9, "none"),)
-    return Tied(column_case(engine), SpecimenMesh(adjust(mesh, ties), None, ties, np.zeros(0, int)))
+    return Tied(engine, Shape(adjust(mesh, ties), ties, 1, height), Material())
+
+
+def column_of(case) -> Tied:
+    """The column of a case with its ties."""
+    drawing: Any = checked_layout(case, "verification").drawings["column"]
+    return Tied(case.integration.kinematics, drawing.shape, drawing.material)
 
 
 def end_areas(body, mesh, z: float) -> np.ndarray:
@@ -55,22 +62,17 @@ def end_areas(body, mesh, z: float) -> np.ndarray:
 
 
 class Tied:
-    """Column, cap and ties as a case and its mesh make them.
+    """Parts of a Shape that its ties hold together, free in space.
 
     Parameters
     ----------
-    case
-        Case, for kinematics and material.
-    specimen
-        SpecimenMesh.
+    kinematics
+        "corotated" or "total_lagrangian".
     """
 
-    def __init__(self, case, specimen):
-        self.body, self.mesh = column_body(case, specimen, MPI.COMM_SELF), specimen.body
-        self.kinematics = (
-            TotalLagrangian if case.integration.kinematics == "total_lagrangian" else Corotated
-        )(self.body)
-        material = self.body.material
+    def __init__(self, kinematics: str, shape: Shape, material: Material):
+        self.body, self.mesh = body_of(shape, material), shape.mesh
+        self.kinematics = kinematics_of(kinematics)(self.body)
         # of the strain 1 [J]
         self._energy = (
             material.youngs_modulus_pa * self.body.total_mass / material.density_kg_m3 / 2

@@ -16,6 +16,20 @@ from fecolumn.engines.dynamics.system import State
 N_MODES = Integration().n_modes
 
 
+def highest_nodes(body) -> np.ndarray:
+    """Nodes (n,) of a `fem.body.Body` at its greatest height."""
+    height = body.all_X[:, 2]
+    return np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height))
+
+
+def contact_nodes(system) -> tuple[np.ndarray, np.ndarray]:
+    """Nodes (n,) of a column that are its contact points, and the areas (n,) [m2] that belong to
+    them, in the order of the contact forces of a State.
+    """
+    surface = system.model.parts[0].model.surfaces["foot"]
+    return system.interface.foot.nodes[0][surface.nodes], surface.areas
+
+
 def afloat(system, displacement, velocity, acceleration, height: float) -> State:
     """A body `height` [m] above its reference place, touching nothing, with fields (n_owned, 3) in
     SI units at t = 0.
@@ -66,11 +80,7 @@ class Trial:
         """Displacements (n, 2, 3) [m] of the middles of top and foot after each step under ground
         accelerations (n, 3) [m/s2].
         """
-        height = self.system.body.X[:, 2]
-        ends = [
-            np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height)),
-            self.system.footprint.nodes,
-        ]
+        ends = [highest_nodes(self.system.body), contact_nodes(self.system)[0]]
         path = []
         for ground in accelerations:
             moved = self.step(ground).x - self.system.body.X
@@ -125,15 +135,10 @@ class RigidRocking:
     """
 
     def __init__(self, system):
-        column, radius = (
-            system.body,
-            np.linalg.norm(system.interface.reference[:, :2], axis=1).max(),
-        )
-        height = column.center[2]
-        self.slenderness, self.diagonal = (
-            float(np.arctan2(radius, height)),
-            float(np.hypot(radius, height)),
-        )
+        column, height = system.body, system.body.center[2]
+        radius = np.linalg.norm(system.interface.reference[:, :2], axis=1).max()
+        self.slenderness = float(np.arctan2(radius, height))
+        self.diagonal = float(np.hypot(radius, height))
         turn = np.cross([0.0, 1.0, 0.0], column.X - column.center)
         about_center = column.dot(turn, column.momentum(turn))
         self.inertia = float(about_center + column.total_mass * self.diagonal**2)

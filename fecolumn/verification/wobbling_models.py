@@ -49,13 +49,13 @@ BINS = {
 }
 #: Rates of the azimuth [rad/s] of free motions from a tilt of 0.05 rad: planar, past upright within
 #: 1e-5 rad, within 3e-3, a steady roll
-TURNS = (0.0, 1e-3, 0.3, 1.5)
+_TURNS = (0.0, 1e-3, 0.3, 1.5)
 
 
 def run(engine: str, long: bool = False) -> CaseRows:
     """All rows."""
     frame = WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN), "specimen")
-    paths = {turn: free(frame, 0.05, turn) for turn in TURNS}
+    paths = {turn: free(frame, 0.05, turn) for turn in _TURNS}
     return CaseRows(
         [
             *_statics(frame),
@@ -73,7 +73,7 @@ def free(frame: WobblingFrame, tilt: float, turn: float, seconds: float = 40.0):
     """Rows of `wobbling_motion.wobble` of a free motion from a tilt [rad], its azimuth turning
     [rad/s].
     """
-    from fecolumn.engines.rocking.wobbling import TOLERANCE
+    from fecolumn.engines.rocking.wobbling import STEP_TOLERANCE
     from fecolumn.engines.rocking.wobbling_motion import wobble
 
     start = np.array([tilt, 0.0, 0.0, turn * interpreted(equations.inertia)(frame.body, tilt)[1]])
@@ -83,7 +83,7 @@ def free(frame: WobblingFrame, tilt: float, turn: float, seconds: float = 40.0):
         2e-3,
         start,
         frame.critical_tilt,
-        TOLERANCE,
+        STEP_TOLERANCE,
         1.0,
     )
 
@@ -200,7 +200,7 @@ def _samples():
 
 
 def _energy(frame, paths):
-    from fecolumn.engines.rocking.wobbling_motion import SPIN, TILT, energies
+    from fecolumn.engines.rocking.wobbling_motion import WOBBLE_SPIN, WOBBLE_TILT, energies
 
     for turn, (rows, _, _) in paths.items():
         total, words = (
@@ -216,10 +216,10 @@ def _energy(frame, paths):
         yield Row(
             f"{words}: momentum of the azimuth, change over I p alpha^2 [-]",
             0.0,
-            float(np.abs(np.diff(rows[:, SPIN])).max() / (frame.frequency * total[0])),
+            float(np.abs(np.diff(rows[:, WOBBLE_SPIN])).max() / (frame.frequency * total[0])),
             1e-12,
         )
-    heights = paths[0.0][0][:, TILT].max()
+    heights = paths[0.0][0][:, WOBBLE_TILT].max()
     yield Row("planar motion: highest swing, nothing is lost [rad]", 0.05, float(heights), 1e-6)
 
 
@@ -227,14 +227,14 @@ def _passing(frame):
     """A column that comes past upright at a tilt of some 1e-6 rad turns its azimuth by pi
     sqrt(A/B).
     """
-    from fecolumn.engines.rocking.wobbling_motion import AZIMUTH, RATE
+    from fecolumn.engines.rocking.wobbling_motion import WOBBLE_AZIMUTH, WOBBLE_RATE
 
     along, across = interpreted(equations.inertia)(frame.body, 1e-4)
     factor = math.sqrt(along / across) * 1e-4
     for turn in (1e-4, -1e-4):
         rows, _, _ = free(frame, 0.05, turn, 2.4)
-        passed = int(np.argmax(np.diff(rows[:, RATE]) > 0.1))  # the fall turns to a rise
-        before, after = rows[passed - 5, AZIMUTH], rows[passed + 6, AZIMUTH]
+        passed = int(np.argmax(np.diff(rows[:, WOBBLE_RATE]) > 0.1))  # the fall turns to a rise
+        before, after = rows[passed - 5, WOBBLE_AZIMUTH], rows[passed + 6, WOBBLE_AZIMUTH]
         yield Row(
             f"turn past upright with {turn:g} rad/s at 0.05 rad [rad]",
             math.copysign(math.pi * factor, turn),
@@ -297,14 +297,14 @@ def _equations(frame):
 
 
 def _draw(figure, paths) -> None:
-    from fecolumn.engines.rocking.wobbling_motion import AZIMUTH, TILT
+    from fecolumn.engines.rocking.wobbling_motion import WOBBLE_AZIMUTH, WOBBLE_TILT
 
     left, right = figure.subplots(1, 2)
     for (turn, (rows, _, _)), dashes in zip(list(paths.items())[1:], ("-", "--", "-.")):
         first = rows[:1500]
         left.plot(
-            first[:, TILT] * np.cos(first[:, AZIMUTH]),
-            first[:, TILT] * np.sin(first[:, AZIMUTH]),
+            first[:, WOBBLE_TILT] * np.cos(first[:, WOBBLE_AZIMUTH]),
+            first[:, WOBBLE_TILT] * np.sin(first[:, WOBBLE_AZIMUTH]),
             dashes,
             linewidth=0.8,
             label=f"{turn:g} rad/s",

@@ -88,7 +88,7 @@ def test_keys_of_an_unknown_section_name_the_nearest(capsys):
     assert "did you mean contact?" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("kind", templates.KINDS)
+@pytest.mark.parametrize("kind", templates.TEMPLATES)
 def test_new_writes_a_case_and_a_study_that_are_accepted_and_overwrites_nothing(
     kind, tmp_path, capsys
 ):
@@ -149,7 +149,7 @@ def test_help_lists_its_topics_and_refuses_others(capsys):
     assert main(["help", "weather"]) == 2
     assert "quick-start" in capsys.readouterr().err
     assert {f"{topic}.md" for topic in manual.TOPICS} == {
-        path.name for path in manual.FOLDER.glob("*.md")
+        path.name for path in manual.MANUAL_FOLDER.glob("*.md")
     }
 
 

@@ -6,7 +6,7 @@ from plain import poses_on_base
 from two_blocks import NO_BASE, Blocks, compliance
 
 from fecolumn.contact.bodies import one_body
-from fecolumn.contact.compliance import assemble
+from fecolumn.contact.compliance import assemble, even_out
 from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import CONTACT, node_points
@@ -171,3 +171,22 @@ def test_what_a_foot_has_left_behind_is_not_gathered_for_ever():
             base.gathered.matrix[np.ix_(rows, rows)],
             C[np.ix_(*2 * [(3 * below[:, None] + np.arange(3)).ravel()])],
         )
+
+
+def test_a_point_on_an_edge_gives_no_more_just_off_a_node_than_at_it():
+    """Outlines that slide over one another bring points from their nodes and back: a step in what
+    a point gives alone would be a jump of its force.
+    """
+    blocks = Blocks(6, True)
+    point = blocks.points[2]
+
+    def gives(weights):
+        point["count"], point["carriers"][:2], point["weights"][:2] = len(weights), [2, 3], 0.0
+        point["weights"][: len(weights)] = weights
+        even_out(blocks.bodies, NO_BASE, blocks.points, 2, blocks.poses)
+        return np.abs(point["uneven"]).max()
+
+    between = gives([0.5, 0.5])
+    assert gives([1.0]) == 0.0 < between
+    for share in (1e-3, 1e-6):
+        assert gives([1 - share, share]) < 8 * share * between

@@ -2,13 +2,12 @@
 
 import numpy as np
 import pytest
-from mpi4py import MPI
 
-from fecolumn.case.short_form import short_form
+from fecolumn.case.case import case_from_tables
 from fecolumn.engines.dynamics.gravity import standing
-from fecolumn.fem.tied_body import column_body
-from fecolumn.mesh.specimen import specimen_mesh
-from fecolumn.verification.one_column import build_system, footprint_of
+from fecolumn.structures.layout import layout_of
+from fecolumn.structures.patches import whole_face
+from fecolumn.verification.models import system_of
 
 SHAPES = {
     "drum": {"shape": "solid", "outer_diameter_m": 0.5, "height_m": 0.8},
@@ -18,7 +17,7 @@ MARBLE = {"youngs_modulus_pa": 50e9, "density_kg_m3": 2700.0}
 
 
 def marble(shape, interior, **tables):
-    return short_form(
+    return case_from_tables(
         {
             "column": SHAPES[shape],
             "material": MARBLE,
@@ -32,28 +31,29 @@ def marble(shape, interior, **tables):
 
 
 def foot(case):
-    specimen = specimen_mesh(case)
-    column = column_body(case, specimen, MPI.COMM_SELF)
-    return footprint_of(case, specimen, column), column
+    """The contact points of a column's foot, and all of its nodes, as Patches."""
+    layout = layout_of(case, "marble.toml")
+    column = layout.drawings["column"]
+    lowest = min(column.faces, key=lambda face: face.corners[:, :, 2].max())
+    return layout.patches["column"]["foot"], whole_face(lowest, column.order)
 
 
 @pytest.mark.parametrize("shape, outline", [("drum", 32), ("block", 48)])
 def test_outlines_are_kept_whole_and_points_inside_prefer_no_direction(shape, outline):
-    found, column = foot(marble(shape, 20))
-    places = column.all_X[found.nodes, :2]
-    assert np.sum(~found.inner) == outline and 20 <= found.inner.sum() < 24
+    found, whole = foot(marble(shape, 20))
+    places, inner = found.positions[:, :2], ~found.outlines
+    assert np.sum(~inner) == outline and 20 <= inner.sum() < 24
     for mirror in ([-1, 1], [1, -1]):
         assert {tuple(one) for one in np.round(places * mirror, 9) + 0.0} == {
             tuple(one) for one in np.round(places, 9) + 0.0
         }
     assert (
-        found.areas.sum() == pytest.approx(found.all_areas.sum(), rel=1e-12)
-        and found.areas.min() > 0
+        found.areas.sum() == pytest.approx(whole.areas.sum(), rel=1e-12) and found.areas.min() > 0
     )
 
 
 def test_a_tube_of_one_brick_keeps_every_node():
-    case = short_form(
+    case = case_from_tables(
         {
             "column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 0.5},
             "contact": {"interior_points": 0},
@@ -61,8 +61,8 @@ def test_a_tube_of_one_brick_keeps_every_node():
         },
         "tube.toml",
     )
-    found, _ = foot(case)
-    assert np.array_equal(found.nodes, found.all_nodes) and not found.inner.any()
+    found, whole = foot(case)
+    assert np.array_equal(found.positions, whole.positions) and found.outlines.all()
 
 
 @pytest.mark.parametrize("shape", ["drum", "block"])
@@ -70,7 +70,7 @@ def test_few_points_carry_the_weight_and_sink_a_little_deeper_than_all(shape):
     """Forces on single nodes press deeper than the pressure that they stand for."""
     sunk = []
     for interior in (64, 10_000):
-        system = build_system(marble(shape, interior), MPI.COMM_SELF)
+        system = system_of(marble(shape, interior))
         state = standing(system)
         assert state.forces[:, 2].sum() == pytest.approx(system.weight, rel=1e-8)
         assert state.forces[:, 2].min() >= 0

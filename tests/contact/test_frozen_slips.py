@@ -20,6 +20,8 @@ from fecolumn.contact.coupling import (
 )
 from fecolumn.contact.friction import by_frozen_slips
 from fecolumn.contact.frozen_slips import find_impulses
+from fecolumn.contact.impulses import all_impulses, rough_impulses
+from fecolumn.contact.problem import N_COUNTS
 from fecolumn.foundation._compiled import interpreted
 
 FRICTION = 0.5
@@ -87,6 +89,24 @@ def test_a_good_guess_needs_fewer_steps():
     again, left, fewer = find_impulses(coupling, velocity, friction, impulses, True, *TO)
     assert left <= max(missed, 1e-4) and missed < 2e-3 and fewer < made
     np.testing.assert_allclose(times(coupling, again), times(coupling, impulses), atol=1e-2)
+
+
+@pytest.mark.parametrize("blocks", [1, 3])
+@pytest.mark.parametrize("seed", range(3))
+def test_rough_impulses_take_the_energy_of_exact_ones(blocks, seed):
+    """Blocks that give nothing: the rigid loss of the ledger is the energy of rough ones."""
+    coupling, velocity, friction, start = impact(blocks, seed)
+    coupling = coupling_by_levers(0 * coupling.own, coupling.levers, coupling.bodies)
+    n, counts = len(friction), np.zeros(N_COUNTS, np.int64)
+    exact, solved = all_impulses(
+        coupling, velocity.ravel(), friction, start.ravel(), np.inf, 0.0, counts
+    )
+    rough = rough_impulses(coupling, velocity.ravel(), friction, np.arange(n), start.ravel())
+    energy = [
+        (impulses * (velocity + times(coupling, impulses) / 2)).sum()
+        for impulses in (exact.reshape(n, 3), rough.reshape(n, 3))
+    ]
+    assert solved and energy[0] < 0 and energy[1] == pytest.approx(energy[0], rel=5e-3)
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.4])

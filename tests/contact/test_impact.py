@@ -9,7 +9,7 @@ from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact, landing_moment, mark_landing, touched
 from fecolumn.contact.interface import interface_of
-from fecolumn.contact.points import BASE, CONTACT, node_points
+from fecolumn.contact.points import CONTACT, GROUND, node_points
 from fecolumn.contact.problem import N_COUNTS, OK
 from fecolumn.contact.tolerances import IMPACT_LEFT
 from fecolumn.contact.work import book_impulses
@@ -99,7 +99,7 @@ def test_rod_that_lands_on_its_end_turns_about_it(within):
     arms = np.array([[length / 2, 0, 0]])
     impulse = struck(
         body(mass, arms, inertia, within),
-        node_points(arms, 0.0, master=BASE),
+        node_points(arms, 0.0, master=GROUND),
         [[0, 0, -speed]],
         contact_work=-10.0,
     )
@@ -124,7 +124,7 @@ def test_oblique_impact_slides_or_sticks(mu, pull):
     mass, place = 2.0, np.zeros((1, 3))
     impulse = struck(
         body(mass, place),
-        node_points(place, 0.0, master=BASE),
+        node_points(place, 0.0, master=GROUND),
         [[0.5, 0, -1.0]],
         mu,
         contact_work=-10.0,
@@ -136,7 +136,7 @@ def test_restitution_gives_its_share_of_the_plastic_impulse_once_more():
     mass, place = 2.0, np.zeros((1, 3))
     impulse = struck(
         body(mass, place),
-        node_points(place, 0.0, master=BASE),
+        node_points(place, 0.0, master=GROUND),
         [[0, 0, -1.0]],
         restitution=0.6,
         contact_work=-10.0,
@@ -153,7 +153,7 @@ def test_an_impact_gives_back_no_more_than_contact_has_taken(contact_work):
     force = np.array([-6.0, 0.0, 6.0]) / DT
     impulse = struck(
         body(mass, place),
-        node_points(place, 0.0, master=BASE),
+        node_points(place, 0.0, master=GROUND),
         [[3.0, 0, -3.0]],
         0.9,
         contact_work=contact_work,
@@ -234,7 +234,7 @@ def a_foot(give):
     velocity[:, 2] -= velocity[:, 2].max()
     return (
         elastic(MASS, [ACROSS, ACROSS, 2.0], arms, give, 20),
-        node_points(arms, 0.8, master=BASE),
+        node_points(arms, 0.8, master=GROUND),
         velocity,
         velocity[:, 2] > -1e-9,
     )
@@ -253,7 +253,7 @@ def a_frame(give, slab=17e3):
     )
     points = []
     for k in range(4):
-        points.append(node_points(foot, 10.0, slave=k, master=BASE, first=2 * n * k))
+        points.append(node_points(foot, 10.0, slave=k, master=GROUND, first=2 * n * k))
         points.append(
             node_points(under[n * k : n * (k + 1)], 10.0, slave=4, master=k, first=8 * n + n * k)
         )
@@ -392,7 +392,7 @@ def test_slip_ends_whatever_the_thrust_under_which_it_ended(thrust):
     IMPACT_LEFT of the velocities that it had, not of those that the thrust alone would give it.
     """
     place, step, speed, mu = np.zeros((1, 3)), 1e-3, 1e-3, 0.5
-    points = node_points(place, 0.0, master=BASE)
+    points = node_points(place, 0.0, master=GROUND)
     points["friction"] = mu
     interface = interface_of(np.array([[0.0, 0, 0], [1.0, 0, 0]]), master=points["master"][0])
     before, after = np.zeros(1, CONTACT), np.zeros(1, CONTACT)

@@ -10,7 +10,7 @@ from two_blocks import Blocks
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.points import BEYOND, CONTACT, OVER, node_points
 from fecolumn.contact.problem import list_near_points, room
-from fecolumn.contact.tolerances import CLOSE, NEAR, SHARE, SOLVED
+from fecolumn.contact.tolerances import CLOSE, FORCE_SHARE, NEAR, SOLVED
 from fecolumn.foundation._compiled import interpreted
 
 
@@ -95,7 +95,7 @@ def test_a_stiff_point_finds_its_force_to_a_thousandth_whatever_it_began_with():
     gives, load = 1e-12, 100.0
     foot = Foot(np.zeros((1, 3)), gives * np.eye(3), np.zeros((3, 3)), 0.3)
     after = foot.solve([[0.0, 0, -gives * load]], forces=[[0.0, 0, 1.05 * load]])[0]
-    assert after["force"][2] == pytest.approx(load, rel=2 * SHARE)
+    assert after["force"][2] == pytest.approx(load, rel=2 * FORCE_SHARE)
 
 
 def test_points_above_the_base_take_no_part():

@@ -7,10 +7,10 @@ import numpy as np
 from fecolumn.contact.bodies import Bodies
 from fecolumn.contact.interface import INTERFACE
 from fecolumn.contact.joints import facets_of, is_convex, joints_of
-from fecolumn.contact.points import POINT
+from fecolumn.contact.points import GROUND, POINT
 from fecolumn.contact.projection import OFF, ON, UNKNOWN, project_on_body
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.structures.model import GROUND, Surface
+from fecolumn.structures.model import Surface
 from fecolumn.verification.boxes import box_model, joint, part
 
 RADIUS, NODES = 0.5, 12

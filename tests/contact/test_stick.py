@@ -164,7 +164,7 @@ def standing(on_pad=False):
 
     stick.poses[:], stick.angles[:], stick.key[:] = pose(center, rotation), ANGLE, [HALF, 1.0, 0.0]
 
-    def still(moved=(0.0, 0, 0), turned=(0.0, 0, 0), angle=ANGLE, half=HALF):
+    def still(moved=(0.0, 0, 0), turned=(0.0, 0, 0), angle=ANGLE, half=HALF, reach=1.0):
         rims = rims_at_rest()
         rims["angle"] = angle
         return interpreted(holds)(
@@ -173,6 +173,7 @@ def standing(on_pad=False):
             rims,
             half,
             pose(center + moved, rotation_matrix(np.array(turned, float)) @ rotation),
+            reach,
         )
 
     return stick, still
@@ -189,6 +190,11 @@ def test_operator_holds_while_the_foot_stays_where_it_was_found():
     lean = 0.9 * STICK_TURN
     assert still(moved=[-lean * DEPTH, 0, 0], turned=[0, lean, 0])
     assert not still(moved=[-lean * DEPTH, 0, 0]) and not still(turned=[0, lean, 0])
+    for turn, way in ((0.9, 0.0), (0.0, 0.9)):
+        far = dict(
+            turned=[0, 0, 10 * turn * STICK_TURN], moved=[10 * way * STICK_WAY * WIDTH, 0, 0]
+        )
+        assert not still(**far) and still(**far, reach=10.0) and not still(**far, reach=8.0)
     stick.key[1] = 0.0
     assert not still()
 

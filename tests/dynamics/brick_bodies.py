@@ -1,28 +1,28 @@
 """Structures of bodies of a few bricks, in full order and reduced from the same meshes."""
 
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 
 import numpy as np
 from mpi4py import MPI
 
 from fecolumn.case.sections import Material
 from fecolumn.contact.overturning import Limits
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.engines.dynamics.energy import TERMS, Ledger
 from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.stepper import Stepper
 from fecolumn.engines.dynamics.structure import released, structure_system
-from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.start import of_parts as reduced_of_parts
-from fecolumn.engines.reduced.structure import structure_of, view_of
+from fecolumn.engines.reduced_engine import engine_on
 from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.effective import blocks, unit_loads
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.modes import elastic_modes
-from fecolumn.structures.model import GROUND, BodyModel, Joint, Part, StructureModel, Surface
+from fecolumn.structures.model import BodyModel, Joint, Part, StructureModel, Surface
 from fecolumn.verification.models import box
 
 GRAVITY = np.array([0.0, 0.0, -9.81])
@@ -182,22 +182,10 @@ class Structure:
         return FullRun(system, model, stands, impact=impact)
 
     def reduced(self, dt=1e-3, alpha=-0.05, modes=ALL, stands=True):
-        model, hht = self.model(modes), HHT(dt, alpha)
-        structure, _ = structure_of(model, hht, GRAVITY)
-        view = view_of(
-            model,
-            structure,
-            structure.bodies.body["mass"].sum() * 9.81,
-            Limits.of_tilt(len(model.parts)),
-        )
-        return Engine(
-            lambda step: structure_of(model, step, GRAVITY),
-            model.bases,
-            view,
-            hht,
-            lambda made: reduced_of_parts(made, model.parts, stands),
-            model=model,
-        )
+        model = self.model(modes)
+        begin = partial(reduced_of_parts, parts=model.parts, stands=stands)
+        limits = Limits.of_tilt(len(model.parts))
+        return engine_on(model, HHT(dt, alpha), begin, gravity=GRAVITY, limits=limits)
 
 
 class FullRun:

@@ -2,11 +2,9 @@
 base.
 """
 
-from mpi4py import MPI
-
-from fecolumn.case.short_form import short_form
+from fecolumn.case.case import case_from_tables
 from fecolumn.foundation.toml_file import merge, read_toml
-from fecolumn.verification.one_column import build_system
+from fecolumn.verification.models import system_of
 
 SPECIMEN = "meshes/stout.toml"
 # A wall four times as thick, of bricks of its size: a fourth of the nodes in the foot, a third of
@@ -24,8 +22,8 @@ def coarse_case(**sections):
             "integration": {"engine": "full"},
         },
     )
-    return short_form(merge(tables, sections), SPECIMEN)
+    return case_from_tables(merge(tables, sections), SPECIMEN)
 
 
 def coarse_system(**sections):
-    return build_system(coarse_case(**sections), MPI.COMM_SELF)
+    return system_of(coarse_case(**sections))

@@ -4,7 +4,8 @@ import numpy as np
 
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.trials import begin_trial
+from fecolumn.verification.reduced_trial import begin_trial
+from fecolumn.verification.trial import contact_nodes
 
 ENGINES = ("corotated", "rigid")
 G = 9.80665
@@ -33,4 +34,4 @@ def centre(trial):
 
 def lowest(trial):
     """Height of the lowest foot node [m]."""
-    return trial.state.x[trial.system.footprint.nodes, 2].min()
+    return trial.state.x[contact_nodes(trial.system)[0], 2].min()

@@ -8,7 +8,7 @@ from fecolumn import simulation
 from fecolumn.case.case import case_from_tables
 from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.verification.models import column_case, column_system
-from fecolumn.verification.trials import begin_trial
+from fecolumn.verification.reduced_trial import begin_trial
 
 # a stout steel tube, two bricks through the wall and 12 around
 STOUT = dict(

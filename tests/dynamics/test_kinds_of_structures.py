@@ -11,6 +11,7 @@ from mpi4py import MPI
 
 from fecolumn.case.sections import Material
 from fecolumn.contact.base_plate import BasePlate
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.unbounded_base import unbounded_base
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.dynamics.gravity import standing
@@ -19,7 +20,6 @@ from fecolumn.fem.body import Body
 from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.fem.total_lagrangian import TotalLagrangian
-from fecolumn.structures.model import GROUND
 from fecolumn.verification.models import box
 
 WHOLE, HALF = (1, 1, 4), (1, 1, 2)

@@ -5,7 +5,7 @@ slack, both ways or in tension alone; breaking; dashpots.
 import numpy as np
 import pytest
 
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import frames_at, grounds_at
 from fecolumn.engines.dynamics.links import (
     LINK,
@@ -44,7 +44,7 @@ def walked(
     )
     link["a"], link["b"], link["length"], link["play"], link["stiffness"], link["damping"] = (
         0,
-        BASE,
+        GROUND,
         LENGTH,
         play,
         stiffness,

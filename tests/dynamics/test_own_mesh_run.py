@@ -8,11 +8,11 @@ import meshio
 import numpy as np
 from mpi4py import MPI
 
-from fecolumn.case.case import case_from_tables
+from fecolumn.case.case import Case, case_from_tables
 from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.fem.modes import free_modes
 from fecolumn.simulation import run
-from fecolumn.verification.one_column import build_system
+from fecolumn.verification.models import system_of
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "mesh"))
 from own_meshes import bricks, own_case, tetrahedra, write  # noqa: E402
@@ -21,10 +21,8 @@ from own_meshes import bricks, own_case, tetrahedra, write  # noqa: E402
 def test_tetrahedra_and_bricks_of_one_block_stand_and_vibrate_alike(tmp_path):
     found = []
     for kind, made in (("tetra", tetrahedra), ("hexahedron", bricks)):
-        system = build_system(
-            own_case(write(tmp_path, "own.vtu", kind, *made()), mesh={"element_order": 2}),
-            MPI.COMM_SELF,
-        )
+        own = own_case(write(tmp_path, "own.vtu", kind, *made()), mesh={"element_order": 2})
+        system = system_of(Case.of_column(own))
         state = standing(system)
         assert (
             state.forces[:, 2].sum() == np.float64(system.weight).round(9)

@@ -7,8 +7,8 @@ from scipy.integrate import solve_ivp
 
 from fecolumn.contact.rim import lowest
 from fecolumn.engines.dynamics.gravity import tilted
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.rolling_rim import RollingRim
-from fecolumn.verification.trials import begin_trial
 from fecolumn.verification.wobbling import rolling
 
 TILT, RESISTANCE = 0.03, 5e-4

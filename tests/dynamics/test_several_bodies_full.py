@@ -9,14 +9,14 @@ import pytest
 from brick_bodies import FullRun, Structure, brick_body, closure, frame, pulse, stack
 
 from fecolumn.case.sections import Material
-from fecolumn.contact.points import SUNK
+from fecolumn.contact.points import GROUND, SUNK
 from fecolumn.engines.dynamics.checkpoint import read_checkpoint, write_checkpoint
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.stage import Stage
 from fecolumn.engines.reduced.observe import ENERGY, PER_BODY, WIDTH
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.structures.model import GROUND, Link
+from fecolumn.structures.model import Link
 
 G = 9.81
 # Difference by which the engines may part, displacement [m] and tilt [rad]: ten times what steps of

@@ -5,15 +5,14 @@ imported, literal HHT.
 import numpy as np
 import pytest
 from coarse_column import coarse_case
-from mpi4py import MPI
 
-from fecolumn.case.short_form import short_form
+from fecolumn.case.case import case_from_tables
 from fecolumn.engines.dynamics.energy import Ledger
 from fecolumn.engines.dynamics.gravity import standing, tilted
 from fecolumn.engines.dynamics.stepper import Stepper
 from fecolumn.foundation.toml_file import merge, read_toml
 from fecolumn.mesh.column import column_mesh
-from fecolumn.verification.one_column import build_system
+from fecolumn.verification.models import system_of
 
 SPECIMEN = "meshes/stout.toml"
 
@@ -21,7 +20,7 @@ SPECIMEN = "meshes/stout.toml"
 def _without_cap():
     tables = read_toml(SPECIMEN)
     del tables["cap"]
-    return short_form(
+    return case_from_tables(
         merge(
             tables,
             {
@@ -39,7 +38,9 @@ def _imported(folder):
     import meshio
 
     # a polygon of true area is wider than the circle
-    mesh = column_mesh(coarse_case(column={"fine_height_m": 0.0}, mesh={"coarse_size_m": 0.0133}))
+    mesh = column_mesh(
+        coarse_case(column={"fine_height_m": 0.0}, mesh={"coarse_size_m": 0.0133}).short
+    )
     meshio.Mesh(mesh.points, [("hexahedron", mesh.cells)]).write(folder / "column.inp")
     return coarse_case(column={"mesh_file": str(folder / "column.inp")})
 
@@ -65,7 +66,7 @@ CASES = {
     [pytest.param(name, marks=pytest.mark.slow) if name == "order 2" else name for name in CASES],
 )
 def test_stands_still_and_rocks_without_creating_energy(name, tmp_path):
-    system = build_system(CASES[name](tmp_path), MPI.COMM_SELF)
+    system = system_of(CASES[name](tmp_path))
     state = start = standing(system)
     ledger = Ledger(system)
     ledger.open(start)

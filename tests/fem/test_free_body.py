@@ -56,7 +56,7 @@ def test_compliance_is_the_sum_over_all_elastic_modes(bar):
 
 def test_compliance_does_not_depend_on_the_shift(bar, monkeypatch):
     body, values, modes, _ = bar
-    monkeypatch.setattr(free_body, "SHARE", 1.0)
+    monkeypatch.setattr(free_body, "_SHARE", 1.0)
     found, exact = _compliance(body, values, modes)
     assert (np.linalg.norm(found - exact, axis=0) / np.linalg.norm(exact, axis=0)).max() < 1e-8
 

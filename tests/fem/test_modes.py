@@ -1,25 +1,23 @@
 """Free modes of the tied column: six rigid ones, bending as Timoshenko's beam."""
 
-import dataclasses
-
 import numpy as np
 import pytest
-from mpi4py import MPI
 
 from fecolumn.case.case import read_case
 from fecolumn.fem.modes import free_modes
-from fecolumn.fem.tied_body import column_body
 from fecolumn.mesh.bending import free_free_bending_frequency
-from fecolumn.mesh.specimen import specimen_mesh
+from fecolumn.structures.bodies import drawing
+from fecolumn.structures.reduction import body_of
 
 
 @pytest.fixture(scope="module")
 def specimen():
-    return read_case("meshes/stout.toml").short
+    return read_case("meshes/stout.toml")
 
 
 def _body(case):
-    return column_body(case, specimen_mesh(case), MPI.COMM_SELF)
+    column = drawing(case, "column", "stout.toml")
+    return body_of(column.shape, column.material)
 
 
 def test_tied_column_with_cap_has_six_rigid_modes(specimen):
@@ -34,8 +32,8 @@ def test_tied_column_with_cap_has_six_rigid_modes(specimen):
 
 
 def test_tube_bends_as_timoshenko_says(specimen):
-    found = free_modes(_body(dataclasses.replace(specimen, cap=None)), 8).frequencies[6:]
-    column, steel = specimen.column, specimen.material
+    found = free_modes(_body(specimen.replace({"cap": None})), 8).frequencies[6:]
+    column, steel = specimen.bodies["column"], specimen.materials["column"]
     outer = column.outer_diameter_m / 2
     exact = free_free_bending_frequency(
         outer,

@@ -36,13 +36,11 @@ def test_a_mirrored_or_a_flat_body_gets_a_rotation_and_no_reflection():
 @pytest.fixture(scope="module")
 def tied_body():
     """A tube with its cap tied on."""
-    from mpi4py import MPI
+    from fecolumn.case.case import case_from_tables
+    from fecolumn.structures.bodies import drawing
+    from fecolumn.structures.reduction import body_of
 
-    from fecolumn.case.short_form import short_form
-    from fecolumn.fem.tied_body import column_body
-    from fecolumn.verification.one_column import share_specimen_mesh
-
-    case = short_form(
+    case = case_from_tables(
         {
             "column": {"outer_diameter_m": 0.1, "wall_m": 0.005, "height_m": 0.3},
             "cap": {"length_m": 0.15, "width_m": 0.15, "thickness_m": 0.02},
@@ -50,7 +48,8 @@ def tied_body():
         },
         "case",
     )
-    return column_body(case, share_specimen_mesh(case, MPI.COMM_SELF), MPI.COMM_SELF)
+    column = drawing(case, "column", "case")
+    return body_of(column.shape, column.material)
 
 
 def test_the_momentum_of_a_tied_body_is_its_mass_times_velocity(tied_body):

@@ -13,7 +13,7 @@ from documents import ROOT
 from containers.docs.cells import cells
 from containers.docs.equations import is_equation, typeset, with_equations
 from containers.docs.links import broken_links
-from fecolumn.case.manual import FOLDER, TOPICS
+from fecolumn.case.manual import MANUAL_FOLDER, TOPICS
 
 DOCS = ROOT / "containers" / "docs"
 GENERATED = {"index.md", "gallery.md", "results.md", "api.md", "tutorials/index.md"}
@@ -26,20 +26,20 @@ def _listed() -> list[str]:
 
 
 def test_every_page_of_the_manual_is_listed_once():
-    tutorials = {f"tutorials/{path.stem}.md" for path in (FOLDER / "tutorials").glob("*.py")}
-    pages = {path.name for path in FOLDER.glob("*.md")}
+    tutorials = {f"tutorials/{path.stem}.md" for path in (MANUAL_FOLDER / "tutorials").glob("*.py")}
+    pages = {path.name for path in MANUAL_FOLDER.glob("*.md")}
     assert pages == {f"{name}.md" for name in TOPICS}
     assert sorted(_listed()) == sorted(pages | tutorials | GENERATED)
 
 
 def test_equations_of_the_manual_are_known_and_what_commands_print_is_left():
-    page = (FOLDER / "theory.md").read_text(encoding="utf-8")
+    page = (MANUAL_FOLDER / "theory.md").read_text(encoding="utf-8")
     made = with_equations(page)
     assert made.count("class='equation'") == 6 and "    fecolumn verify -o DIR" in made
     assert "<td class='number'>(3)</td>" in made and "\n    s = W r" not in made
     fenced = "```toml\n\n    a = 1 + 2\n```"
     assert with_equations(fenced) == fenced
-    jobs = (FOLDER / "jobs.md").read_text(encoding="utf-8")
+    jobs = (MANUAL_FOLDER / "jobs.md").read_text(encoding="utf-8")
     assert with_equations(jobs) == jobs
     assert is_equation("    τ + μ σ = c") and not is_equation("    unit: g")
 

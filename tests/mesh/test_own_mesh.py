@@ -65,21 +65,24 @@ def test_linear_tetrahedra_are_refused(tmp_path):
 def test_nodes_of_second_order_are_counted_before_anything_is_built(tmp_path):
     from mpi4py import MPI
 
-    from fecolumn.fem.tied_body import column_body
-    from fecolumn.verification.one_column import footprint_of
+    from fecolumn.fem.tied_body import tied_body
+    from fecolumn.structures.faces import plane_faces
+    from fecolumn.structures.patches import whole_face
 
     for kind, made in (("tetra", tetrahedra), ("hexahedron", bricks)):
         case = own_case(write(tmp_path, "own.vtu", kind, *made()), mesh={"element_order": 2})
         specimen = specimen_mesh(case)
-        body = column_body(case, specimen, MPI.COMM_SELF)
+        order = case.mesh.element_order
+        body = tied_body(specimen.body, specimen.ties, case.material, order, MPI.COMM_SELF)
         expected = estimate(case)
         assert (
             3 * body.n_nodes == expected.dofs[2]
             and 3 * len(specimen.base.points) == expected.dofs[4]
         )
-        foot = footprint_of(case, specimen, body)
-        assert len(foot.all_nodes) == expected.foot_points
-        assert foot.all_areas.min() > 0 and foot.areas.sum() == pytest.approx(
+        lowest = min(plane_faces(specimen.body), key=lambda face: face.corners[:, :, 2].max())
+        foot = whole_face(lowest, order)
+        assert len(foot.positions) == expected.foot_points
+        assert foot.areas.min() > 0 and foot.areas.sum() == pytest.approx(
             SIDES[0] * SIDES[1], rel=1e-12
         )
 

@@ -1,14 +1,17 @@
 """The coarse specimen in both engines from the same finite-element operators."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from fecolumn.case.sections import Initial
 from fecolumn.engines.dynamics import gravity
 from fecolumn.engines.reduced import start
 from fecolumn.engines.reduced.observe import COLUMNS
+from fecolumn.engines.reduced_engine import engine_on
 from fecolumn.structures.place import Standing, placed
+from fecolumn.structures.reduction import with_elasticity
 from fecolumn.verification.models import column_system
-from fecolumn.verification.one_foot import engine_on, foot_model, on_base
 from fecolumn.verification.trial import Trial
 
 PLACES = dict(zip([name for name, _ in COLUMNS], np.cumsum([0] + [width for _, width in COLUMNS])))
@@ -20,13 +23,16 @@ def top_nodes(body):
     return nodes, np.full(len(nodes), 1 / len(nodes))
 
 
+def with_modes(system, n_modes):
+    """The StructureModel of a column in full order, its body reduced."""
+    (part,), nodes = system.model.parts, system.interface.foot.nodes[0]
+    model, _ = with_elasticity(part.model, system.body, nodes, n_modes, top_nodes(system.body))
+    return replace(system.model, parts=(replace(part, model=model),))
+
+
 def reduced(system, n_modes=30, begin=start.gravity_equilibrium, overturn=0.25):
     """The reduced engine of a full-order system."""
-    foot = system.footprint
-    model, _ = foot_model(system.body, foot.nodes, foot.areas, top_nodes(system.body)[0], n_modes)
-    ratio = system.damping.each[0].ratio if system.damping else 0.0
-    structure = on_base(model, system.base, damping_ratio=ratio, **system.laws)
-    return engine_on(structure, system.hht, begin, system.gravity, overturn)
+    return engine_on(with_modes(system, n_modes), system.hht, begin, cap=overturn)
 
 
 def tops(system, grounds, begin=gravity.standing):

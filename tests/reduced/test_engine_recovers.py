@@ -19,7 +19,7 @@ from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.models import block_system, box
-from fecolumn.verification.trials import begin_trial
+from fecolumn.verification.reduced_trial import begin_trial
 
 STEPS, DT = 300, 1e-3
 

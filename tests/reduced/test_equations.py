@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from pair import tilted_motion
 
-from fecolumn.contact.rim import Rim
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.reduced import motion as motions
+from fecolumn.engines.reduced_engine import engine_on
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.structures.model import BodyModel
-from fecolumn.verification.one_foot import engine_on, foot_surface, on_base
+from fecolumn.verification.models import level_foot, on_ground
 
 ALPHA, DT, ZETA, GRAVITY = -0.2, 1e-3, 0.05, np.array([0.0, 0.0, -9.81])
 MASS, INERTIA = 10.0, np.diag([0.9, 1.0, 0.1])
@@ -41,7 +41,7 @@ def model():
         flexibility=np.ascontiguousarray(flexibility),
         arms=arms,
         dofs=0,
-        surfaces={"foot": foot_surface(arms, np.full(N, 1e-3))},
+        surfaces={"foot": level_foot(arms, np.full(N, 1e-3))},
         marks={"top": (np.array([0.0, 0.0, 0.5]), np.zeros((3, 3)))},
     )
 
@@ -53,15 +53,8 @@ def engine(model):
         motion.frames["spin"][0] = [0.3, -0.9, 0.2]
         return motion
 
-    structure = on_base(
-        model,
-        rigid_base(model.reference),
-        0.7,
-        np.zeros((N, 3)),
-        ZETA,
-        rim=Rim.find(model.reference),
-    )
-    return engine_on(structure, HHT(DT, ALPHA), begin, GRAVITY)
+    structure = on_ground(model, rigid_base(model.reference), 0.7, ZETA, round=True)
+    return engine_on(structure, HHT(DT, ALPHA), begin, gravity=GRAVITY)
 
 
 def slides(forces):

@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from pair import reduced, system_of
+from pair import reduced, system_of, with_modes
 
 from fecolumn.engines.reduced.model import scheme
 from fecolumn.engines.reduced.structure import structure_of
 from fecolumn.fem.free_body import FreeBody
-from fecolumn.verification.one_foot import foot_model, on_base
 
 
 @pytest.fixture(scope="module")
@@ -17,8 +16,7 @@ def system():
 
 @pytest.fixture(scope="module")
 def model(system):
-    foot = system.footprint
-    return foot_model(system.body, foot.nodes, foot.areas, [0], 40)[0]
+    return with_modes(system, 40).parts[0].model
 
 
 def test_flexibility_is_that_of_the_filtered_foot_at_any_step(system, model):
@@ -40,9 +38,7 @@ def test_compliance_within_a_step_is_that_of_all_finite_elements(system, model):
     modes above.
     """
     interface = system.interface
-    structure, points = structure_of(
-        on_base(model, system.base, **system.laws), system.hht, system.gravity
-    )
+    structure, points = structure_of(with_modes(system, 40), system.hht, system.gravity)
     mine, n = scheme(structure, points, system.hht), len(model.arms)
     skew = np.array([np.cross(np.eye(3), arm) for arm in model.arms])
     rigid = np.eye(3) / model.mass + np.einsum(

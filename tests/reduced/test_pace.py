@@ -13,7 +13,7 @@ from fecolumn.case.case import case_from_tables
 from fecolumn.cli import main
 from fecolumn.engines import pace as paces
 from fecolumn.engines.dynamics.record import Record
-from fecolumn.engines.pace import NAME, Pace, cheaper, contact_points_of
+from fecolumn.engines.pace import PACE_FILE, Pace, cheaper, contact_points_of
 from fecolumn.foundation.toml_file import merge, nested
 from fecolumn.simulation import run
 
@@ -91,16 +91,16 @@ def test_the_time_left_is_told_once_after_a_second_of_steps(tmp_path):
     analysis = _running(tmp_path)
     pace = _begun(analysis, said)
     _go(analysis, pace, 50, 0.5)
-    assert not said and not (tmp_path / NAME).exists()
+    assert not said and not (tmp_path / PACE_FILE).exists()
     _go(analysis, pace, 100, 1.0)
     _go(analysis, pace, 300, 3.0)
     (words,) = said
     assert words.startswith("100 steps took 10 ms each: about 1 min 39 s for the rest; 54 contact")
     assert "contact.interior_points = 9" in words and "fecolumn cost" in words
-    kept = json.loads((tmp_path / NAME).read_text())
+    kept = json.loads((tmp_path / PACE_FILE).read_text())
     assert kept["whole_s"] == pytest.approx(100.0, rel=1e-3) and kept["cheaper"] in words
     pace.end()
-    assert not (tmp_path / NAME).exists()
+    assert not (tmp_path / PACE_FILE).exists()
 
 
 def test_a_rest_of_seconds_is_not_told_and_one_until_rest_has_two_ends(tmp_path):
@@ -108,12 +108,14 @@ def test_a_rest_of_seconds_is_not_told_and_one_until_rest_has_two_ends(tmp_path)
     analysis = _running(tmp_path, steps=300)
     pace = _begun(analysis, said)
     _go(analysis, pace, 100, 1.0)
-    assert not said and not (tmp_path / NAME).exists()
+    assert not said and not (tmp_path / PACE_FILE).exists()
     analysis = _running(tmp_path, steps=4000, motion_steps=2000, until_rest=True)
     pace = _begun(analysis, said)
     _go(analysis, pace, 100, 1.0)
     assert "about 19 s to the end of the motion, 39 s at most until at rest" in said[0]
-    assert json.loads((tmp_path / NAME).read_text())["whole_s"] == pytest.approx(20.0, rel=1e-3)
+    assert json.loads((tmp_path / PACE_FILE).read_text())["whole_s"] == pytest.approx(
+        20.0, rel=1e-3
+    )
 
 
 def test_slow_steps_say_which_joint_and_how_many_iterations(tmp_path):
@@ -204,7 +206,7 @@ def test_a_history_does_not_depend_on_how_often_it_was_looked_at(tmp_path, monke
     ):
         assert np.array_equal(often["u_top"][:], seldom["u_top"][:])
         assert np.array_equal(often["energy/kinetic"][:], seldom["energy/kinetic"][:])
-    assert not (tmp_path / "often" / NAME).exists()
+    assert not (tmp_path / "often" / PACE_FILE).exists()
 
 
 def test_cost_measures_the_case_and_what_makes_it_cheaper(tmp_path, capsys):

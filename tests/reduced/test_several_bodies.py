@@ -5,12 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fecolumn.case.sections import GRAVITY
+from fecolumn.contact.points import GROUND
 from fecolumn.engines.reduced.observe import ENERGY, OF_BODY, WIDTH
 from fecolumn.engines.reduced.start import of_parts
+from fecolumn.engines.reduced_engine import GRAVITY_DOWN
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.structures.model import GROUND, Link
+from fecolumn.structures.model import Link
 from fecolumn.verification.boxes import (
-    GRAVITY,
     block_on_a_heavy_one,
     box_model,
     engine,
@@ -22,7 +24,7 @@ from fecolumn.verification.boxes import (
 )
 from fecolumn.verification.several_bodies import closure
 
-G = -GRAVITY[2]
+G = GRAVITY
 
 
 @pytest.mark.parametrize("alpha", [0.0, -0.2])
@@ -204,7 +206,7 @@ def test_momentum_is_conserved_where_nothing_is_held():
 
     # a frame that falls along: no gravity in it
     before, record = moments(), made.record.impacts
-    made.advance(np.tile(GRAVITY, (300, 1)))
+    made.advance(np.tile(GRAVITY_DOWN, (300, 1)))
     after = moments()
     assert made.record.impacts > record
     # the first step still blends the gravity of the start

@@ -19,7 +19,7 @@ ROCKING = {
 
 
 def _kept(folder) -> dict[str, np.ndarray]:
-    with h5py.File(folder / states.NAME) as file:
+    with h5py.File(folder / states.STATES_FILE) as file:
         return {name: file[name][()] for name in file}
 
 
@@ -50,7 +50,7 @@ def test_states_of_an_interrupted_analysis_are_those_of_one_that_was_not(rocking
             stop=lambda: asked.append(1) or len(asked) > 6,
         )
     assert (tmp_path / "run" / "checkpoint.npz").is_file() and not (
-        tmp_path / "run" / states.NAME
+        tmp_path / "run" / states.STATES_FILE
     ).exists()
     run(case_from_tables(ROCKING, "case"), tmp_path / "run", quiet=True)
     whole, parts = _kept(rocking), _kept(tmp_path / "run")
@@ -58,7 +58,7 @@ def test_states_of_an_interrupted_analysis_are_those_of_one_that_was_not(rocking
 
 
 def test_states_that_would_fill_the_disk_are_thinned_out_evenly(rocking, tmp_path, monkeypatch):
-    monkeypatch.setattr(states, "MOST_BYTES", 6000)
+    monkeypatch.setattr(states, "_MOST_BYTES", 6000)
     run(case_from_tables(ROCKING, "case"), tmp_path / "run", quiet=True)
     times, whole = _kept(tmp_path / "run")["time"], _kept(rocking)["time"]
     assert 3 < len(times) < len(whole) and times[0] == 0 and times[-1] == whole[-1]
@@ -70,7 +70,7 @@ def test_states_change_nothing_of_the_motion_and_are_not_asked_of_the_case_id(ro
     without = case_from_tables(ROCKING | {"output": {"states_every_s": 0.0}}, "case")
     run(without, tmp_path / "run", quiet=True)
     assert (
-        not (tmp_path / "run" / states.NAME).exists()
+        not (tmp_path / "run" / states.STATES_FILE).exists()
         and without.id == case_from_tables(ROCKING, "case").id
     )
     with (

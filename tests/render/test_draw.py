@@ -84,14 +84,16 @@ def test_stills_and_sequence_of_the_instants_asked_for(drum):
 
 def test_every_view_looks_elsewhere_and_shows_the_column(block):
     result = read_result(block)
-    seen = {view: camera.camera(result, view, result.poses[0].time, 1.5) for view in command.VIEWS}
-    assert tuple(camera.VIEWS) == command.VIEWS
+    seen = {
+        view: camera.camera(result, view, result.poses[0].time, 1.5) for view in command.VIEW_NAMES
+    }
+    assert tuple(camera.VIEWS) == command.VIEW_NAMES
     assert seen["plan"].toward == pytest.approx([0, 0, 1]) and seen["plan"].right == pytest.approx(
         [1, 0, 0]
     )
     assert abs(seen["lean"].toward[0]) < 1e-6  # it leans towards x
     points = result.poses[0].move(result.scene.pieces[0].upright, slice(None)).reshape(-1, 3)
-    for view in set(command.VIEWS) - {"foot"}:
+    for view in set(command.VIEW_NAMES) - {"foot"}:
         there = points - seen[view].focus
         assert (
             np.abs(there @ seen[view].up).max() < seen[view].half_height
@@ -133,7 +135,7 @@ def test_unknown_view_names_the_views(block, capsys):
     with pytest.raises(SystemExit):
         main(["render", str(block), "--view", "below"])
     error = capsys.readouterr().err
-    assert all(view in error for view in command.VIEWS)
+    assert all(view in error for view in command.VIEW_NAMES)
 
 
 def test_folders_that_hold_no_finished_analysis_say_what_they_are(block, tmp_path):

@@ -10,7 +10,7 @@ import pytest
 from rocking_structures import GATE, TILTED, analysed, case_of
 from scipy.interpolate import griddata
 
-from fecolumn.engines.reduced.states import NAME
+from fecolumn.engines.reduced.states import STATES_FILE
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.frames import Frames
 from fecolumn.pictures.render.result import read_result
@@ -144,7 +144,7 @@ def test_states_of_an_interrupted_structure_are_those_of_one_that_was_not(gate, 
     with pytest.raises(KeyboardInterrupt):
         run(case, tmp_path / "run", quiet=True, stop=lambda: asked.append(1) or len(asked) > 2)
     run(case, tmp_path / "run", quiet=True)
-    with h5py.File(gate / NAME) as whole, h5py.File(tmp_path / "run" / NAME) as parts:
+    with h5py.File(gate / STATES_FILE) as whole, h5py.File(tmp_path / "run" / STATES_FILE) as parts:
         assert set(whole) == set(parts) and len(whole["time"]) == 6
         assert all(np.array_equal(whole[name][()], parts[name][()]) for name in whole)
 
@@ -197,7 +197,7 @@ def test_the_history_turns_every_body_as_its_states_do(gate):
 
 def test_states_of_another_case_are_refused(standing, tmp_path):
     shutil.copytree(standing.folder, tmp_path / "run")
-    with h5py.File(tmp_path / "run" / NAME, "a") as file:
+    with h5py.File(tmp_path / "run" / STATES_FILE, "a") as file:
         file.attrs["case_id"] = "0123456789ab"
     with pytest.raises(InputError, match="states.h5: case_id = '0123456789ab': is of another case"):
         read_result(tmp_path / "run")

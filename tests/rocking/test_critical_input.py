@@ -8,7 +8,13 @@ import pytest
 from fecolumn.engines.rocking.critical_input import critical_motion, least_impulse, tilt_velocities
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.overturning import critical_tilt_rate
-from fecolumn.engines.rocking.swing import FALL, IMPACTS, PEAK, rock_one, row_of_block
+from fecolumn.engines.rocking.swing import (
+    FALL_TIME,
+    IMPACT_COUNT,
+    PEAK_TILT,
+    rock_one,
+    row_of_block,
+)
 
 ALPHA, P = 0.2, 2.0
 KEPT = housner_restitution(ALPHA)
@@ -23,9 +29,11 @@ def test_the_last_impulse_overturns_and_a_little_less_does_not(impulses):
         found = rock_one(
             motion.acceleration[:, [0, 2]], motion.dt, row_of_block(ALPHA, P, KEPT), free_s=20.0
         )[2]
-        assert math.isinf(found[PEAK]) == falls, share
+        assert math.isinf(found[PEAK_TILT]) == falls, share
         if falls:
-            assert found[IMPACTS] == impulses - 1 and (found[FALL] > 0 or found[PEAK] > 1)
+            assert found[IMPACT_COUNT] == impulses - 1 and (
+                found[FALL_TIME] > 0 or found[PEAK_TILT] > 1
+            )
 
 
 def test_many_impulses_below_the_limit_never_overturn_and_above_it_do():

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.overturning import (
     Band,
     critical_tilt_rate,
@@ -14,7 +15,7 @@ from fecolumn.engines.rocking.overturning import (
     overturning_bands,
     slenderness_factor,
 )
-from fecolumn.engines.rocking.swing import GRAVITY, rock_all, rock_one, row_of_block
+from fecolumn.engines.rocking.swing import rock_all, rock_one, row_of_block
 
 TEN = math.radians(10)
 

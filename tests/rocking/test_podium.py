@@ -12,7 +12,13 @@ from benchmarks.podium.ensemble import batches, gathered, responses
 from fecolumn.case.model_sections import CAV, CRV, LAWS, PodiumSection
 from fecolumn.engines.rocking.podium import Podium, study_podium
 from fecolumn.engines.rocking.podium_impact import kinetic_energy_kept
-from fecolumn.engines.rocking.podium_motion import DAMPED, KINETIC, SHEAR, STRAIN, WORK
+from fecolumn.engines.rocking.podium_motion import (
+    PODIUM_DAMPED,
+    PODIUM_KINETIC,
+    PODIUM_SHEAR,
+    PODIUM_STRAIN,
+    PODIUM_WORK,
+)
 from fecolumn.engines.rocking.storeys import PROFILES, storeys
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
@@ -100,13 +106,18 @@ def test_a_standing_building_is_stepped_exactly():
         )
         _, states, _ = lsim(mode, ground, dt * np.arange(len(ground)))
         shear += part * (omega**2 * states[:, 0] + 2 * xi * omega * states[:, 1])
-    assert not len(impacts) and rows[:, SHEAR] == pytest.approx(
+    assert not len(impacts) and rows[:, PODIUM_SHEAR] == pytest.approx(
         shear, abs=1e-10 * np.abs(shear).max()
     )
-    total = rows[:, KINETIC] + rows[:, STRAIN] - rows[:, WORK] - rows[:, DAMPED]
+    total = (
+        rows[:, PODIUM_KINETIC]
+        + rows[:, PODIUM_STRAIN]
+        - rows[:, PODIUM_WORK]
+        - rows[:, PODIUM_DAMPED]
+    )
     assert (
-        np.abs(total).max() < 1e-10 * rows[:, KINETIC].max()
-        and (np.diff(rows[:, DAMPED]) < 0).all()
+        np.abs(total).max() < 1e-10 * rows[:, PODIUM_KINETIC].max()
+        and (np.diff(rows[:, PODIUM_DAMPED]) < 0).all()
     )
 
 

@@ -16,7 +16,13 @@ from fecolumn.engines.rocking.spectrum import (
     rocking_spectrum,
     tilt_quantile,
 )
-from fecolumn.engines.rocking.swing import RATE, TILT, TIME, rock_one, row_of_block
+from fecolumn.engines.rocking.swing import (
+    SWING_RATE,
+    SWING_TILT,
+    SWING_TIME,
+    rock_one,
+    row_of_block,
+)
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.pulses import Pulse, sample
 from fecolumn.motions.record import GroundMotion
@@ -39,7 +45,7 @@ def rock(motion, slenderness, restitution=None, p=P, tilt=0.0):
     kept = housner_restitution(slenderness) if restitution is None else restitution
     ground, row = motion.acceleration[:, [0, 2]], row_of_block(slenderness, p, kept)
     states, impacts, _ = rock_one(ground, motion.dt, row, tilt=tilt)
-    return states[:, TIME], states[:, TILT], states[:, RATE], impacts
+    return states[:, SWING_TIME], states[:, SWING_TILT], states[:, SWING_RATE], impacts
 
 
 # the slender form cos(alpha - theta) = 1 - (alpha - theta)^2/2 is off by alpha^2/6

@@ -13,7 +13,7 @@ from fecolumn.case.model_names import TABLES
 from fecolumn.case.model_sections import SECTIONS
 from fecolumn.cli import main
 from fecolumn.engines.rocking.case import read_model_case
-from fecolumn.engines.rocking.models import MODELS
+from fecolumn.engines.rocking.models import ROCKING_MODELS
 from fecolumn.foundation import _compiled
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.toml_file import merge
@@ -48,7 +48,7 @@ def folder(tmp_path):
 
 
 def test_tables_are_those_of_the_models():
-    assert {one.TABLE: name for name, one in MODELS.items()} == TABLES
+    assert {one.TABLE: name for name, one in ROCKING_MODELS.items()} == TABLES
     assert set(SECTIONS) == set(TABLES)
 
 

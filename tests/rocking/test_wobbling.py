@@ -11,7 +11,7 @@ from scipy.integrate import trapezoid
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.model_sections import WobblingFrameSection, WobblingSection
 from fecolumn.case.sections import GRAVITY
-from fecolumn.engines.rocking.block import RockingBlock, body_plane
+from fecolumn.engines.rocking.block import PlanarBody, RockingBlock, body_plane
 from fecolumn.engines.rocking.of_bodies import model_of
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.wobbling import Wobbling
@@ -81,17 +81,8 @@ def test_in_a_plane_it_is_the_planar_column_without_loss(stiffness):
     found = model.respond(GroundMotion(along, motion.dt, "", ""), tilt=start, direction=angle)
     radius, centre, height, mass, _, across, *_ = model.body
     restraint = Restraint(tendons=((stiffness, 0.0, 2 * radius),)) if stiffness else Restraint()
-    plane = body_plane(
-        0,
-        mass,
-        (radius, radius),
-        centre,
-        across,
-        height,
-        (radius, radius),
-        restitution=1.0,
-        restraints=(restraint, restraint),
-    )
+    body = PlanarBody(0, mass, (radius, radius), centre, across, height, (radius, radius))
+    plane = body_plane(body, 1.0, restraints=(restraint, restraint))
     exact = RockingBlock((plane,)).respond(motion, tilt=start)
     assert len(exact.impact_times) >= 2
     # later what rounding leaves across the plane grows from swing to swing, and it rolls past

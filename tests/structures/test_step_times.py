@@ -10,13 +10,13 @@ from fecolumn.engines import step_times
 from fecolumn.engines.dynamics.record import Record
 from fecolumn.engines.step_times import (
     COUNTS,
-    NAME,
+    STEP_TIMES_FILE,
     StepTimes,
     kinds_of,
     read_step_times,
     step_table,
 )
-from fecolumn.engines.summary import NAME as SUMMARY
+from fecolumn.engines.summary import SUMMARY_FILE as SUMMARY
 
 BLOCK = """
 [bodies.block]
@@ -55,14 +55,14 @@ def test_each_step_is_of_one_kind_and_the_first_that_holds(tmp_path):
             setattr(record, name, getattr(record, name) + value)
         times.note(1e-3 * number, wall_s, points, record)
     times.write(tmp_path)
-    rows = read_step_times(tmp_path / NAME)
+    rows = read_step_times(tmp_path / STEP_TIMES_FILE)
     assert rows[:, 1] == pytest.approx([2, 4, 8, 1, 7, 0])
     found = {name: len(some) for name, some in kinds_of(rows)}
     assert found == {
         step_times.IN_PARTS: 1,
-        step_times.IMPACT: 1,
+        step_times.WITH_IMPACT: 1,
         step_times.FLYING: 1,
-        step_times.STANDING: 1,
+        step_times.STANDS_STILL: 1,
         "1 to 2 carry": 1,
         "more than 95 points carry": 1,
     }
@@ -77,10 +77,10 @@ def test_profile_of_a_run_has_each_step_and_all_its_counts(engine, tmp_path, cap
     case.write_text(text if engine == "rigid" else text.replace("0.8", "0.02"))
     assert main(["run", str(case), "-o", str(out), "-q", "--profile"]) == 0
     printed, summary = capsys.readouterr().out, _summary(out)
-    with open(out / NAME, encoding="utf-8") as file:
+    with open(out / STEP_TIMES_FILE, encoding="utf-8") as file:
         header = next(csv.reader(file))
     assert header == ["time [s]", "step [us]", "carrying points", *COUNTS]
-    rows = read_step_times(out / NAME)
+    rows = read_step_times(out / STEP_TIMES_FILE)
     assert len(rows) == summary["steps"] and (rows[:, 1] >= 0).all()
     assert rows[-1, 0] == pytest.approx(summary["duration_s"])
     assert 0 < 1e-6 * rows[:, 1].sum() <= summary["cpu_s"]
@@ -88,7 +88,7 @@ def test_profile_of_a_run_has_each_step_and_all_its_counts(engine, tmp_path, cap
         assert rows[:, 3 + number].sum() == summary[name], name
     assert "share of the time" in printed and (out / "step_times.png").stat().st_size > 10_000
     if engine == "rigid":
-        assert {step_times.IMPACT, "9 to 40 carry"} <= {name for name, _ in kinds_of(rows)}
+        assert {step_times.WITH_IMPACT, "9 to 40 carry"} <= {name for name, _ in kinds_of(rows)}
 
 
 def test_the_same_motion_with_and_without_profile(tmp_path):
@@ -98,7 +98,7 @@ def test_the_same_motion_with_and_without_profile(tmp_path):
         assert main(["run", str(case), "-o", str(tmp_path / name), "-q", *more]) == 0
     timed, plain = (_summary(tmp_path / name) for name in ("with", "without"))
     assert timed["u_max_m"] == plain["u_max_m"] and timed["energy_j"] == plain["energy_j"]
-    assert not (tmp_path / "without" / NAME).exists()
+    assert not (tmp_path / "without" / STEP_TIMES_FILE).exists()
 
 
 def test_a_folder_analysed_without_profile_says_so(tmp_path, capsys):

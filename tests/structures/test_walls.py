@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.verification.any_joint_walls import sunk_depth, wall, wall_shaking
 
@@ -14,7 +14,7 @@ from fecolumn.verification.any_joint_walls import sunk_depth, wall, wall_shaking
 @pytest.mark.parametrize("engine", ["rigid", "reduced"])
 def test_wall_with_closed_head_joints_stands_and_carries_its_weight(engine):
     made = wall(3, 3, engine)
-    on_ground = made.points["master"] == BASE
+    on_ground = made.points["master"] == GROUND
     carried = made.motion.contact["force"][on_ground].sum(axis=0)
     weight = made.structure.bodies.body["mass"].sum() * GRAVITY
     # what the last proximal step moves leaves 5e-9 of the weight

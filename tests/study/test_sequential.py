@@ -14,7 +14,7 @@ from fecolumn.study.sequential import (
     ALIKE,
     DIFFER,
     FIRST,
-    OPEN,
+    STILL_OPEN,
     Rule,
     judge,
     stage_analyses,
@@ -87,7 +87,7 @@ def test_equal_settings_need_motions_until_a_distance_is_excluded(tmp_path):
             verdicts,
         )
         words.append(verdicts[0].word)
-    assert words[0] == OPEN and words[-1] == ALIKE
+    assert words[0] == STILL_OPEN and words[-1] == ALIKE
     # what is decided stays as it was decided
     assert verdicts[0].pair.n == looks[words.index(ALIKE)]
 
@@ -100,7 +100,7 @@ def test_settings_that_are_decided_get_no_more_motions(tmp_path):
     verdicts = judge(
         plan, rows_of(plan, stage_analyses(plan, FIRST, []), peak), Rule(), [FIRST, 80], FIRST, []
     )
-    assert sorted(verdict.word for verdict in verdicts) == [DIFFER, DIFFER, OPEN]
+    assert sorted(verdict.word for verdict in verdicts) == [DIFFER, DIFFER, STILL_OPEN]
     more = stage_analyses(plan, 80, verdicts)
     assert {analysis.values[DT] for analysis in plan.analyses if analysis.id in more} == {
         1e-3,

@@ -9,14 +9,13 @@ import pytest
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.gravity import standing
-from fecolumn.verification.models import column_system, shaking
+from fecolumn.verification.models import column_system, roll_on_corners, shaking
 from fecolumn.verification.moving_base import InertialTrial, by_hht
-from fecolumn.verification.one_column import roll_on_corners
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.rocking import leaning_start, rocked_trial
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.sliding import FRICTION, RESISTANCE, block, centre
 from fecolumn.verification.trial import RigidRocking, Trial, solver_drift
-from fecolumn.verification.trials import begin_trial
 from fecolumn.verification.wobbling import impact_allowance, roll, rolling
 
 ENGINES = ("corotated", "reduced", "rigid")
@@ -138,7 +137,7 @@ def rolled(circle):
     nodes on the rim.
     """
     system = tube(1e-3)
-    rim, corners = RollingRim.of(system), len(system.laws["rim"].nodes)
+    rim, corners = RollingRim.of(system), int(system.interface.interfaces["rim_count"][0])
     spin = rim.untwisted(TILT)
     system = tube(2 * np.pi / rim.rate(TILT, spin) / (STEPS * corners))
     if not circle:

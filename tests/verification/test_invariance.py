@@ -4,12 +4,12 @@ goes on is the uninterrupted one.
 
 import numpy as np
 
-from fecolumn.verification.invariance import DT, resumed
+from fecolumn.verification.invariance import SHAKEN_DT, resumed
 from fecolumn.verification.models import shaking
 
 
 def test_the_reduced_engine_is_interrupted_at_half_and_goes_on_to_the_same_end():
-    motion = shaking(DT * np.arange(1, 101))
+    motion = shaking(SHAKEN_DT * np.arange(1, 101))
     whole, halves = resumed("reduced", motion, 1), resumed("reduced", motion, 2)
     assert len(whole) == len(motion) + 1 and np.abs(whole).max() > 1e-4
     np.testing.assert_allclose(halves, whole, atol=1e-10 * np.abs(whole).max())

@@ -9,8 +9,8 @@ from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.fem.modes import free_modes
 from fecolumn.verification.bar_impact import FORCE, SPEED, strike
 from fecolumn.verification.models import block_system, box
+from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.trial import afloat
-from fecolumn.verification.trials import begin_trial
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-FOLDER = Path(__file__).parent
+MANUAL_FOLDER = Path(__file__).parent
 # in the order of reading
 TOPICS = (
     "quick-start",
@@ -76,11 +76,11 @@ def contents() -> str:
             "fecolumn help TOPIC, of:",
             *lines,
             "",
-            f"The same as files: {FOLDER}",
+            f"The same as files: {MANUAL_FOLDER}",
             "Options of a command: fecolumn COMMAND --help",
         ]
     )
 
 
 def _text(name: str) -> str:
-    return (FOLDER / f"{name}.md").read_text(encoding="utf-8").rstrip()
+    return (MANUAL_FOLDER / f"{name}.md").read_text(encoding="utf-8").rstrip()

@@ -8,7 +8,7 @@ from fecolumn.mesh.mesh_file import METRES, MeshFile
 
 _FOLDER = Path(__file__).parent
 #: What each kind is, by its name.
-KINDS = {
+TEMPLATES = {
     "tube": "steel tube with a cap plate",
     "solid": "marble cylinder",
     "block": "marble block",
@@ -34,11 +34,11 @@ class _Words(tuple):
 
 def add_arguments(parser) -> None:
     """Arguments of `fecolumn new`."""
-    kinds = "; ".join(f"{name}: {what}" for name, what in KINDS.items())
+    kinds = "; ".join(f"{name}: {what}" for name, what in TEMPLATES.items())
     parser.add_argument(
         "kind",
         nargs="?",
-        choices=_Words(KINDS),
+        choices=_Words(TEMPLATES),
         metavar="KIND",
         help=f"{kinds} (default: tube)",
     )
@@ -101,9 +101,12 @@ def _kind_and_folder(args) -> tuple[str, str]:
         kind, folder = "tube", kind
     if folder is None:
         raise InputError("fecolumn new", "DIR", None, "must be the folder to write into")
-    if kind not in KINDS:
+    if kind not in TEMPLATES:
         raise InputError(
-            "fecolumn new", "KIND", kind, f"must be one of {', '.join(KINDS)}{meant(kind, KINDS)}"
+            "fecolumn new",
+            "KIND",
+            kind,
+            f"must be one of {', '.join(TEMPLATES)}{meant(kind, TEMPLATES)}",
         )
     return kind, folder
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.engines.dynamics.links import LINK
 
 # Length of a link of a bond over the way at which it has failed
@@ -78,7 +78,7 @@ def _links_of_point(model, joint, point: np.ndarray, area: float) -> np.ndarray:
         near = _held_at(model, joint.slave, joint.ground, point)
         far = _held_at(model, joint.master, joint.ground, point + row["length"] * along)
         (row["a"], _, row["arm_a"]), (row["b"], row["ground"], row["arm_b"]) = (
-            (near, far) if near[0] != BASE else (far, near)
+            (near, far) if near[0] != GROUND else (far, near)
         )
     return rows
 
@@ -87,8 +87,8 @@ def _held_at(model, place: int, ground: int, point: np.ndarray) -> tuple:
     """Body, ground and arm of the end of a link at a point (3,) [m] of a part or the ground; what
     a fixed body holds, its ground holds.
     """
-    if place == BASE or model.parts[place].held >= 0:
-        return BASE, ground if place == BASE else model.parts[place].held, point
+    if place == GROUND or model.parts[place].held >= 0:
+        return GROUND, ground if place == GROUND else model.parts[place].held, point
     part = model.parts[place]
     return place, 0, part.rotation.T @ (point - part.center)
 
@@ -101,7 +101,7 @@ def _shapes_below(model, joint, points: np.ndarray) -> list:
     """Shapes (3, m) of the master's modes below points (n, 3) [m] of the slave; None of a
     ground.
     """
-    if joint.master == BASE:
+    if joint.master == GROUND:
         return [None] * len(points)
     part, face = (
         model.parts[joint.master],

@@ -9,7 +9,7 @@ import numpy as np
 
 from fecolumn.contact.interface import RIM
 from fecolumn.contact.points import CONTACT
-from fecolumn.contact.pose import GROUND
+from fecolumn.contact.pose import GROUND_STATE
 from fecolumn.engines.dynamics.links import TIE
 from fecolumn.engines.dynamics.system import State
 from fecolumn.foundation.atomic import write_bytes
@@ -21,7 +21,7 @@ _FIELDS = ("x", "v", "a", "contact_a", "internal", "surface_a")
 _NOT_FINITE = {"angle", "stick.key", "stick.angles", "extra.stick.angles"}
 _NOT_FINITE |= {"separation", "turn_then"}
 # A file knows no records
-_RECORDS = {"contact": CONTACT, "rims": RIM, "ties": TIE, "grounds": GROUND}
+_RECORDS = {"contact": CONTACT, "rims": RIM, "ties": TIE, "grounds": GROUND_STATE}
 _SHARED = (
     "time",
     "strain",

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 from fecolumn.engines.dynamics.hht import HHT
 
-#: Numbers of the words of SUBSTEPS in compiled code.
-ROLLING, IMPACTS, LITERAL = range(3)
+#: Places of "rolling" and "impacts" among SUBSTEPS, for compiled code.
+ROLLING_PARTS, IMPACT_PARTS = range(2)
 
 
 class Stop(enum.Enum):

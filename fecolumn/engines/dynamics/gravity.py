@@ -8,7 +8,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from fecolumn.contact.tolerances import FIRMNESS, LINKS_FIRM, REST, REST_ITERATIONS, REST_PROGRESS
+from fecolumn.contact.tolerances import (
+    FIRMNESS,
+    LINKS_FIRM,
+    REST_ITERATIONS,
+    REST_PROGRESS,
+    REST_WAY,
+)
 from fecolumn.engines.dynamics.cuts import Stop
 from fecolumn.engines.dynamics.stage import Stage, equilibrate
 from fecolumn.engines.dynamics.system import State
@@ -63,7 +69,7 @@ def iterate_to_rest(proximal_step, height: float, progress: float | None = None)
     progress = REST_PROGRESS if progress is None else progress
     while True:
         moved, steps = proximal_step(), steps + 1
-        if moved < REST * height:
+        if moved < REST_WAY * height:
             return
         if steps % REST_ITERATIONS == 0:
             if not moved < progress * yardstick:

@@ -11,7 +11,7 @@ from fecolumn.contact.impact import find_impact
 from fecolumn.contact.joints import Joints, left_faces
 from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.pad import begin_yielding, find_yielding, springs_of
-from fecolumn.contact.points import BASE, CONTACT, OVER, SUNK, UNPREPARED
+from fecolumn.contact.points import CONTACT, GROUND, OVER, SUNK, UNPREPARED
 from fecolumn.contact.pose import POSE, SLAVE, find_poses, frames_at
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
@@ -176,7 +176,7 @@ class ContactInterface(Places):
         self._find_sunk(before, positions, now, state.rims, rims)
         before["beyond"] = self.points["beyond"] != OVER
         # one that was found by nothing but its place, or beyond an outline
-        elsewhere = ~before["located"] | (self.points["master"] != BASE) & (
+        elsewhere = ~before["located"] | (self.points["master"] != GROUND) & (
             before["relative"][:, 2] > CLOSE * self.interfaces["width"][self.points["interface"]]
         )
         before["relative"][elsewhere] = positions[elsewhere]
@@ -356,7 +356,7 @@ class ContactInterface(Places):
         """Make the grounds' compliance known under the listed points (k,) at positions (n, 3) and
         one row of nodes around.
         """
-        on = listed[self.points["master"][listed] == BASE]
+        on = listed[self.points["master"][listed] == GROUND]
         for number, base in enumerate(self.bases):
             own = on[self.points["ground"][on] == number]
             if len(own):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import frames_at
 from fecolumn.engines.dynamics.links import TIE, Held, Linked, end_links, pull_links
 from fecolumn.fem.free_body import rigid_fields
@@ -33,7 +33,7 @@ class Linkage:
         """Bound of the acceleration of an end per force on it [1/kg]."""
         return (
             0.0
-            if b == BASE
+            if b == GROUND
             else self._inverse[b][0, 0]
             + arm @ arm * np.linalg.eigvalsh(self._inverse[b][3:, 3:])[-1]
         )
@@ -65,7 +65,7 @@ class Linkage:
         ties, frames = np.zeros(len(self.links), TIE), frames_at(centers)
         for tie, link in zip(ties, self.links):
             first, other = (
-                np.array(arm) if b == BASE else frames["center"][b] + rotation[b] @ arm
+                np.array(arm) if b == GROUND else frames["center"][b] + rotation[b] @ arm
                 for b, arm in ends_of(link)
             )
             tie["length"] = np.linalg.norm(other - first)
@@ -82,18 +82,18 @@ class Linkage:
         return pulls
 
     def carried(self, pulls, start, end) -> float:
-        """Work [J] that grounds, (G,) of GROUND at start and end of a step, do by the links' forces
-        (nl, 3) on the ends a.
+        """Work [J] that grounds, (G,) of GROUND_STATE at start and end of a step, do by the links'
+        forces (nl, 3) on the ends a.
         """
         ways = (end["place"] - start["place"])[self.links["ground"]]
-        return float(np.vdot(pulls, ways * (self.links["b"] == BASE)[:, None]))
+        return float(np.vdot(pulls, ways * (self.links["b"] == GROUND)[:, None]))
 
     def _rigid(self, pulls, halfway) -> list[np.ndarray]:
         """Rigid accelerations (6,) of each body in its frame, turned by `halfway` (nb, 3, 3)."""
         wrenches = np.zeros((len(halfway), 6))
         for link, force in zip(self.links, pulls):
             for (b, arm), on in zip(ends_of(link), (force, -force)):
-                if b != BASE:
+                if b != GROUND:
                     along = on @ halfway[b]
                     wrenches[b] += [*along, *np.cross(arm, along)]
         return [inverse @ wrench for inverse, wrench in zip(self._inverse, wrenches)]

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.record import record
 from fecolumn.engines.dynamics.link_law import (
     damage_of,
@@ -70,9 +70,9 @@ TIE = record(
 
 
 class Held(NamedTuple):
-    """What links hold, as `pull_links` and `end_links` take it of a motion: grounds (G,) of GROUND;
-    bodies with frames (nb,), rotation (nb, 3, 3) and modal (nb, 3, m), of which the first row are
-    coordinates; ties (nl,) of TIE.
+    """What links hold, as `pull_links` and `end_links` take it of a motion: grounds (G,) of
+    GROUND_STATE; bodies with frames (nb,), rotation (nb, 3, 3) and modal (nb, 3, m), of which the
+    first row are coordinates; ties (nl,) of TIE.
     """
 
     grounds: np.ndarray
@@ -94,7 +94,7 @@ def _end_of(link, side, shape, at, target):
     """Target (3,): where an end of a link is, 0 or 1; shape: (3, m) of the modes there."""
     b, arm = link.b if side else link.a, link.arm_b if side else link.arm_a
     x, y, z = arm[0], arm[1], arm[2]
-    if b == BASE:
+    if b == GROUND:
         moved = at.grounds[link.ground].moved
         target[0], target[1], target[2] = x + moved[0], y + moved[1], z + moved[2]
         return

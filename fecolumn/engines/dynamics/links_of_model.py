@@ -5,13 +5,19 @@ from __future__ import annotations
 import numpy as np
 from scipy.optimize import bisect
 
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.engines.dynamics.bonds import bond_links, bonded
 from fecolumn.engines.dynamics.links import LINK, Linked
 
 # Share of a change of the links' forces that the motion within a step may answer at once: beyond it
 # the step is too long for the links
 STIFFEST = 0.5
+
+
+class StiffLink(ValueError):
+    """A link or a dashpot too stiff for the step; the message begins with its key, such as
+    "links.tie", and names the longest step.
+    """
 
 
 def links_of(model, hht, filters=None) -> Linked:
@@ -22,9 +28,8 @@ def links_of(model, hht, filters=None) -> Linked:
 
     Raises
     ------
-    ValueError
-        links too stiff, or dashpots too strong, for the step; names the one with most of it and the
-        longest step.
+    StiffLink
+        links too stiff, or dashpots too strong, for the step; names the one with most of it.
     """
     own, bonds = _own_links(model), bond_links(model)
     ends = [(link.shape_a, link.shape_b) for link in model.links] + list(bonds.shapes)
@@ -42,7 +47,7 @@ def _filtered(links, shapes, filters) -> np.ndarray:
     found = np.zeros((len(links), 2, 3, modes))
     for row, link, both in zip(found, links, shapes):
         for side, (b, shape) in enumerate(zip((link["a"], link["b"]), both)):
-            if b != BASE and shape is not None and modes:
+            if b != GROUND and shape is not None and modes:
                 count = min(shape.shape[1], modes)
                 row[side, :, :count] = shape[:, :count] * filters[b, :count]
     return found
@@ -53,7 +58,7 @@ def _own_links(model) -> np.ndarray:
     links = np.zeros(len(model.links), LINK)
     for row, link in zip(links, model.links):
         sides = [
-            (model.parts[b] if b != BASE else None, np.asarray(arm, float))
+            (model.parts[b] if b != GROUND else None, np.asarray(arm, float))
             for b, arm in ((link.a, link.arm_a), (link.b, link.arm_b))
         ]
         ends = [arm if part is None else part.center + part.rotation @ arm for part, arm in sides]
@@ -96,7 +101,7 @@ def _check_step(model, linked: Linked, hht) -> None:
         longest = bisect(lambda dt: answered(dt)[0] - STIFFEST, 1e-9 * hht.dt, hht.dt, rtol=1e-3)
         if bond := links["bond"][place]:
             joint = bonded(model)[bond - 1]
-            raise ValueError(
+            raise StiffLink(
                 f"joints.{joint.name.partition(':')[0]}: a layer of {joint.bond.stiffness:g} N/m3 "
                 f"under such light bodies needs steps of at most {longest:.2g} s, or a softer layer"
             )
@@ -113,7 +118,7 @@ def _check_step(model, linked: Linked, hht) -> None:
         if link.damping and link.power < 1:
             speed = link.slow * (share / STIFFEST) ** (1 / (1 - link.power))
             slower = f", or linear_below_m_s of {speed:.2g} m/s or more"
-        raise ValueError(
+        raise StiffLink(
             f"links.{link.name}: {much} between such light bodies, with the links "
             f"beside it, needs steps of at most {longest:.2g} s{slower}"
         )
@@ -142,20 +147,52 @@ def fastest(
         of each body, how much less its modes (m,) move in a step than were they free; without
         them bodies are rigid.
     """
-    links, ends = linked.links, linked.ends
-    if not len(links):
+    if not len(linked.links):
         return 0.0, 0
+    rows, places = rows_of_links(linked, stiffness, bodies, shrinks)
+    if len(rows) <= rows.shape[1]:
+        squares, shapes = np.linalg.eigh(rows @ rows.T)
+        most = shapes[:, -1]
+    else:
+        squares, shapes = np.linalg.eigh(rows.T @ rows)
+        most = rows @ shapes[:, -1]
+    return float(squares[-1]), places[int(np.argmax(np.abs(most)))]
+
+
+def fastest_of_each(
+    linked, stiffness: np.ndarray, bodies: list[tuple], shrinks: list[np.ndarray]
+) -> np.ndarray:
+    """Squares (nb,) of frequencies [1/s2] of which none of the bodies swings faster, were their
+    masses times these: with such inertia together they answer their links as strongly as each.
+
+    That of each body while the others stay, at most 2 times as much, as a link has two ends.
+    Arguments as of `fastest`.
+    """
+    rows, _ = rows_of_links(linked, stiffness, bodies, shrinks)
+    modes = linked.ends.shape[3]
+    owners = np.concatenate([np.repeat(np.arange(len(bodies)), count) for count in (6, modes)])
+    alone = np.array([np.linalg.norm(rows[:, owners == b], 2) ** 2 for b in range(len(bodies))])
+    scaled = rows / np.sqrt(np.where(alone > 0.0, alone, 1.0))[owners]
+    return np.linalg.norm(scaled, 2) ** 2 * alone
+
+
+def rows_of_links(linked, stiffness, bodies, shrinks) -> tuple[np.ndarray, list[int]]:
+    """Rows (k, 6 nb + nb m) of which the squares add up to the stiffness of links over the masses,
+    first of the bodies' rigid motion, then of their modes; places (k,) of their links; arguments as
+    of `fastest`.
+    """
+    links, ends = linked.links, linked.ends
     modes, rigid = ends.shape[3] if shrinks is not None else 0, 6 * len(bodies)
     pulls, places = [], []
     for place, (link, its) in enumerate(zip(links, stiffness)):
         sides = [(int(link["a"]), link["arm_a"], 1.0), (int(link["b"]), link["arm_b"], -1.0)]
-        tips = [arm if b == BASE else bodies[b][2] + bodies[b][3] @ arm for b, arm, _ in sides]
+        tips = [arm if b == GROUND else bodies[b][2] + bodies[b][3] @ arm for b, arm, _ in sides]
         length = np.linalg.norm(tips[1] - tips[0])
         # one of no length may come to pull in any direction
         for along in [(tips[1] - tips[0]) / length] if length else np.eye(3):
             row = np.zeros(rigid + modes * len(bodies))
             for side, (b, arm, sign) in enumerate(sides):
-                if b != BASE:
+                if b != GROUND:
                     mass, inertia, _, rotation = bodies[b]
                     # in the body's frame, over the roots of mass and inertia
                     local = rotation.T @ along
@@ -170,11 +207,4 @@ def fastest(
                         row[at : at + count] += sign * moved * np.sqrt(shrinks[b])
             pulls.append(np.sqrt(its) * row)
             places.append(place)
-    rows = np.array(pulls)
-    if len(rows) <= rows.shape[1]:
-        squares, shapes = np.linalg.eigh(rows @ rows.T)
-        most = shapes[:, -1]
-    else:
-        squares, shapes = np.linalg.eigh(rows.T @ rows)
-        most = rows @ shapes[:, -1]
-    return float(squares[-1]), places[int(np.argmax(np.abs(most)))]
+    return np.array(pulls), places

@@ -10,7 +10,7 @@ import numpy as np
 
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.joints import Joints
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, grounds_at
 from fecolumn.contact.projection import place_on_masters
 from fecolumn.fem.rotation import into_frames, out_of_frames
@@ -46,12 +46,12 @@ class Places:
 
     def __init__(self, composite, foot, joints: Joints, levels=(0.0,)):
         self.composite, self.foot, self.joints = composite, foot, joints
-        # (G,) of GROUND at start and end of the step
+        # (G,) of GROUND_STATE at start and end of the step
         self._started = self._grounds = grounds_at(levels)
         #: (P,) of POINT; interfaces (ni,) of INTERFACE.
         self.points, self.interfaces = joints.points.copy(), joints.interfaces.copy()
         #: Number of points; whether any stands on a body.
-        self.size, self.moving = len(self.points), bool((self.points["master"] != BASE).any())
+        self.size, self.moving = len(self.points), bool((self.points["master"] != GROUND).any())
         #: Reference positions (N, 3) of the surface nodes, each body as it is drawn [m].
         self.reference = np.concatenate(
             [part.all_X[own] for part, own in zip(composite.parts, foot.nodes)]
@@ -87,7 +87,9 @@ class Places:
         return float(self.interfaces["width"][rolls if rolls.any() else slice(None)].min())
 
     def take_grounds(self, start: np.ndarray, end: np.ndarray) -> None:
-        """Let the grounds be where they are at start and end of a step, (G,) of GROUND each."""
+        """Let the grounds be where they are at start and end of a step, each (G,) of
+        GROUND_STATE.
+        """
         self._started, self._grounds = start, end
 
     def at_points(self, values: np.ndarray) -> np.ndarray:
@@ -121,7 +123,7 @@ class Places:
             self.points["weights"][loaded, :, None] * pushes[:, None],
         )
         if self.moving:
-            under = self.points["master"][loaded] != BASE
+            under = self.points["master"][loaded] != GROUND
             rows, pushes, ends = (
                 loaded[under],
                 pushes[under],
@@ -139,8 +141,8 @@ class Places:
             np.tile(np.eye(3), (len(self.interfaces), 1, 1)),
             self.interfaces["master"],
         )
-        frames[masters != BASE] = (
-            rotation[masters[masters != BASE]] @ self.interfaces["axes"][masters != BASE]
+        frames[masters != GROUND] = (
+            rotation[masters[masters != GROUND]] @ self.interfaces["axes"][masters != GROUND]
         )
         return frames
 
@@ -209,7 +211,7 @@ class Places:
             self.at_points(self._out_of_frames(self.reference + moved, rotation)),
             self.reference + moved - centers,
         )
-        on = np.flatnonzero(self.points["master"] == BASE)
+        on = np.flatnonzero(self.points["master"] == GROUND)
         positions[on] -= poses["origin"][self.points["interface"][on]]
         if self.moving:
             # of the centre of mass, which the frames of the interfaces follow
@@ -240,7 +242,7 @@ class Places:
             ),
         )
         for side, name, sign in ((SLAVE, "slave", 1.0), (MASTER, "master", -1.0)):
-            of = np.flatnonzero(self.points[name][loaded] != BASE)
+            of = np.flatnonzero(self.points[name][loaded] != GROUND)
             bodies = self.points[name][loaded][of]
             np.add.at(
                 moments,
@@ -277,7 +279,7 @@ class Places:
                 else (self.points["below"], self.points["shares"])
             ),
         )
-        on = np.flatnonzero(self.points["master"] == BASE)
+        on = np.flatnonzero(self.points["master"] == GROUND)
         values[on] -= (self._started if starts else self._grounds)["velocity"][
             self.points["ground"][on]
         ]
@@ -286,12 +288,12 @@ class Places:
     def carried(self, forces: np.ndarray) -> float:
         """Work [J] that grounds which move do by forces (P, 3) on the points in the step."""
         ways = (self._grounds["place"] - self._started["place"])[self.points["ground"]]
-        return float(np.vdot(forces, ways * (self.points["master"] == BASE)[:, None]))
+        return float(np.vdot(forces, ways * (self.points["master"] == GROUND)[:, None]))
 
     def brought(self, impulses: np.ndarray) -> float:
         """Work [J] that grounds which move do by impulses (P, 3) at the end of the step."""
         speeds = self._grounds["velocity"][self.points["ground"]]
-        return float(np.vdot(impulses, speeds * (self.points["master"] == BASE)[:, None]))
+        return float(np.vdot(impulses, speeds * (self.points["master"] == GROUND)[:, None]))
 
     def _relative(self, nodes, poses, below, shares) -> np.ndarray:
         """Values (P, 3) at the points, relative to the nodes `below` in the frame of the interface,
@@ -299,7 +301,7 @@ class Places:
         """
         values = self.at_points(nodes)
         if self.moving:
-            under = np.flatnonzero(self.points["master"] != BASE)
+            under = np.flatnonzero(self.points["master"] != GROUND)
             relative = values[under] - np.einsum("pq,pqa->pa", shares[under], nodes[below[under]])
             values[under] = np.einsum(
                 "pba,pb->pa", poses["frame"][self.points["interface"][under]], relative

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import MASTER, SLAVE
 from fecolumn.contact.rolling import rolling_moment
 from fecolumn.fem.free_body import rigid_fields
@@ -43,7 +43,7 @@ class Resistance:
             spin, inverse = spins[b], self._inverse[b]
             # of the master into the slave's frame
             turn = turned[SLAVE].T @ turned[MASTER]
-            if m != BASE:
+            if m != GROUND:
                 spin, inverse = spin - turn @ spins[m], inverse + turn @ self._inverse[m] @ turn.T
             moment = rolling_moment(
                 np.ascontiguousarray(turned[SLAVE]),
@@ -55,7 +55,7 @@ class Resistance:
                 dt,
             )
             moments[b] += moment
-            if m != BASE:
+            if m != GROUND:
                 moments[m] -= turn.T @ moment
         rates = [inverse @ moment for inverse, moment in zip(self._inverse, moments)]
         fields = [(turns @ rate).reshape(-1, 3) for turns, rate in zip(self._turns, rates)]

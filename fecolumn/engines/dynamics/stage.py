@@ -31,13 +31,12 @@ class Stage:
     the start. Contact forces act on a body in the rotation halfway, so that their work over a turn
     of it by t is that of the foot's path up to t^3. velocity: (n_owned, 3) that the damping C of
     the elastic modes meets at the target, but for `memory` [m/s]; None where nothing is damped.
-    centers: (nb, 3) of mass at the start [m], grounds: (G,) of GROUND at start and end, ties: (nl,)
-    of TIE at the start; None of a structure without links. memory: (n_owned, 3) acceleration that
-    the start brings [m/s2], None at rest; shares: of it in target [s2] and velocity [s]; held:
-    (n_owned, 3) internal
-        forces that the start brings to the load [N]. turns: whether internal forces and what the
-            start brings turn with the bodies; not in the literal HHT
-        scheme, whose accelerations hold contact forces.
+    centers: (nb, 3) of mass at the start [m], grounds: (G,) of GROUND_STATE at start and end, ties:
+    (nl,) of TIE at the start; None of a structure without links. memory: (n_owned, 3) acceleration
+    that the start brings [m/s2], None at rest; shares: of it in target [s2] and velocity [s]; held:
+    (n_owned, 3) internal forces that the start brings to the load [N]. turns: whether internal
+    forces and what the start brings turn with the bodies; not in the literal HHT scheme, whose
+    accelerations hold contact forces.
     place, internal: (n_owned, 3) positions [m] and internal forces [N] at the start; levers: (P, 2,
     3) of the points there, as of `ContactInterface.levers`. surface_a, surface_forces: of the State
     at the start, the first guess of what contact forces do; None: it is found.

@@ -42,14 +42,17 @@ class StickOperatorCache:
         """
         before, angles, self._poses, self.rims = self._poses, self.rims["angle"], poses, rims
         self._still, self._worth = (
-            interpreted(holds)(self.stick, self._interfaces, rims, 0.0, poses),
+            interpreted(holds)(self.stick, self._interfaces, rims, 0.0, poses, 1.0),
             False,
         )
         if before is not None and np.array_equal(angles, rims["angle"], equal_nan=True):
             turns = np.abs(poses["turned"][:, SLAVE] - before["turned"][:, SLAVE]).max(axis=(1, 2))
             ways = np.abs(poses["foot"] - before["foot"])[:, :2].max(axis=1)
             level = np.abs(self._interfaces["axes"][:, 2, 2]) > LEVEL
-            worth = map(interpreted(is_worth), self._interfaces, poses, turns, ways)
+            worth = (
+                interpreted(is_worth)(*foot, 1.0)
+                for foot in zip(self._interfaces, poses, turns, ways)
+            )
             self._worth = level.all() and all(worth)
 
     def begin(self, problem, nodal) -> None:

@@ -13,7 +13,14 @@ from fecolumn.contact.tolerances import CREATED, PARTS
 from fecolumn.contact.work import move_anchors
 from fecolumn.engines.dynamics.booking import StepMade, book_step
 from fecolumn.engines.dynamics.collision import collide
-from fecolumn.engines.dynamics.cuts import IMPACTS, ROLLING, Halving, StepFailed, Stop, in_halves
+from fecolumn.engines.dynamics.cuts import (
+    IMPACT_PARTS,
+    ROLLING_PARTS,
+    Halving,
+    StepFailed,
+    Stop,
+    in_halves,
+)
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.record import Record
 from fecolumn.engines.dynamics.stage import Stage, carried, equilibrate
@@ -88,7 +95,7 @@ class Stepper:
                 after = self._part(
                     state, target, hht if part == PARTS else HHT(hht.dt * part / PARTS, hht.alpha)
                 )
-                if self.substeps == IMPACTS and part > 1 and self.record.impacts > struck:
+                if self.substeps == IMPACT_PARTS and part > 1 and self.record.impacts > struck:
                     self.ledger.work.update(held)
                     self.record.impacts, part = struck, part // 2
                     continue
@@ -112,7 +119,7 @@ class Stepper:
             self.system.hht.dt,
         )
         if (
-            self.substeps != ROLLING
+            self.substeps != ROLLING_PARTS
             or not self.plastic
             or not interface.interfaces["rim_count"].any()
         ):

@@ -14,7 +14,7 @@ from fecolumn.fem.composite import Composite, CompositeDamping, CompositeKinemat
 from fecolumn.fem.corotated import Corotated
 
 # Elastic modes that are damped where the model of a body has none
-DAMPED = 30
+_DAMPED = 30
 
 
 def kinematics_of(name: str):
@@ -48,15 +48,15 @@ def structure_system(
     nodes
         of each, (n,) of the body that are its model's rows; found by their places unless given.
     damped
-        of each, lowest elastic modes that are damped; those of its model unless given, or DAMPED
+        of each, lowest elastic modes that are damped; those of its model unless given, or _DAMPED
         where it has none.
     kinematics
         of each body: Corotated, or TotalLagrangian.
 
     Raises
     ------
-    ValueError
-        a link is too stiff for the step; names it and the longest step.
+    StiffLink
+        a link is too stiff for the step.
     """
     parts = model.parts
     composite = Composite(
@@ -71,13 +71,13 @@ def structure_system(
     ratios = [
         part.damping_ratio if part.model.damping is None else part.model.damping for part in parts
     ]
-    damped = damped or [len(part.model.frequencies) or DAMPED for part in parts]
+    damped = damped or [len(part.model.frequencies) or _DAMPED for part in parts]
     damping = (
         CompositeDamping(composite, damped, ratios)
         if np.any([np.any(ratio) for ratio in ratios])
         else None
     )
-    return System(
+    system = System(
         composite,
         CompositeKinematics(composite, kinematics),
         Touching(model.bases, nodes, joints_of(parts, model.joints), tuple(model.levels), filtered),
@@ -86,6 +86,8 @@ def structure_system(
         damping,
         links_of(model, hht),
     )
+    system.model = model
+    return system
 
 
 def released(system: System, parts, standing: State | None) -> State:

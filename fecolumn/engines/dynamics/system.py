@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -37,7 +37,7 @@ class State:
     rotations.
     contact: (P,) of CONTACT, what the points carry. static: strain energy of base, static rest of
     the bodies, penalty springs, pads and links [J]. ground: (3 G,) accelerations of the grounds
-    [m/s2], grounds: (G,) of GROUND, relative to the first.
+    [m/s2], grounds: (G,) of GROUND_STATE, relative to the first.
     rims: (ni,) of RIM. ties: (nl,) of TIE. surface_a: (n_owned, 3) acceleration of the contact
     forces in the last step, with what gives them and internal forces their moments [m/s2], and
     surface_forces: (N, 3) the forces
@@ -150,6 +150,8 @@ class System:
         self.bodies, self.kinematics, self.damping = bodies, kinematics, damping
         self.bases, self.levels = tuple(touching.bases), touching.levels
         self.gravity, self.hht = np.asarray(gravity, float), hht
+        #: The `structures.model.StructureModel` that it was made of, upright.
+        self.model: Any = None
         self.weight = bodies.total_mass * np.linalg.norm(self.gravity)
         self.factorizations = len(self.bases)
         self._operators: dict[tuple, Operators] = {}

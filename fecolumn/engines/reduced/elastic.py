@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.points import BASE, OVER
+from fecolumn.contact.points import GROUND, OVER
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.projection import find_seat, side_of_outline, take_surface
 from fecolumn.foundation._compiled import njit
@@ -148,7 +148,7 @@ def find_position(points, i, motion, elastic, when, target):
             + motion.rotation[b, a, 1] * y
             + motion.rotation[b, a, 2] * z
         )
-    if points[i].master == BASE:
+    if points[i].master == GROUND:
         for a in range(3):
             target[a] -= motion.grounds[points[i].ground].place[a]
         target[2] += points[i].lift
@@ -183,7 +183,7 @@ def locate_start(structure, points, i, start, poses, elastic, before, place):
     unless the step before located it; place: (3,) room.
     """
     find_elastic(structure, points, i, start, elastic, START)
-    if points[i].master != BASE:
+    if points[i].master != GROUND:
         find_position(points, i, start, elastic, START, place)
         find_on_master(structure, points, i, start, poses, elastic, START, place)
         if before[i].located:
@@ -219,7 +219,7 @@ def find_velocity(structure, points, i, motion, poses, elastic, when, target):
     for a in range(3):
         target[a] = motion.frames[b].velocity[a] + R[a, 0] * v0 + R[a, 1] * v1 + R[a, 2] * v2
     b = points[i].master
-    if b == BASE:
+    if b == GROUND:
         for a in range(3):
             target[a] -= motion.grounds[points[i].ground].velocity[a]
         return

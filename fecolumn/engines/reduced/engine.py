@@ -11,7 +11,7 @@ from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.joints import left_faces
 from fecolumn.contact.overturning import STANDS, steepest_to_come
-from fecolumn.contact.points import BASE, FLAT_GROUND
+from fecolumn.contact.points import FLAT_GROUND, GROUND
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.problem import (
     CONTACT_FAILED,
@@ -128,7 +128,7 @@ class Engine:
         """Make the compliance of the grounds known below the nodes that may touch them, of bodies
         with centres of mass (nb, 3) turned by (nb, 3, 3), and so many rows of nodes around.
         """
-        standing = self.points[self.points["master"] == BASE]
+        standing = self.points[self.points["master"] == GROUND]
         standing = standing[standing["facet"] != FLAT_GROUND]
         for number, (base, ground) in enumerate(zip(self.bases, grounds)):
             points = standing[standing["ground"] == number]
@@ -153,20 +153,22 @@ class Engine:
         table = centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
         return np.einsum("pba,pb->pa", poses["frame"], table - poses["origin"])
 
-    def link_lengths(self, motion: motions.MotionState) -> np.ndarray:
-        """Lengths (nl,) [m] of the links of a motion."""
+    def link_lengths(self, motion: motions.MotionState, structure=None) -> np.ndarray:
+        """Lengths (nl,) [m] of the links of a motion; structure: as of `settle`."""
+        structure = self.structure if structure is None else structure
         return np.array(
             [
-                interpreted(span)(self.structure, n, motion, np.empty(3))
-                for n in range(len(self.structure.links))
+                interpreted(span)(structure, n, motion, np.empty(3))
+                for n in range(len(structure.links))
             ]
         )
 
-    def settle(self, scheme, motion, end) -> int:
+    def settle(self, structure, scheme, motion, end) -> int:
         """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way
-        to end.
+        to end; structure: this one's, with masses for the search.
         """
-        return advance(*self._arguments((scheme,) * LENGTHS, motion, end))[1]
+        arguments = self._arguments((scheme,) * LENGTHS, motion, end)
+        return advance(structure, *arguments[1:])[1]
 
     def _arguments(
         self,
@@ -299,9 +301,24 @@ class Engine:
                     values[: len(before[name])] = before[name]
 
     def _cut(self, ground, answer) -> bool:
-        """The step that failed with `answer`, in two halves and these in halves as far as it needs;
-        nothing has changed where it fails. False where more pairs of bodies are near each other
-        than there is room for.
+        """Make a failed step again in two halves, and a half that fails in halves, too.
+
+        Parameters
+        ----------
+        ground
+            (3 G,) accelerations of the grounds at the end of the step [m/s2].
+        answer
+            why the step failed, of the answers of `contact.problem`.
+
+        Returns
+        -------
+        True where the step was made. False where the bodies that are near each other are more
+        pairs than there is room for: `make_room` helps. Motion and ledger are then as before.
+
+        Raises
+        ------
+        StepFailed
+            a half failed after `max_cuts` halvings; motion and ledger are as before.
         """
         saved, booked, row = (
             self.motion_at_rest(),

@@ -11,7 +11,7 @@ import numpy as np
 from fecolumn.contact.arrays import put_matrix
 from fecolumn.contact.outline import mark_sunk, was_beyond
 from fecolumn.contact.pad import begin_yielding, find_yielding
-from fecolumn.contact.points import BASE, CONTACT, OVER, UNPREPARED
+from fecolumn.contact.points import CONTACT, GROUND, OVER, UNPREPARED
 from fecolumn.contact.pose import POSE, SLAVE, find_poses
 from fecolumn.contact.problem import (
     ASSEMBLED,
@@ -32,7 +32,14 @@ from fecolumn.contact.problem import (
     stored_energy,
 )
 from fecolumn.contact.stick import Stick, holds, is_worth, no_stick, same_points
-from fecolumn.contact.tolerances import CLOSE, ITERATIONS, LEVEL
+from fecolumn.contact.tolerances import (
+    CLOSE,
+    IN_PLACE_LEFT,
+    IN_PLACE_SLOW,
+    IN_PLACE_TURN,
+    ITERATIONS,
+    LEVEL,
+)
 from fecolumn.engines.reduced.elastic import (
     COORDINATE,
     END,
@@ -96,9 +103,9 @@ def work_of(structure, points) -> Work:
 
 
 @njit
-def stays(interfaces, points, before, poses, start, rims, free_center, advance):
+def stays(interfaces, points, before, poses, start, rims, free_center, advance, reach):
     """Whether all feet stay in their places long enough for finding their stick operator to pay;
-    poses: at the start, rims: (ni,) of RIM at the end.
+    poses: at the start, rims: (ni,) of RIM at the end, reach: as of `stick.is_worth`.
 
     Faces that are not level may touch without any load, where points open and close and the
     operator costs more than it saves: all points of theirs must carry.
@@ -118,7 +125,7 @@ def stays(interfaces, points, before, poses, start, rims, free_center, advance):
             turn = max(turn, abs(advance[b, a]))
             if a < 2:
                 way = max(way, abs(free_center[b, a] - start.frames[b].center[a]))
-        if not is_worth(interfaces[k], poses[k], turn, way):
+        if not is_worth(interfaces[k], poses[k], turn, way, reach):
             return False
     return True
 
@@ -160,7 +167,7 @@ def find_positions(structure, work, start, end):
         # a point of the rim moves with nodes near to its own, which may reach farther, but not
         # twice as far
         low = CLOSE * interfaces[k].width + 2 * reach[point.slave] * structure.reach[point.node]
-        if point.master != BASE:
+        if point.master != GROUND:
             low += reach[point.master] * interfaces[k].reach
         if (
             positions[i, 2] > low
@@ -174,7 +181,7 @@ def find_positions(structure, work, start, end):
             )
         find_elastic(structure, points, i, end, elastic, END)
         find_position(points, i, end, elastic, END, positions[i])
-        if point.master != BASE:
+        if point.master != GROUND:
             find_on_master(structure, points, i, end, poses, elastic, END, positions[i])
             known &= points[i].beyond != UNPREPARED
     return known
@@ -242,7 +249,7 @@ def find_arms(structure, work, end):
     for i in near_points(work.problem):
         if end.contact[i].force[2] > 0:
             find_elastic(structure, points, i, end, elastic, END)
-            if points[i].master != BASE:
+            if points[i].master != GROUND:
                 find_position(points, i, end, elastic, END, place)
                 find_on_master(structure, points, i, end, poses, elastic, END, place)
 
@@ -277,6 +284,7 @@ def find_equilibrium(
         work.poses,
     )
     carrying, foreseen, found = 0, False, structure.found.interface
+    last, again, anew = np.inf, False, False
     # of joints they are known
     find_poses(
         interfaces[found:],
@@ -294,11 +302,20 @@ def find_equilibrium(
             problem.near[carrying] = i
             carrying += 1
     problem.count[0] = carrying
-    still = holds(work.stick, interfaces, rims, scheme.half, poses[START])
+    # several elastic bodies bend at their joints by more than a foot on the ground turns; where
+    # most points are open, those that carry are cheaper alone
+    bends = len(interfaces) > 1 and start.modal.shape[2] > 0 and 2 * carrying > problem.count[2]
+    reach = IN_PLACE_TURN if bends else 1.0
+    still = holds(work.stick, interfaces, rims, scheme.half, poses[START], 1.0)
+    in_place = (
+        bends
+        and not still
+        and holds(work.stick, interfaces, rims, scheme.half, poses[START], reach)
+    )
     put_matrix(advance, work.action.turn)
     for i in near_points(problem):
         find_elastic(structure, points, i, start, elastic, START)
-        if points[i].master != BASE:
+        if points[i].master != GROUND:
             find_position(points, i, start, elastic, START, work.places[0])
             find_on_master(
                 structure, points, i, start, poses[START], elastic, START, work.places[0]
@@ -311,9 +328,13 @@ def find_equilibrium(
     find_sunk(structure, base, work, start, rims)
     begin_problem(
         problem,
-        still,
+        still or in_place,
         not still
-        and stays(interfaces, points, before, poses[START], start, rims, free_center, advance),
+        and not in_place
+        and stays(
+            interfaces, points, before, poses[START], start, rims, free_center, advance, reach
+        ),
+        in_place,
     )
     begin_frames(structure, start, free_center, advance, end, work.action)
     begin_yielding(points, scheme.springs)
@@ -333,7 +354,7 @@ def find_equilibrium(
             work.action,
         ):
             return ITERATIONS_SPENT
-        if iteration == 1 and len(interfaces) > 1 and not problem.flags[STICKS_STILL]:
+        if iteration == 1 and len(interfaces) > 1 and (in_place or not problem.flags[STICKS_STILL]):
             # the first forces found in the step bend the bodies: with the arms that these then
             # have, else there would be one iteration more
             find_arms(structure, work, end)
@@ -381,17 +402,25 @@ def find_equilibrium(
             return answer
         if foreseen and iteration == 1:
             update_secant(work.secant, points, near_points(problem), problem.slack, end.contact)
-        if residual <= 1.0:
+        by_operator = problem.flags[STICKS_STILL] and in_place
+        if residual <= 1.0 and (not by_operator or again or residual <= IN_PLACE_LEFT):
             for i in present_points(problem):
                 end.contact[i].beyond = points[i].beyond != OVER
             end.whole[0].static = stored_energy(
                 problem, points, interfaces, scheme.springs, before, end.contact
             )
             return OK
+        slow = iteration > 2 and residual > max(IN_PLACE_SLOW * last, 1.0)
+        again, last = residual <= 1.0, residual
         if iteration == 0 and problem.flags[STICKS_STILL]:
             predict_slips(work.secant, near_points(problem), problem.slack)
             foreseen = True
         answer = find_forces(problem, points, interfaces, work.stick, end.contact, counts)
-        if answer != OK:
+        if by_operator and (answer != OK or slow and anew):
+            problem.flags[STICKS_STILL], work.stick.key[1] = False, 0.0
+        elif answer != OK:
             return answer
+        elif by_operator and slow:
+            # found where the feet are now, once
+            problem.flags[WORTH_STICK] = anew = True
     return ITERATIONS_SPENT

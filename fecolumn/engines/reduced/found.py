@@ -19,7 +19,7 @@ from fecolumn.contact.manifold import CORNER_OF_FIRST, CORNER_OF_SECOND
 from fecolumn.contact.meet import Room, find_meetings
 from fecolumn.contact.meetings import NO_PAIR, add_grounds, keep_rows
 from fecolumn.contact.nearby import Boxes, find_boxes, find_pairs
-from fecolumn.contact.points import BASE, FLAT_GROUND
+from fecolumn.contact.points import FLAT_GROUND, GROUND
 from fecolumn.contact.problem import NO_ROOM, OK, list_present
 from fecolumn.contact.separation import FACE_OF_FIRST, TWO_EDGES
 from fecolumn.contact.tolerances import FOUND_NEAR, OPEN, SAME_PLACE, STAYS_DEEP
@@ -194,7 +194,7 @@ def set_interface(structure, row, k):
     """Let interface k be that of a row of MEETING."""
     interface, found = structure.interfaces[k], structure.found
     first, second = row.pair[0], row.pair[1]
-    interface.slave, interface.master = second, BASE
+    interface.slave, interface.master = second, GROUND
     interface.ground, interface.width = 0, found.hulls.thickness[second]
     if first < 0:
         interface.ground = -1 - first
@@ -240,7 +240,7 @@ def _lay_point(structure, row, place, k, point):
         point.count = 3
         _share_face(found, row.slave, row.facing, place.arm, point.carriers, point.weights)
     point.node = point.carriers[0]
-    if interface.master == BASE:
+    if interface.master == GROUND:
         point.facet = FLAT_GROUND
     else:
         point.facet = 0

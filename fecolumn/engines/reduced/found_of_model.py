@@ -9,7 +9,7 @@ from fecolumn.contact.convex import hull_of, hulls_of, no_hull
 from fecolumn.contact.interface import INTERFACE
 from fecolumn.contact.meet import room_for
 from fecolumn.contact.nearby import boxes_for, pair_keys
-from fecolumn.contact.points import BASE, FLAT_GROUND, POINT
+from fecolumn.contact.points import FLAT_GROUND, GROUND, POINT
 from fecolumn.contact.tolerances import FOUND_SLOTS
 from fecolumn.engines.reduced.found import Found
 from fecolumn.structures.hulls import HULL
@@ -56,8 +56,8 @@ def found_of(model, first: np.ndarray, reach: np.ndarray, interface: int, point:
         one = model.joints[number]
         if one.pair >= 0:
             continue
-        other = len(parts) + one.ground if one.master == BASE else one.master
-        pairs = [(other, one.slave)] + [(one.slave, other)] * (one.master != BASE)
+        other = len(parts) + one.ground if one.master == GROUND else one.master
+        pairs = [(other, one.slave)] + [(one.slave, other)] * (one.master != GROUND)
         for pair in pairs:
             friction[pair], restitution[pair], joint[pair] = one.friction, one.restitution, number
     whole = hulls_of(hulls)
@@ -82,7 +82,7 @@ def found_of(model, first: np.ndarray, reach: np.ndarray, interface: int, point:
 def found_interfaces(found: Found, rows: int) -> np.ndarray:
     """Interfaces (rows,) of INTERFACE of which no pair has any."""
     interfaces = np.zeros(rows, INTERFACE)
-    interfaces["master"], interfaces["axes"], interfaces["sector"] = BASE, np.eye(3), 1.0
+    interfaces["master"], interfaces["axes"], interfaces["sector"] = GROUND, np.eye(3), 1.0
     thickness = found.hulls.thickness
     interfaces["width"] = thickness[thickness > 0].min()
     return interfaces
@@ -92,7 +92,7 @@ def found_points(found: Found, rows: int) -> np.ndarray:
     """Points (FOUND_SLOTS rows,) of POINT that take no part."""
     points = np.zeros(FOUND_SLOTS * rows, POINT)
     points["interface"] = found.interface + np.repeat(np.arange(rows), FOUND_SLOTS)
-    points["master"], points["facet"], points["idle"] = BASE, FLAT_GROUND, True
+    points["master"], points["facet"], points["idle"] = GROUND, FLAT_GROUND, True
     points["node"], points["count"], points["weights"][:, 0] = found.nodes[0], 1, 1.0
     points["carriers"] = points["node"][:, None]
     return points

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from fecolumn.contact.points import BASE as GROUND
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.problem import near_points
 from fecolumn.contact.work import losses
 from fecolumn.engines.dynamics.links import end_links
@@ -11,14 +11,24 @@ from fecolumn.foundation._compiled import njit
 
 # Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS
 # [J]
-START, BASE, FRICTION, HIT, CONTACT_WORK, ALGORITHMIC, DAMPING, ROLLING, LINKS = range(9)
-N_TERMS = LINKS + 1
+(
+    START_ENERGY,
+    BASE_WORK,
+    FRICTION_WORK,
+    IMPACT_WORK,
+    CONTACT_WORK,
+    ALGORITHMIC_WORK,
+    DAMPING_WORK,
+    ROLLING_WORK,
+    LINKS_WORK,
+) = range(9)
+N_TERMS = LINKS_WORK + 1
 # then the places of `reduced.rigid_loss`. Of all impacts that are over: energy that they have taken
 # from the rigid motion, and energy that rigid bodies would have lost [J]. Of the impact that goes
 # on: its rigid loss, 0 if there is none; energy of the rigid motion before it [J]; its beginning
 # and end [s]; fastest approach [m/s], 0 once nothing approaches
-TAKEN, RIGID_LOSS, IMPACT_LOSS, LEFT, BEGAN, ENDS, SPEED = range(N_TERMS, N_TERMS + 7)
-N_PLACES = SPEED + 1
+TAKEN, RIGID_LOSS, IMPACT_LOSS, LEFT, BEGAN, ENDS, APPROACH_SPEED = range(N_TERMS, N_TERMS + 7)
+N_PLACES = APPROACH_SPEED + 1
 
 
 @njit
@@ -161,12 +171,12 @@ def book(structure, scheme, work, start, end, ledger):
         end.contact,
         contact,
     )
-    ledger[BASE] += moved_base
-    ledger[FRICTION] += friction
-    ledger[HIT] += landed
+    ledger[BASE_WORK] += moved_base
+    ledger[FRICTION_WORK] += friction
+    ledger[IMPACT_WORK] += landed
     ledger[CONTACT_WORK] += contact - friction - landed + dashpots
-    ledger[ALGORITHMIC] += algorithmic - damping
-    ledger[DAMPING] += damping - dashpots
-    ledger[ROLLING] += rolling
-    ledger[LINKS] -= taken
+    ledger[ALGORITHMIC_WORK] += algorithmic - damping
+    ledger[DAMPING_WORK] += damping - dashpots
+    ledger[ROLLING_WORK] += rolling
+    ledger[LINKS_WORK] -= taken
     return contact + dashpots

@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.meetings import Meetings, meetings_for
-from fecolumn.contact.points import BASE, CONTACT
+from fecolumn.contact.points import CONTACT, GROUND
 from fecolumn.contact.pose import MASTER, SLAVE, grounds_at
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import FOUND_SLOTS
@@ -38,7 +38,7 @@ class MotionState(NamedTuple):
 
     frames: (nb,) of FRAME; rotation: (nb, 3, 3) body to table; modal: (nb, 3, m) of unit modal
     mass; contact: (P,) of CONTACT; rims: (ni,) of RIM; ties: (nl,) of TIE; whole: (1,) of WHOLE;
-    grounds: (G,) of GROUND; meetings: bodies whose contact is found, see `reduced.found`.
+    grounds: (G,) of GROUND_STATE; meetings: bodies whose contact is found, see `reduced.found`.
     """
 
     frames: np.ndarray
@@ -163,7 +163,7 @@ def begin_frames(structure, start, free_center, advance, end, action):
     """First guess of what `follow` finds of frames that move and of links: bodies that are free."""
     moving, part = len(structure.links) > 0, np.empty(3)
     for k in range(len(structure.interfaces)):
-        moving |= structure.interfaces[k].master != BASE and not end.rims[k].apart
+        moving |= structure.interfaces[k].master != GROUND and not end.rims[k].apart
     if not moving:
         return
     for b in range(len(start.frames)):
@@ -182,7 +182,7 @@ def _turn_frames(structure, action):
     change = 0.0
     for k in range(len(structure.interfaces)):
         b, axes = structure.interfaces[k].master, structure.interfaces[k].axes
-        if b == BASE or not action.total[k, 2] > 0.0:
+        if b == GROUND or not action.total[k, 2] > 0.0:
             continue
         R = action.halfway[b]
         for a in range(3):
@@ -247,7 +247,7 @@ def _sum_forces(points, listed, contact, elastic, action):
             arm = points[i].arm[a] + (elastic.point[START, i, a] + elastic.point[END, i, a]) / 2
             for c in range(3):
                 spread[SLAVE, a, c] += arm * force[c]
-        if points[i].master != BASE:
+        if points[i].master != GROUND:
             for a in range(3):
                 seat = (elastic.seat[START, i, a] + elastic.seat[END, i, a]) / 2
                 for c in range(3):
@@ -271,7 +271,7 @@ def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
                 structure.interfaces[k].master if side else structure.interfaces[k].slave,
                 -1.0 if side else 1.0,
             )
-            if b == BASE:
+            if b == GROUND:
                 continue
             for c in range(3):
                 action.push[b, c] += sign * (
@@ -283,7 +283,7 @@ def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
     for n in range(len(structure.links)):
         for side in range(2):
             b = structure.links[n].b if side else structure.links[n].a
-            if b == BASE:
+            if b == GROUND:
                 continue
             ends = structure.links[n].arm_b if side else structure.links[n].arm_a
             for a in range(3):
@@ -339,7 +339,7 @@ def _pull_modes(structure, start, end, action):
     for n in range(len(structure.links)):
         for side in range(2):
             b = structure.links[n].b if side else structure.links[n].a
-            if b == BASE:
+            if b == GROUND:
                 continue
             for a in range(3):
                 along = 0.0
@@ -368,7 +368,7 @@ def _push_modes(structure, points, listed, contact, action):
                 structure.interfaces[k].master if side else structure.interfaces[k].slave,
                 -1.0 if side else 1.0,
             )
-            if b != BASE:
+            if b != GROUND:
                 R, Q = action.halfway[b], action.frames[k]
                 for a in range(3):
                     for c in range(3):
@@ -382,7 +382,7 @@ def _push_modes(structure, points, listed, contact, action):
             continue
         for side in range(2):
             b, T = points[i].master if side else points[i].slave, turned[points[i].interface, side]
-            if b == BASE:
+            if b == GROUND:
                 continue
             for a in range(3):
                 along[a] = T[a, 0] * force[0] + T[a, 1] * force[1] + T[a, 2] * force[2]
@@ -446,7 +446,7 @@ def push_bodies(structure, scheme, points, arms, poses, impulses, motion):
             p0, p1, p2, on = impulses[i, 0], impulses[i, 1], impulses[i, 2], points[i].slave == b
             if not (on or points[i].master == b) or p0 == 0.0 and p1 == 0.0 and p2 == 0.0:
                 continue
-            if points[i].master != BASE:
+            if points[i].master != GROUND:
                 Q = poses[points[i].interface].frame
                 for a in range(3):
                     pushed[a] = Q[a, 0] * p0 + Q[a, 1] * p1 + Q[a, 2] * p2

@@ -15,7 +15,7 @@ from fecolumn.contact.overturning import (
     fallen,
     is_past_no_return,
 )
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import SLAVE, find_poses
 from fecolumn.contact.record import record
 from fecolumn.engines.dynamics.energy import TERMS
@@ -170,7 +170,7 @@ def observe(structure, points, poses, view, motion, ledger, iterations, row):
     for i in range(len(contact)):
         if contact[i].force[2] > 0:
             row[_ACTIVE] += 1
-            if structure.interfaces[points[i].interface].master == BASE:
+            if structure.interfaces[points[i].interface].master == GROUND:
                 for a in range(3):
                     row[_FORCE + a] += contact[i].force[a]
         if contact[i].located:
@@ -270,7 +270,7 @@ def _observe_forces(structure, points, poses, motion, joints, row):
         Q, origin = poses[k].frame, poses[k].origin
         if k >= joints:
             other = points[i].master
-            if other == BASE:
+            if other == GROUND:
                 other = len(motion.frames) + points[i].ground
             k = structure.found.joint[other, points[i].slave]
             if k < 0:

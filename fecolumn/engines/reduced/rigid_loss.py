@@ -15,22 +15,22 @@ import numpy as np
 
 from fecolumn.contact.coupling import coupling_by_levers, put_root
 from fecolumn.contact.impact import plastic_impact
-from fecolumn.contact.points import BASE, OVER
+from fecolumn.contact.points import GROUND, OVER
 from fecolumn.contact.pose import find_poses
-from fecolumn.contact.problem import N_COUNTS, present_points
+from fecolumn.contact.problem import present_points
 from fecolumn.contact.tolerances import APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS, NEAR
 from fecolumn.engines.dynamics.links import strain_of_links
 from fecolumn.engines.reduced.elastic import END
-from fecolumn.engines.reduced.ledger import BASE as BASE_WORK
 from fecolumn.engines.reduced.ledger import (
+    APPROACH_SPEED,
+    BASE_WORK,
     BEGAN,
     ENDS,
     IMPACT_LOSS,
     LEFT,
-    LINKS,
+    LINKS_WORK,
     RIGID_LOSS,
-    ROLLING,
-    SPEED,
+    ROLLING_WORK,
     TAKEN,
     rigid_kinetic,
     weight_energy,
@@ -58,8 +58,8 @@ def rigid_energy(structure, motion, ledger):
         + weight_energy(structure, origin, motion)
         + strain_of_links(structure.links, motion.ties)
         - ledger[BASE_WORK]
-        - ledger[ROLLING]
-        - ledger[LINKS]
+        - ledger[ROLLING_WORK]
+        - ledger[LINKS_WORK]
     )
 
 
@@ -123,7 +123,7 @@ def _velocities_by_motion(structure, points, poses, listed, end):
         _place_of(point, end, place)
         for side in range(2):
             b, sign = point.master if side else point.slave, -1.0 if side else 1.0
-            if b == BASE:
+            if b == GROUND:
                 continue
             R = end.rotation[b]
             for a in range(3):
@@ -149,7 +149,7 @@ def _velocities(J, points, listed, motion):
     """
     found = J @ _velocities_of(motion)
     for j in range(len(listed)):
-        if points[listed[j]].master == BASE:
+        if points[listed[j]].master == GROUND:
             for a in range(3):
                 found[3 * j + a] -= motion.grounds[points[listed[j]].ground].velocity[a]
     return found
@@ -220,19 +220,19 @@ def begin_impact(structure, work, start, end, dt, moment, touched, booked, ledge
         _velocities(J, work.points, listed, end),
         given,
         moment,
-        np.zeros(N_COUNTS, np.int64),
+        ledger[APPROACH_SPEED],
     )
-    if ledger[SPEED] > 0.0:
-        ledger[IMPACT_LOSS], ledger[SPEED] = (
+    if ledger[APPROACH_SPEED] > 0.0:
+        ledger[IMPACT_LOSS], ledger[APPROACH_SPEED] = (
             max(ledger[IMPACT_LOSS], loss),
-            max(ledger[SPEED], speed),
+            max(ledger[APPROACH_SPEED], speed),
         )
         return
     if loss <= APPROACH_LEFT * ledger[IMPACT_LOSS]:
         # a point that rattles while the impact ends
         return
     _book(structure, start, booked, ledger)
-    ledger[IMPACT_LOSS], ledger[SPEED], ledger[LEFT], ledger[BEGAN] = (
+    ledger[IMPACT_LOSS], ledger[APPROACH_SPEED], ledger[LEFT], ledger[BEGAN] = (
         loss,
         speed,
         rigid_energy(structure, start, booked),
@@ -244,15 +244,18 @@ def begin_impact(structure, work, start, end, dt, moment, touched, booked, ledge
 def follow_impact(structure, work, end, dt, ledger):
     """Whether the impact that goes on is over at the end of a step; then its loss is booked."""
     now = end.whole[0].time
-    if ledger[SPEED] > 0.0:
+    if ledger[APPROACH_SPEED] > 0.0:
         listed, approach = find_together(structure, work, end), 0.0
         if len(listed):
             J = _velocities_by_motion(structure, work.points, work.poses[END], listed, end)
             velocity = _velocities(J, work.points, listed, end)
             for j in range(len(listed)):
                 approach = max(approach, -velocity[3 * j + 2])
-        if approach <= APPROACH_LEFT * ledger[SPEED]:
-            ledger[SPEED], ledger[ENDS] = 0.0, ledger[BEGAN] + IMPACT_LASTS * (now - ledger[BEGAN])
+        if approach <= APPROACH_LEFT * ledger[APPROACH_SPEED]:
+            ledger[APPROACH_SPEED], ledger[ENDS] = (
+                0.0,
+                ledger[BEGAN] + IMPACT_LASTS * (now - ledger[BEGAN]),
+            )
     elif ledger[IMPACT_LOSS] > 0.0 and now > ledger[ENDS] - dt / 2:
         _book(structure, end, ledger, ledger)
 

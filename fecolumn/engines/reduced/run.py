@@ -11,7 +11,7 @@ import numpy as np
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.ball import remove_lift
 from fecolumn.contact.overturning import STANDS
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import find_poses
 from fecolumn.contact.problem import (
     ENDED,
@@ -25,7 +25,7 @@ from fecolumn.contact.problem import (
 from fecolumn.contact.rolling import part_of_step
 from fecolumn.contact.tolerances import PARTS
 from fecolumn.contact.two_sided import mark_unused
-from fecolumn.engines.dynamics.cuts import IMPACTS, ROLLING
+from fecolumn.engines.dynamics.cuts import IMPACT_PARTS, ROLLING_PARTS
 from fecolumn.engines.dynamics.links import end_links
 from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.balls import roll_balls
@@ -58,7 +58,7 @@ def to_make_at_once(structure, motion, dt, done, substeps):
     part = PARTS
     while done % part:
         part //= 2
-    for k in range(len(structure.interfaces) if substeps == ROLLING else 0):
+    for k in range(len(structure.interfaces) if substeps == ROLLING_PARTS else 0):
         if structure.interfaces[k].rim_count > 0 and not motion.rims[k].unused:
             x, y, u, v = lowest_direction(structure.interfaces[k], motion)
             part = min(part, part_of_step(x, y, u, v, dt, done))
@@ -72,7 +72,7 @@ def lowest_direction(interface, motion):
     R, spin, normal, rate = motion.rotation[b], motion.frames[b].spin, np.empty(3), np.empty(3)
     for a in range(3):
         normal[a], rate[a] = R[2, a], spin[a]
-    if m != BASE:
+    if m != GROUND:
         M, other = motion.rotation[m], motion.frames[m].spin
         for a in range(3):
             normal[a] = 0.0
@@ -132,7 +132,7 @@ def advance(structure, base, schemes, work, view, course, chunk):
 
     schemes: of steps of 1, 1/2, ... 1/PARTS of a step; all the same where the shorter ones are
     still to be made, for which ROLLS_FAST asks. A part in which a point lands is halved down to the
-    smallest where IMPACTS are located.
+    smallest where impacts are located.
 
     Without any step to make: the row of `motion` where there is one to fill, else one proximal step
     of the first scheme towards gravity equilibrium, from `motion` to `spare`; see
@@ -165,7 +165,9 @@ def advance(structure, base, schemes, work, view, course, chunk):
             for a in range(3):
                 fall[b, a] = motion.frames[b].center[a]
                 if structure.bodies.body[b].held < 0 and not structure.bodies.body[b].airborne:
-                    fall[b, a] += scheme.half * structure.gravity[a]
+                    # its weight over the mass that the search for rest gives it
+                    heavier = structure.bodies.body[b].mass * structure.bodies.body[b].inverse_mass
+                    fall[b, a] += scheme.half * structure.gravity[a] * heavier
         return 0, proximal_step(
             structure, base, scheme, work, motion, fall, bent, still, spare, counts
         )
@@ -185,7 +187,7 @@ def advance(structure, base, schemes, work, view, course, chunk):
         before = counts[N_ITERATIONS]
         put(ledger, booked)
         part, done = to_make_at_once(structure, now, scheme.dt, 0, substeps), 0
-        if part < PARTS or substeps == IMPACTS:
+        if part < PARTS or substeps == IMPACT_PARTS:
             if schemes[longest].dt == scheme.dt:
                 answer = ROLLS_FAST
                 break
@@ -202,7 +204,7 @@ def advance(structure, base, schemes, work, view, course, chunk):
             answer = step(structure, base, schemes[halved], work, now, target, then, ledger, counts)
             if answer != OK:
                 break
-            if substeps == IMPACTS and part > 1 and counts[N_IMPACTS] > struck:
+            if substeps == IMPACT_PARTS and part > 1 and counts[N_IMPACTS] > struck:
                 put(held, ledger)
                 counts[N_IMPACTS], part = struck, part // 2
                 continue

@@ -7,29 +7,15 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.points import may_touch
-from fecolumn.contact.problem import FAR_BASE, NO_ROOM, OK, near_points
-from fecolumn.contact.tolerances import (
-    FIRMER_TIMES,
-    LINKS_FIRM,
-    LINKS_PROGRESS,
-    SLIDES_KEPT,
-)
-from fecolumn.contact.work import move_anchors
-from fecolumn.engines.dynamics.gravity import (
-    NoEquilibrium,
-    iterate_to_rest,
-    pseudo_inertia,
-)
+from fecolumn.contact.tolerances import FIRMER_TIMES, LINKS_PROGRESS
+from fecolumn.engines.dynamics.gravity import NoEquilibrium, iterate_to_rest
 from fecolumn.engines.dynamics.links import end_links
-from fecolumn.engines.dynamics.links_of_model import fastest
 from fecolumn.engines.reduced import motion as motions
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE
+from fecolumn.engines.reduced.firmness import firmness_of
 from fecolumn.engines.reduced.found_of_model import NoRoom
-from fecolumn.engines.reduced.model import resting_scheme
+from fecolumn.engines.reduced.settling import Diverged, Settling
 from fecolumn.foundation._compiled import interpreted
-
-# Times that the inertia of iterations is found anew from what modes give in one of that inertia
-_PASSES = 5
 
 
 def gravity_equilibrium(engine) -> motions.MotionState:
@@ -41,43 +27,18 @@ def gravity_equilibrium(engine) -> motions.MotionState:
     NoEquilibrium
         no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
-    structure, centers = engine.structure, engine.view.center
-    bodies = structure.bodies.body
-    weight = bodies["mass"].sum() * np.linalg.norm(structure.gravity)
-    # of a dome the place of contact moves by its radius times the tilt, as far as the centre of
-    # mass at that height would
-    levers = [
-        max(
-            np.abs(structure.bodies.arms[body["first"] : body["first"] + body["count"], 2]).max(),
-            structure.interfaces["ball"][structure.interfaces["slave"] == b].max(initial=0.0),
-        )
-        for b, body in enumerate(bodies)
-    ]
-    firmness = max(
-        pseudo_inertia(weight, lever, body["inertia"])
-        for body, lever in zip(bodies, levers)
-        if body["held"] < 0
-    )
-    # links answer the motion of a step at once: the motion must not answer them as strongly
-    held = [
-        (body["mass"], body["inertia"], center, np.eye(3)) for body, center in zip(bodies, centers)
-    ]
-    for _ in range(_PASSES if len(structure.links) else 0):
-        # modes give the less in an iteration the less firm it is
-        shrinks = list(firmness / (firmness + structure.squares))
-        found = fastest(structure, structure.links["stiffness"], held, shrinks)[0]
-        firmness = max(firmness, LINKS_FIRM * found)
-    firmest = max(10.0**FIRMER_TIMES * firmness, 2 / engine.hht.dt**2)
+    firmness = firmness_of(engine.structure, engine.view.center)
+    firmest = max(10.0**FIRMER_TIMES * firmness.max(), 2 / engine.hht.dt**2)
     while True:
         try:
             return _settled_with_room(engine, firmness)
-        except _Diverged:
-            if firmness >= firmest:
+        except Diverged:
+            if firmness.min() >= firmest:
                 raise
-        firmness = min(10 * firmness, firmest)
+        firmness = np.minimum(10 * firmness, firmest)
 
 
-def _settled_with_room(engine, firmness: float) -> motions.MotionState:
+def _settled_with_room(engine, firmness: np.ndarray) -> motions.MotionState:
     """As `_settled`, with room for as many pairs of bodies as are near each other."""
     while True:
         try:
@@ -86,65 +47,24 @@ def _settled_with_room(engine, firmness: float) -> motions.MotionState:
             engine.make_room(2 * len(engine.spare.meetings.rows))
 
 
-class _Diverged(NoEquilibrium):
-    """A proximal step has no answer."""
-
-
-def _settled(engine, firmness: float) -> motions.MotionState:
-    """`standing` by proximal steps of a `firmness` [1/s2]."""
-    structure, work, centers = engine.structure, engine.work, engine.view.center
-    bodies, start, end = structure.bodies.body, engine.motion_at_rest(), engine.motion_at_rest()
-    start.frames["center"] = centers
-    start.contact["anchor"] = engine.places(centers, start.rotation)[:, :2]
-    start.ties["length"] = engine.link_lengths(start)
-    resting = resting_scheme(structure, engine.points, firmness)
-    # of the turns, which move the bodies by so much wherever they stand
-    reach = max(np.ptp(centers[:, :2], axis=0).max(), np.abs(centers[:, 2]).max())
-    steps, mover = 0, None
-
-    def proximal_step():
-        nonlocal steps, mover
-        while (answer := engine.settle(resting, start, end)) == FAR_BASE:
-            engine.extend_base(end)
-        if answer == NO_ROOM:
-            raise NoRoom
-        of_each = np.maximum(
-            np.abs(end.frames["center"] - start.frames["center"]).max(axis=1),
-            np.abs(work.action.turn).max(axis=1) * reach,
-        )
-        if np.isfinite(of_each).all():
-            mover = int(np.argmax(of_each))
-        if answer != OK:
-            raise _Diverged(
-                f"gravity equilibrium: contact does not converge in iteration {steps + 1}"
-            )
-        moved = max(
-            of_each.max(),
-            np.abs(work.elastic.point[1] - work.elastic.point[0]).max(),
-        )
-        steps += 1
-        if steps > SLIDES_KEPT:
-            interpreted(move_anchors)(
-                work.points,
-                structure.interfaces,
-                resting.springs,
-                near_points(work.problem),
-                work.before,
-                end.contact,
-            )
-        else:
-            end.contact["anchor"] = work.before["anchor"]
-        motions.copy(end, start)
-        return moved
-
+def _settled(engine, firmness: np.ndarray) -> motions.MotionState:
+    """`standing` by proximal steps of a `firmness` (nb,) [1/s2]."""
+    structure, settling = engine.structure, Settling(engine, firmness)
     try:
         progress = LINKS_PROGRESS if len(structure.links) else None
-        iterate_to_rest(proximal_step, 2 * np.abs(centers[:, 2]).max(), progress)
+        iterate_to_rest(settling.step, settling.height, progress)
     except NoEquilibrium as error:
-        error.mover = mover
-        raise
+        if not isinstance(error, Diverged):
+            error = NoEquilibrium(
+                f"gravity equilibrium: still moving by {settling.moved:.2e} m after "
+                f"{settling.steps} iterations, with {settling.unbalanced:.1e} of the weight "
+                "not balanced"
+            )
+        error.mover = settling.mover
+        raise error from None
+    start, bodies, action = settling.motion(), structure.bodies.body, engine.work.action
     engine.counts[:] = 0
-    start.frames["acceleration"] = -work.action.push * bodies["inverse_mass"][:, None]
+    start.frames["acceleration"] = -action.push * bodies["inverse_mass"][:, None]
     start.frames["acceleration"][bodies["airborne"]] = structure.gravity
     start.modal[:, ACCELERATION] = -structure.squares * start.modal[:, COORDINATE]
     start.ties["work"] = 0.0  # what links lose on the way there is not of the motion

@@ -9,16 +9,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import poses_of
 from fecolumn.engines.reduced.elastic import COORDINATE
 from fecolumn.foundation.atomic import write_hdf5
 
 #: File of the states in a result folder
-NAME = "states.h5"
+STATES_FILE = "states.h5"
 #: Most that the states of an analysis take [bytes]; before they would, every other one is dropped.
 #: Half a minute at 25 a second takes a tenth of it.
-MOST_BYTES = 24_000_000
+_MOST_BYTES = 24_000_000
 # What is kept of each state, and of each contact point that carries force: name, type, shape, unit
 # and meaning. Of a structure of many bodies center, rotation and modal have an axis of bodies after
 # that of states.
@@ -105,7 +105,7 @@ def state_of(engine) -> Snapshot:
         + points["lift"][:, None] * frames[:, :, 2]
     )
     forces = np.einsum("pab,pb->pa", frames, motion.forces[loaded])
-    moving = points["master"] != BASE
+    moving = points["master"] != GROUND
     state = Snapshot(
         motion.time,
         center,
@@ -132,7 +132,7 @@ def state_of(engine) -> Snapshot:
 
 class States:
     """The states of an analysis, every so many steps, thinned out before they take more than
-    MOST_BYTES.
+    _MOST_BYTES.
 
     Attributes
     ----------
@@ -160,7 +160,7 @@ class States:
             return
         self._states.append(state)
         self._bytes += _size(state)
-        if self._bytes > MOST_BYTES and not last:
+        if self._bytes > _MOST_BYTES and not last:
             self.every *= 2
             self._states = self._states[::2]
             self._bytes = sum(map(_size, self._states))
@@ -242,7 +242,7 @@ class States:
                 )
                 dataset.attrs["unit"], dataset.attrs["meaning"] = told[name][2:]
 
-        write_hdf5(folder / NAME, fill)
+        write_hdf5(folder / STATES_FILE, fill)
 
 
 def modes_of(each: list[np.ndarray]) -> np.ndarray:

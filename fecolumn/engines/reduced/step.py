@@ -19,7 +19,7 @@ from fecolumn.contact.impact import (
     touched,
 )
 from fecolumn.contact.pad import without_pads
-from fecolumn.contact.points import BASE
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import SLAVE, find_poses, move_grounds
 from fecolumn.contact.problem import N_IMPACTS, NO_ROOM, OK, list_present, near_points
 from fecolumn.contact.rolling import (
@@ -46,8 +46,14 @@ from fecolumn.engines.reduced.elastic import (
 )
 from fecolumn.engines.reduced.equilibrium import find_equilibrium
 from fecolumn.engines.reduced.found import lay_found
-from fecolumn.engines.reduced.ledger import BASE as BASE_WORK
-from fecolumn.engines.reduced.ledger import CONTACT_WORK, FRICTION, HIT, book, kinetic
+from fecolumn.engines.reduced.ledger import (
+    BASE_WORK,
+    CONTACT_WORK,
+    FRICTION_WORK,
+    IMPACT_WORK,
+    book,
+    kinetic,
+)
 from fecolumn.engines.reduced.motion import push_bodies
 from fecolumn.engines.reduced.rigid_loss import begin_impact, follow_impact
 from fecolumn.engines.reduced.rotation import orthonormal, turn_by
@@ -285,10 +291,10 @@ def _add_rolling_resistance(structure, k, work, start, dt):
             inverse[a, c] = structure.bodies.body[b].inverse_inertia[a, c]
             # from the master's frame into the slave's
             into[a, c] = 0.0
-            if m != BASE:
+            if m != GROUND:
                 for e in range(3):
                     into[a, c] += start.rotation[b, e, a] * start.rotation[m, e, c]
-    if m != BASE:
+    if m != GROUND:
         other = structure.bodies.body[m].inverse_inertia
         for a in range(3):
             for c in range(3):
@@ -301,7 +307,7 @@ def _add_rolling_resistance(structure, k, work, start, dt):
     )
     for a in range(3):
         resistance[b, a] += moment[a]
-        if m != BASE:
+        if m != GROUND:
             for c in range(3):
                 resistance[m, a] -= into[c, a] * moment[c]
 
@@ -457,7 +463,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
     for i in listed:
         brought += _work_of_moving_grounds(structure, points[i], work.poses[END], impulses[i], end)
     ledger[BASE_WORK] += brought
-    own, other = (HIT, FRICTION) if happens == LANDS else (FRICTION, HIT)
+    own, other = (IMPACT_WORK, FRICTION_WORK) if happens == LANDS else (FRICTION_WORK, IMPACT_WORK)
     terms = book_impulses(
         kinetic(structure, end) - energy - brought,
         ledger[own] - booked[own],
@@ -481,7 +487,7 @@ def _work_of_moving_grounds(structure, point, poses, impulse, end):
     total, frame = 0.0, poses[point.interface].frame
     for side in range(2):
         b, sign = (point.master, 1.0) if side else (point.slave, -1.0)
-        g = point.ground if b == BASE else structure.bodies.body[b].held
+        g = point.ground if b == GROUND else structure.bodies.body[b].held
         if g < 0:
             continue
         for a in range(3):

@@ -10,7 +10,7 @@ from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
 from fecolumn.contact.interface import INTERFACE
 from fecolumn.contact.joints import joints_of
 from fecolumn.contact.overturning import Limits, cap_only_stance
-from fecolumn.contact.points import BASE, POINT
+from fecolumn.contact.points import GROUND, POINT
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.tolerances import FOUND_ROWS, RIGID_GIVE
 from fecolumn.engines.dynamics.bonds import areas_of, bonded
@@ -37,8 +37,8 @@ def structure_of(
 
     Raises
     ------
-    ValueError
-        a link is too stiff for the step; names it and the longest step.
+    StiffLink
+        a link is too stiff for the step.
     """
     parts, modes = model.parts, max(len(part.model.frequencies) for part in model.parts)
     squares, damping, filters = np.zeros((3, len(parts), modes))
@@ -78,7 +78,7 @@ def structure_of(
     )
     joints = joints_of(parts, model.joints, model.replaced)
     for interface, joint in zip(joints.interfaces, model.joints):
-        if joint.master != BASE:
+        if joint.master != GROUND:
             interface["reach"] = reach[
                 first[joint.master] + parts[joint.master].model.surfaces[joint.master_surface].nodes
             ].max()

@@ -38,7 +38,11 @@ class ModelAnalysis(Analysis):
         return self.model.energy_to_overturn
 
     def energy_left(self) -> float:
-        """As of Analysis; upright the energy of a model is 0."""
+        """Mechanical energy of the last sample [J]: kinetic, strain and gravity energy together.
+
+        Gravity and strain energy of a rocking model count from the upright structure at rest, so
+        that the sum is the energy above equilibrium. Rounding below 0 is told as 0.
+        """
         last = self.history.last()
         return max(0.0, float(sum(last[f"energy/{name}"] for name in STATE_TERMS)))
 

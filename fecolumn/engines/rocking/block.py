@@ -7,7 +7,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 
@@ -108,14 +108,16 @@ class RockingBlock(PlanarModel):
                 )
             planes.append(
                 body_plane(
-                    axis,
-                    body.mass,
-                    edges,
-                    body.height,
-                    body.inertia[1 - axis],
-                    body.top,
-                    (body.half_foot[axis],) * 2,
-                    restitution=restitution,
+                    PlanarBody(
+                        axis,
+                        body.mass,
+                        edges,
+                        body.height,
+                        body.inertia[1 - axis],
+                        body.top,
+                        (body.half_foot[axis],) * 2,
+                    ),
+                    restitution,
                     friction=friction,
                 )
             )
@@ -130,31 +132,48 @@ class RockingBlock(PlanarModel):
         }
 
 
-def body_plane(
-    axis: int,
-    mass: float,
-    edges,
-    height: float,
-    central: float,
-    top: float,
-    top_inside,
-    *,
-    restitution=None,
-    **more,
-) -> Plane:
-    """Plane of a rigid body of inertia `central` about its centre of mass; other arguments as of
-    Plane; restitution of both sides, None: by the plastic impact.
+class PlanarBody(NamedTuple):
+    """A rigid body in the vertical plane in which it rocks.
+
+    axis: along which it rocks, 0 of x, 1 of y. mass [kg]. edges: (2,) horizontal distances [m] of
+    the centre of mass from the edge on the positive side of the axis and from the other edge.
+    height: of the centre of mass above the foot [m]. central: inertia [kg m2] about the centre of
+    mass, for rotation in the plane. top: height above the foot [m] of the point whose displacement
+    counts; top_inside: (2,) its horizontal distances [m] inwards from the two edges.
     """
-    inertia = tuple(central + mass * (edge**2 + height**2) for edge in edges)
+
+    axis: int
+    mass: float
+    edges: tuple[float, float]
+    height: float
+    central: float
+    top: float
+    top_inside: tuple[float, float]
+
+
+def body_plane(body: PlanarBody, restitution: float | None = None, **laws) -> Plane:
+    """Plane of a rigid body on its foot.
+
+    Parameters
+    ----------
+    restitution
+        of the angular velocity at an impact on either side [-]; None: by the plastic impact.
+    laws
+        restraints, friction and only, as of Plane.
+    """
+    mass, central, height = body.mass, body.central, body.height
+    inertia = tuple(central + mass * (edge**2 + height**2) for edge in body.edges)
     if restitution is None:
-        vectors = (-edges[0], height), (edges[1], height)
+        vectors = (-body.edges[0], height), (body.edges[1], height)
         kept = (
             body_restitution(mass, central, *vectors),
             body_restitution(mass, central, *vectors[::-1]),
         )
     else:
         kept = restitution, restitution
-    return Plane(axis, mass, tuple(edges), height, inertia, kept, top, tuple(top_inside), **more)
+    return Plane(
+        body.axis, mass, body.edges, height, inertia, kept, body.top, body.top_inside, **laws
+    )
 
 
 def _plane(section: BlockSection, axis: int, width: float, mass: float) -> Plane:
@@ -187,15 +206,12 @@ def _plane(section: BlockSection, axis: int, width: float, mass: float) -> Plane
     restitution = section.restitution
     if section.sides == 1 and restitution is None:
         restitution = one_sided_restitution(math.atan2(width, height))
+    edges = width / 2 - centre[0], width / 2 + centre[0]
     return body_plane(
-        axis,
-        total,
-        (width / 2 - centre[0], width / 2 + centre[0]),
-        float(centre[1]),
-        float(central),
-        height,
-        (width / 2, width / 2),
-        restitution=restitution,
+        PlanarBody(
+            axis, total, edges, float(centre[1]), float(central), height, (width / 2, width / 2)
+        ),
+        restitution,
         restraints=tuple(restraints),
         friction=section.friction_coefficient,
         only=1 if section.sides == 1 else 0,

@@ -13,9 +13,9 @@ import numpy as np
 from fecolumn.case.case import case_from_tables, case_of_table
 from fecolumn.case.check_case import check_duration
 from fecolumn.case.model_table import Start
-from fecolumn.case.sections import REST, Motion, located
+from fecolumn.case.sections import UNTIL_REST, Motion, located
 from fecolumn.engines.rocking.model import Model, ModelResponse
-from fecolumn.engines.rocking.models import MODELS
+from fecolumn.engines.rocking.models import ROCKING_MODELS
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
 from fecolumn.foundation.schema import InputError, build
 from fecolumn.foundation.toml_file import merge, read_toml
@@ -75,7 +75,7 @@ class ModelCase:
             ground = load_motion(dataclasses.replace(self.motion, source=source), dt, self.file)
             free = (
                 self.motion.longest_free_vibration_s
-                if self.motion.free_vibration_s != REST
+                if self.motion.free_vibration_s != UNTIL_REST
                 else 0.0
             )
             if duration:
@@ -101,7 +101,7 @@ def read_model_case(name: str, path) -> ModelCase:
     InputError
         unknown key, value out of range, parts that do not fit.
     """
-    tables, cls = read_toml(path), MODELS[name]
+    tables, cls = read_toml(path), ROCKING_MODELS[name]
     if not {"column", "bodies"} & set(tables) and not isinstance(tables.get(cls.TABLE), dict):
         raise InputError(
             path,

@@ -18,8 +18,9 @@ import math
 
 import numpy as np
 
+from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.overturning import critical_tilt_rate
-from fecolumn.engines.rocking.swing import GRAVITY, rock_one, row_of_block
+from fecolumn.engines.rocking.swing import rock_one, row_of_block
 from fecolumn.motions.record import GroundMotion
 
 

@@ -15,11 +15,11 @@ from typing import ClassVar
 import numpy as np
 
 from fecolumn.case.model_sections import FrameSection
+from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.block import described
 from fecolumn.engines.rocking.impact import frame_restitution
 from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
-from fecolumn.engines.rocking.swing import GRAVITY
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -2,8 +2,9 @@
 
 Any ensemble runs through any model.
 
-A model is a frozen dataclass with the methods of `Model`. Its name is a word of `models.MODELS`: of
-`fecolumn rocking NAME CASE`, and of integration.engine where it can be made from a column's case.
+A model is a frozen dataclass with the methods of `Model`. Its name is a word of
+`models.ROCKING_MODELS`: of `fecolumn rocking NAME CASE`, and of integration.engine where it can be
+made from a column's case.
 """
 
 from __future__ import annotations
@@ -14,9 +15,10 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
+from fecolumn.engines.ending import OVERTURNED
 from fecolumn.motions.record import GroundMotion
 
-SAFE, OVERTURNED = "safe", "overturned"
+SAFE = "safe"
 #: Terms of the energy that are of a state, not added up over time.
 STATE_TERMS = ("kinetic", "strain", "gravity")
 

@@ -9,7 +9,7 @@ from fecolumn.engines.rocking.podium import Podium
 from fecolumn.engines.rocking.wobbling import Wobbling
 from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
 
-MODELS: dict[str, type[Model]] = {
+ROCKING_MODELS: dict[str, type[Model]] = {
     "housner": RockingBlock,
     "rocking_frame": RockingFrame,
     "wobbling": Wobbling,

@@ -7,21 +7,23 @@ from typing import NoReturn
 
 import numpy as np
 
-from fecolumn.case import bodies as keys
 from fecolumn.case.check_bodies import material_of
-from fecolumn.case.ground import GROUND
+from fecolumn.case.ground import GROUND_NAME
 from fecolumn.case.model_table import Start
 from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.model import Model
-from fecolumn.engines.rocking.models import MODELS
+from fecolumn.engines.rocking.models import ROCKING_MODELS
 from fecolumn.engines.rocking.podium import Podium
 from fecolumn.engines.rocking.storeys import shear_building
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
 from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.storeys import building_of
+
+# Kinds of bodies whose mass, inertia and foot are known here, as of rigid bodies
+_KNOWN_FEET = ("tube", "cylinder", "block", "plate", "slab", "storeys", "mesh")
 
 
 def model_of(case, file) -> Model:
@@ -36,7 +38,7 @@ def model_of(case, file) -> Model:
         the bodies are not those of the model; it says what they lack.
     """
     for section in case.own.values():
-        return MODELS[case.integration.engine].of_section(section, file)
+        return ROCKING_MODELS[case.integration.engine].of_section(section, file)
     return _Reader(case, file).model()
 
 
@@ -159,7 +161,7 @@ class _Reader:
         pairs = set()
         for interface in self.case.joints.values():
             own, others = (
-                {one} if one == GROUND else {body for body, _ in self.case.copies_of(one)}
+                {one} if one == GROUND_NAME else {body for body, _ in self.case.copies_of(one)}
                 for one in (interface.slave, interface.on)
             )
             pairs |= {pair for a in own for b in others for pair in ((a, b), (b, a))}
@@ -171,14 +173,14 @@ class _Reader:
         if more or len(body.places) > 1:
             count = sum(len(one.places) for one in self.case.bodies.values())
             self._lacks(f"is of one body on the ground; there are {count}")
-        if (name, GROUND) not in self._joints():
+        if (name, GROUND_NAME) not in self._joints():
             self._lacks(f'needs an interface between "{name}" and the ground')
         return name
 
     def _columns(self) -> tuple[str, str]:
         """The body whose copies are the columns, and that on them."""
         joints = self._joints()
-        below = [name for name in self.case.bodies if (name, GROUND) in joints]
+        below = [name for name in self.case.bodies if (name, GROUND_NAME) in joints]
         if len(self.case.bodies) != 2 or len(below) != 1:
             self._lacks(
                 "is of equal columns on the ground, one body with copies_m, and of one body on "
@@ -193,7 +195,7 @@ class _Reader:
     def _upright_block(self, name: str) -> tuple[float, float]:
         """Half width along x and height [m] of columns that rock along x."""
         body = self.case.bodies[name]
-        if not isinstance(body, keys.Block):
+        if body.kind != "block":
             self._lacks(
                 f'needs columns of kind = "block"; "{name}" is a {body.kind}'
                 + ("" if self.engine == "podium" else ": wobbling_frame is the model of round ones")
@@ -207,17 +209,17 @@ class _Reader:
 
     def _wobbling_frame(self, name, column: RigidColumn, slab, count, friction) -> WobblingFrame:
         body = self.case.bodies[name]
-        if not isinstance(body, (keys.Tube, keys.Cylinder)) or body.flange or body.cap:
+        if body.kind not in ("tube", "cylinder") or body.flange or body.cap:
             self._lacks(f'needs round columns without flange and cap; "{name}" is a {body.kind}')
         radius = body.outer_diameter_m / 2
-        inner = radius - body.wall_m if isinstance(body, keys.Tube) else 0.0
+        inner = radius - body.wall_m if body.kind == "tube" else 0.0
         share = self._mass(slab) / count
         own = cylinder_body(radius, inner, body.height_m, column.mass, share)
         return WobblingFrame(own, count, friction=friction)
 
     def _podium(self, name: str, slab: str, alpha, diagonal, columns_mass) -> Podium:
         body = self.case.bodies[slab]
-        if not isinstance(body, keys.Storeys):
+        if body.kind != "storeys":
             self._lacks(f'needs storeys on the columns; "{slab}" is a {body.kind}')
         building = building_of(body)
         found = Podium(
@@ -239,7 +241,7 @@ class _Reader:
     def _friction(self, name: str) -> float:
         """Coefficient of friction between a body and the ground."""
         for interface in self.case.joints.values():
-            if interface.on == GROUND and name in {
+            if interface.on == GROUND_NAME and name in {
                 body for body, _ in self.case.copies_of(interface.slave)
             }:
                 own = interface.friction_coefficient
@@ -258,7 +260,8 @@ def rigid_body(case, name: str, file) -> RigidColumn:
     Raises
     ------
     InputError
-        a body of matrices, whose shape is not known; a prism or a cone, which no model is of.
+        a body of matrices, whose shape is not known, a prism, a cone, or any kind that is none of
+        _KNOWN_FEET.
     """
     from fecolumn.mesh.imported import own_mesh
     from fecolumn.mesh.mass import mass_properties
@@ -266,7 +269,7 @@ def rigid_body(case, name: str, file) -> RigidColumn:
     from fecolumn.structures.weighed import weighed
 
     body, is_round = case.bodies[name], False
-    if isinstance(body, (keys.Matrices, keys.Prism, keys.Cone)):
+    if body.kind not in _KNOWN_FEET:
         raise InputError(
             file,
             f"bodies.{name}.kind",
@@ -277,16 +280,16 @@ def rigid_body(case, name: str, file) -> RigidColumn:
     density = material_of(body, case.materials).density_kg_m3
     flange, cap = getattr(body, "flange", None), getattr(body, "cap", None)
     seat = flange.thickness_m if flange else 0.0
-    if isinstance(body, keys.Meshed):
+    if body.kind == "mesh":
         own = own_mesh(body.drawn)
         if not own.has_foot:
             raise InputError(
                 file, f"bodies.{name}.mesh_file", body.mesh_file, "has no flat foot to rock on"
             )
         found, extent, top = mass_properties(own.mesh, density), own.foot, own.height
-    elif isinstance(body, (keys.Tube, keys.Cylinder)):
+    elif body.kind in ("tube", "cylinder"):
         is_round, outer = True, body.outer_diameter_m / 2
-        inner = outer - body.wall_m if isinstance(body, keys.Tube) else 0.0
+        inner = outer - body.wall_m if body.kind == "tube" else 0.0
         found, top = (
             ring_properties(outer, inner, body.height_m, seat, density),
             seat + body.height_m,
@@ -294,7 +297,7 @@ def rigid_body(case, name: str, file) -> RigidColumn:
         extent = (2 * outer,) * 2
     else:
         extent = body.length_m, body.width_m
-        height = body.height_m if isinstance(body, keys.Block) else body.thickness_m
+        height = body.height_m if body.kind == "block" else body.thickness_m
         found, top = box_properties(*extent, height, seat, density), seat + height
     if flange:
         wide, bore = flange.outer_diameter_m, flange.inner_diameter_m

@@ -12,8 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import brentq
 
+from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.impact import housner_restitution
-from fecolumn.engines.rocking.swing import GRAVITY, IMPACTS, PEAK, rock_all, row_of_block
+from fecolumn.engines.rocking.swing import IMPACT_COUNT, PEAK_TILT, rock_all, row_of_block
 from fecolumn.motions.pulses import Pulse
 
 #: Coefficients of a_p/(g tan alpha) = 1 + beta w_p/p (Makris and Roussos 1998), and gamma of tan
@@ -58,7 +59,7 @@ def outcomes(
         amplitudes * GRAVITY * math.tan(slenderness),
         row_of_block(slenderness, 1.0, kept)[None],
     )
-    return np.where(np.isinf(found[:, PEAK]), found[:, IMPACTS], -1).astype(int)
+    return np.where(np.isinf(found[:, PEAK_TILT]), found[:, IMPACT_COUNT], -1).astype(int)
 
 
 def _unit_pulse(shape: str, frequency: float) -> tuple[np.ndarray, float]:
@@ -151,15 +152,25 @@ def linear_overturning(shape: str, frequency) -> np.ndarray:
 
 
 def slenderness_factor(duration, pulse: str = "rectangular") -> np.ndarray:
-    """phi(p T_p) = p T_p/(gamma + p T_p): least tan(alpha) of a block that stands a pulse, over
-    a_p/g (Makris and Vassiliou 2012).
+    """Factor phi by which a block has to be slender to survive a pulse (Makris and Vassiliou 2012).
+
+    A slender block on rigid ground does not overturn where tan(alpha) >= phi a_p / g. Here alpha
+    is its slenderness angle [rad], a_p the amplitude of the ground acceleration [m/s2] and g
+    gravity. The factor is phi = p T_p / (gamma + p T_p): 0 for a very short pulse, 1 for a very
+    long one.
 
     Parameters
     ----------
     duration
-        p T_p [-].
+        (...,) or one number, p T_p [-]: frequency parameter p of the block [rad/s] times duration
+        T_p of the pulse [s].
     pulse
-        of DESIGN; the rectangular one asks for the most.
+        shape of the pulse, one of DESIGN, which has its gamma [-]. "rectangular" has the smallest
+        gamma, so that its phi is the largest.
+
+    Returns
+    -------
+    phi [-], in the shape of `duration`.
     """
     return np.asarray(duration, float) / (DESIGN[pulse] + np.asarray(duration, float))
 

@@ -9,29 +9,29 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.swing import (
-    ALPHA,
-    EDGE,
-    FALL,
+    FALL_TIME,
     FASTEST,
-    GRAVITY,
     HELD,
-    KEPT,
-    LOSS,
     N_PARAMETERS,
     ONLY,
     P2,
-    PEAK,
+    PEAK_TILT,
     PER_MASS,
-    RATE,
+    RESTITUTION,
+    SLENDERNESS,
     SPRING,
+    SWING_EDGE,
+    SWING_LOSS,
+    SWING_RATE,
+    SWING_TILT,
+    SWING_TIME,
+    SWING_WORK,
     TENDON,
-    THRUST,
-    TILT,
-    TIME,
-    WORK,
+    TENDON_THRUST,
     look,
     rock_one,
 )
@@ -105,10 +105,10 @@ class Plane:
         springs = np.array([one.moments for one in self.restraints]) / inertia
         tendon = np.array([one.tendon for one in self.restraints]) / inertia
         thrust = np.array([one.thrust_moments for one in self.restraints]) / inertia
-        row[ALPHA : ALPHA + 2], row[P2 : P2 + 2] = self.alpha, self.p2
-        row[KEPT : KEPT + 2], row[ONLY] = self.restitution, self.only
+        row[SLENDERNESS : SLENDERNESS + 2], row[P2 : P2 + 2] = self.alpha, self.p2
+        row[RESTITUTION : RESTITUTION + 2], row[ONLY] = self.restitution, self.only
         row[SPRING : SPRING + 6], row[TENDON : TENDON + 4] = springs.ravel(), tendon.ravel()
-        row[THRUST : THRUST + 4] = thrust.ravel()
+        row[TENDON_THRUST : TENDON_THRUST + 4] = thrust.ravel()
         row[PER_MASS : PER_MASS + 2] = GRAVITY * np.array(self.radius) / self.p2
         stiff = np.abs(springs).sum(axis=1) + np.abs(tendon[:, 0]) + np.abs(thrust).sum(axis=1)
         row[FASTEST] = math.sqrt(max(self.p2 + stiff))
@@ -200,8 +200,8 @@ class Plane:
             states, impacts, found = rock_one(
                 ground, motion.dt, row, free_s=longer, tilt=tilt, tilt_rate=rate
             )
-            fallen = bool(found[PEAK] > math.pi / 2)
-            if not fallen or found[FALL] >= 0:
+            fallen = bool(found[PEAK_TILT] > math.pi / 2)
+            if not fallen or found[FALL_TIME] >= 0:
                 break
         return PlaneResponse(self, states, impacts, fallen)
 
@@ -220,14 +220,14 @@ class PlaneResponse:
         return PlaneResponse(
             self.plane,
             self.states[:n],
-            self.impacts[self.impacts <= self.states[n - 1, TIME]],
+            self.impacts[self.impacts <= self.states[n - 1, SWING_TIME]],
             self.fallen,
         )
 
     def held(self, n: int, dt: float) -> PlaneResponse:
         """Its states followed by the last one up to n, where another plane's fall took longer."""
         more = np.repeat(self.states[-1:], n - len(self.states), axis=0)
-        more[:, TIME] += dt * np.arange(1, len(more) + 1)
+        more[:, SWING_TIME] += dt * np.arange(1, len(more) + 1)
         states = np.concatenate([self.states, more])
         return PlaneResponse(self.plane, states, self.impacts, self.fallen)
 
@@ -235,12 +235,12 @@ class PlaneResponse:
     def energy(self) -> dict[str, np.ndarray]:
         """Terms of the energy [J]."""
         plane, states = self.plane, self.states
-        lean, side = np.abs(states[:, TILT]), np.where(states[:, EDGE] < 0, -1, 1)
+        lean, side = np.abs(states[:, SWING_TILT]), np.where(states[:, SWING_EDGE] < 0, -1, 1)
         gravity, strain = np.zeros(len(lean)), np.zeros(len(lean))
         for one in (1, -1):
             gravity[side == one], strain[side == one] = plane.potential(lean[side == one], one)
-        kinetic = 0.5 * np.where(side > 0, *plane.inertia) * states[:, RATE] ** 2
-        work, impact = plane.mass * states[:, WORK], plane.mass * states[:, LOSS]
+        kinetic = 0.5 * np.where(side > 0, *plane.inertia) * states[:, SWING_RATE] ** 2
+        work, impact = plane.mass * states[:, SWING_WORK], plane.mass * states[:, SWING_LOSS]
         return balanced(
             kinetic=kinetic, strain=strain, gravity=gravity, base_work=work, impact=impact
         )
@@ -250,9 +250,9 @@ class PlaneResponse:
         the whole; `ground` (n, 2) [m/s2].
         """
         plane, states = self.plane, self.states
-        side = np.sign(states[:, EDGE])
+        side = np.sign(states[:, SWING_EDGE])
         k = np.where(side < 0, 1, 0)
-        lean, rate = np.abs(states[:, TILT]), states[:, RATE] * side
+        lean, rate = np.abs(states[:, SWING_TILT]), states[:, SWING_RATE] * side
         alpha, radius, p2 = (
             np.array(values)[k] for values in (plane.alpha, plane.radius, plane.p2)
         )
@@ -335,14 +335,14 @@ class PlanarModel:
         notes, u_top, tilts = [], np.zeros((rows, 3)), np.zeros(rows)
         for one in found:
             states, axis = one.states, one.plane.axis
-            moved = one.plane.moved(np.abs(states[:, TILT]), states[:, EDGE])
+            moved = one.plane.moved(np.abs(states[:, SWING_TILT]), states[:, SWING_EDGE])
             u_top[:, axis], u_top[:, 2] = moved[:, 0], u_top[:, 2] + moved[:, 1]
-            tilts = np.hypot(tilts, states[:, TILT])
+            tilts = np.hypot(tilts, states[:, SWING_TILT])
             notes += _check_forces(one, ground[:, [axis, 2]], peaks)
         energies = [one.energy for one in found]
-        thetas = {f"theta_{'xy'[one.plane.axis]}": one.states[:, TILT] for one in found}
+        thetas = {f"theta_{'xy'[one.plane.axis]}": one.states[:, SWING_TILT] for one in found}
         return ModelResponse(
-            time=max(found, key=lambda one: one.states[-1, TIME]).states[:, TIME],
+            time=max(found, key=lambda one: one.states[-1, SWING_TIME]).states[:, SWING_TIME],
             coordinates=thetas,
             units=dict.fromkeys(thetas, "rad"),
             tilt=tilts,
@@ -358,13 +358,13 @@ class PlanarModel:
 def _check_forces(one: PlaneResponse, ground, peaks: dict) -> list[str]:
     """Add the largest friction and tension demanded to `peaks`; notes on friction that lacks."""
     force, name, plane = one.base_force(ground), "xy"[one.plane.axis], one.plane
-    lean = np.abs(one.states[:, TILT])
+    lean = np.abs(one.states[:, SWING_TILT])
     notes, found = check_friction(
         f"rocking along {name}",
         f"friction demanded along {name} [-]",
         np.abs(force[:, 0]),
         force[:, 1],
-        one.states[:, TIME],
+        one.states[:, SWING_TIME],
         lean < math.pi / 4,  # what has fallen slides as it likes
         plane.friction,
     )

@@ -173,16 +173,16 @@ class Podium:
         The top is the roof; `peaks` have the base shear and the shear of every storey.
         """
         from fecolumn.engines.rocking.podium_motion import (
-            DAMPED,
-            GRAVITATIONAL,
-            KINETIC,
-            LOSS,
-            ROOF,
-            SHEAR,
-            STRAIN,
-            TILT,
-            TIME,
-            WORK,
+            PODIUM_DAMPED,
+            PODIUM_GRAVITATIONAL,
+            PODIUM_KINETIC,
+            PODIUM_LOSS,
+            PODIUM_ROOF,
+            PODIUM_SHEAR,
+            PODIUM_STRAIN,
+            PODIUM_TILT,
+            PODIUM_TIME,
+            PODIUM_WORK,
         )
 
         ground = np.concatenate(
@@ -194,15 +194,15 @@ class Podium:
         terms = {
             name: self.columns_mass * rows[:, column]
             for name, column in (
-                ("kinetic", KINETIC),
-                ("strain", STRAIN),
-                ("gravity", GRAVITATIONAL),
-                ("base_work", WORK),
-                ("impact", LOSS),
-                ("damping", DAMPED),
+                ("kinetic", PODIUM_KINETIC),
+                ("strain", PODIUM_STRAIN),
+                ("gravity", PODIUM_GRAVITATIONAL),
+                ("base_work", PODIUM_WORK),
+                ("impact", PODIUM_LOSS),
+                ("damping", PODIUM_DAMPED),
             )
         }
-        theta = rows[:, TILT]
+        theta = rows[:, PODIUM_TILT]
         beta = self.slenderness - np.abs(theta)
         beam = np.sign(theta) * 2 * self.half_diagonal * (math.sin(self.slenderness) - np.sin(beta))
         up = 2 * self.half_diagonal * (np.cos(beta) - math.cos(self.slenderness))
@@ -214,15 +214,15 @@ class Podium:
             **{f"shear of storey {number} [N]": float(one) for number, one in enumerate(shears, 1)},
         }
         return ModelResponse(
-            time=rows[:, TIME],
+            time=rows[:, PODIUM_TIME],
             coordinates={
                 "theta": theta,
                 "beam": beam,
-                "base shear": self.building_mass * rows[:, SHEAR],
+                "base shear": self.building_mass * rows[:, PODIUM_SHEAR],
             },
             units={"theta": "rad", "beam": "m", "base shear": "N"},
             tilt=np.abs(theta),
-            u_top=np.column_stack([rows[:, ROOF], np.zeros(len(rows)), up]),
+            u_top=np.column_stack([rows[:, PODIUM_ROOF], np.zeros(len(rows)), up]),
             overturned=bool(fallen),
             impact_times=impacts,
             energy=balanced(**terms),

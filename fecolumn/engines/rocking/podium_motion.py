@@ -26,7 +26,20 @@ import numpy as np
 from fecolumn.foundation._compiled import njit
 
 # Columns of the rows; all energies are per mass of the columns [J/kg]
-TIME, TILT, RATE, SIDE, SHEAR, ROOF, WORK, DAMPED, LOSS, KINETIC, STRAIN, GRAVITATIONAL = range(12)
+(
+    PODIUM_TIME,
+    PODIUM_TILT,
+    PODIUM_RATE,
+    PODIUM_SIDE,
+    PODIUM_SHEAR,
+    PODIUM_ROOF,
+    PODIUM_WORK,
+    PODIUM_DAMPED,
+    PODIUM_LOSS,
+    PODIUM_KINETIC,
+    PODIUM_STRAIN,
+    PODIUM_GRAVITATIONAL,
+) = range(12)
 # of p alpha: a tilt's rate after an impact below this, the next swing would reach less than 1e-8
 # alpha
 _REST = 1e-4
@@ -368,23 +381,30 @@ def shake(ground, dt, base, modes, storey, roof, restitution, relative, step, ti
                         break
                 if abs(x[0]) >= _FLAT:
                     break
-        rows[sample, TIME], rows[sample, TILT], rows[sample, RATE], rows[sample, SIDE] = (
+        (
+            rows[sample, PODIUM_TIME],
+            rows[sample, PODIUM_TILT],
+            rows[sample, PODIUM_RATE],
+            rows[sample, PODIUM_SIDE],
+        ) = (
             sample * dt,
             x[0],
             x[1],
             side,
         )
-        rows[sample, SHEAR] = shear
+        rows[sample, PODIUM_SHEAR] = shear
         for j in range(n):
-            rows[sample, ROOF] += roof[j] * x[2 + j]
-        rows[sample, WORK], rows[sample, DAMPED], rows[sample, LOSS] = (
+            rows[sample, PODIUM_ROOF] += roof[j] * x[2 + j]
+        rows[sample, PODIUM_WORK], rows[sample, PODIUM_DAMPED], rows[sample, PODIUM_LOSS] = (
             x[2 + 2 * n],
             -x[3 + 2 * n],
             loss,
         )
-        rows[sample, KINETIC], rows[sample, STRAIN], rows[sample, GRAVITATIONAL] = _energy(
-            x, side, base, modes, n
-        )
+        (
+            rows[sample, PODIUM_KINETIC],
+            rows[sample, PODIUM_STRAIN],
+            rows[sample, PODIUM_GRAVITATIONAL],
+        ) = _energy(x, side, base, modes, n)
         if abs(x[0]) >= _FLAT:
             return rows[: sample + 1], np.array(impacts), peaks, peak, True
     return rows, np.array(impacts), peaks, peak, False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fecolumn.engines.rocking.overturning import Band, overturning_bands
 
-SHAPES = ("one_sine", "one_cosine", "symmetric_ricker", "antisymmetric_ricker")
+PULSE_SHAPES = ("one_sine", "one_cosine", "symmetric_ricker", "antisymmetric_ricker")
 FREQUENCIES = tuple(0.25 * number for number in range(1, 41))
 _POINTS = 801  # amplitudes of the grid: steps of 0.33 %
 
@@ -12,7 +12,7 @@ _POINTS = 801  # amplitudes of the grid: steps of 0.33 %
 def spectra_table(
     slenderness: float,
     restitution: float,
-    shapes=SHAPES,
+    shapes=PULSE_SHAPES,
     frequencies=FREQUENCIES,
     *,
     show=lambda text: None,

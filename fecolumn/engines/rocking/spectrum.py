@@ -12,7 +12,7 @@ import math
 import numpy as np
 
 from fecolumn.engines.rocking.impact import housner_restitution
-from fecolumn.engines.rocking.swing import PEAK, rock_all, row_of_block
+from fecolumn.engines.rocking.swing import PEAK_TILT, rock_all, row_of_block
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.record import GroundMotion
 
@@ -59,7 +59,7 @@ def rocking_spectrum(
     blocks = np.array(
         [_block(period, alpha, restitution) for alpha in slendernesses for period in periods]
     )
-    peaks = rock_all([ground], motion.dt, np.zeros(len(blocks), int), 1.0, blocks)[:, PEAK]
+    peaks = rock_all([ground], motion.dt, np.zeros(len(blocks), int), 1.0, blocks)[:, PEAK_TILT]
     result = peaks.reshape(len(slendernesses), len(periods)) / slendernesses[:, None]
     return result if np.ndim(slenderness) else result[0]
 

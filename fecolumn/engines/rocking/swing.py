@@ -30,7 +30,7 @@ import numpy as np
 
 from fecolumn.foundation._compiled import njit
 
-GRAVITY = 9.80665  # [m/s2], as in fecolumn.case: this file is compiled by itself
+_GRAVITY = 9.80665  # [m/s2], as in fecolumn.case: this file is compiled by itself
 # step over 1/p, p the fastest rate: the fourth-order error of a step is then some 1e-8
 _STEP = 0.05
 # velocity after an impact below this many p alpha: the next swing would reach less than 1e-8 alpha
@@ -39,7 +39,7 @@ _FLAT = math.pi / 2
 _BISECTIONS = 55
 _SCAN = 128  # points at which the restoring moment is looked at between upright and flat
 # Columns of a row of parameters; those of two sides stand one after the other, + first
-ALPHA, P2, KEPT, SPRING, TENDON, THRUST, ONLY, PER_MASS, FASTEST, HELD = (
+SLENDERNESS, P2, RESTITUTION, SPRING, TENDON, TENDON_THRUST, ONLY, PER_MASS, FASTEST, HELD = (
     0,
     2,
     4,
@@ -54,10 +54,10 @@ ALPHA, P2, KEPT, SPRING, TENDON, THRUST, ONLY, PER_MASS, FASTEST, HELD = (
 N_PARAMETERS = 25
 # Columns of results: peak tilt [rad], inf if it fell; impacts before it fell or came to rest or the
 # motion ended; last tilt and its rate; time of the fall [s]; side it fell to
-PEAK, IMPACTS, LAST, LAST_RATE, FALL, SIDE = range(6)
+PEAK_TILT, IMPACT_COUNT, LAST_TILT, LAST_RATE, FALL_TIME, FALL_SIDE = range(6)
 # Columns of recorded states: time [s], tilt [rad], rate [rad/s], side, work of the ground and loss
 # of impacts over the mass [m2/s2]
-TIME, TILT, RATE, EDGE, WORK, LOSS = range(6)
+SWING_TIME, SWING_TILT, SWING_RATE, SWING_EDGE, SWING_WORK, SWING_LOSS = range(6)
 
 
 def row_of_block(slenderness: float, p: float, restitution: float) -> np.ndarray:
@@ -66,9 +66,9 @@ def row_of_block(slenderness: float, p: float, restitution: float) -> np.ndarray
     """
     row = np.zeros(N_PARAMETERS)
     (
-        row[ALPHA : ALPHA + 2],
+        row[SLENDERNESS : SLENDERNESS + 2],
         row[P2 : P2 + 2],
-        row[KEPT : KEPT + 2],
+        row[RESTITUTION : RESTITUTION + 2],
         row[PER_MASS : PER_MASS + 2],
         row[FASTEST],
     ) = slenderness, p * p, restitution, 1.0, p
@@ -96,7 +96,7 @@ def rock_all(
 
     Returns
     -------
-    (n, 6) in the columns PEAK, IMPACTS, ...
+    (n, 6) in the columns PEAK_TILT, IMPACT_COUNT, ...
     """
     lengths = np.array([len(ground) for ground in grounds], np.int64)
     offsets = np.concatenate([[0], np.cumsum(lengths)])[:-1]
@@ -170,8 +170,8 @@ def rock_one(
 
     Returns
     -------
-    (n, 6) states in the columns TIME, TILT, ..., one a sample, the fall last; impact times (k,)
-        [s]; results (6,), of which PEAK is inf where
+    (n, 6) states in the columns SWING_TIME, SWING_TILT, ..., one a sample, the fall last; impact
+        times (k,) [s]; results (6,), of which PEAK_TILT is inf where
     the structure fell, or is bound to.
     """
     ground = np.ascontiguousarray(ground, float)
@@ -191,7 +191,7 @@ def rock_one(
         impacts,
         out,
     )
-    filled = 1 + np.flatnonzero(states[0, 1:, TIME])
+    filled = 1 + np.flatnonzero(states[0, 1:, SWING_TIME])
     n_impacts = np.count_nonzero(impacts[0])
     return states[0, : 1 + len(filled)], impacts[0, :n_impacts], out[0]
 
@@ -200,7 +200,7 @@ def rock_one(
 def _held(par, k, phi):
     """U'(phi) over the inertia [1/s2]."""
     sine, cosine = math.sin(phi), math.cos(phi)
-    a, t, h = SPRING + 3 * k, TENDON + 2 * k, THRUST + 2 * k
+    a, t, h = SPRING + 3 * k, TENDON + 2 * k, TENDON_THRUST + 2 * k
     moment = (
         par[a] * sine * cosine
         + par[a + 1] * (sine * sine + cosine - cosine * cosine)
@@ -219,7 +219,7 @@ def _held(par, k, phi):
 def _held_potential(par, k, phi):
     """U(phi) over the inertia [1/s2]."""
     sine, less = math.sin(phi), 1 - math.cos(phi)
-    a, t, h = SPRING + 3 * k, TENDON + 2 * k, THRUST + 2 * k
+    a, t, h = SPRING + 3 * k, TENDON + 2 * k, TENDON_THRUST + 2 * k
     energy = 0.5 * par[a] * sine * sine + par[a + 1] * sine * less + 0.5 * par[a + 2] * less * less
     return (
         energy
@@ -233,14 +233,14 @@ def _held_potential(par, k, phi):
 @njit(alone=True)
 def _restoring(par, k, phi):
     """Restoring moment over the inertia [1/s2]."""
-    moment = par[P2 + k] * math.sin(par[ALPHA + k] - phi)
+    moment = par[P2 + k] * math.sin(par[SLENDERNESS + k] - phi)
     return moment + _held(par, k, phi) if par[HELD] != 0.0 else moment
 
 
 @njit(alone=True)
 def _potential(par, k, phi):
     """Potential over the inertia, 0 upright [1/s2]."""
-    energy = par[P2 + k] * (math.cos(par[ALPHA + k] - phi) - math.cos(par[ALPHA + k]))
+    energy = par[P2 + k] * (math.cos(par[SLENDERNESS + k] - phi) - math.cos(par[SLENDERNESS + k]))
     return energy + _held_potential(par, k, phi) if par[HELD] != 0.0 else energy
 
 
@@ -248,7 +248,7 @@ def _potential(par, k, phi):
 def _critical_lean(par, k):
     """Least lean from which the restoring moment pushes over; pi/2 where none does."""
     if par[HELD] == 0.0:
-        return par[ALPHA + k]
+        return par[SLENDERNESS + k]
     early = late = 0.0
     if _restoring(par, k, 0.0) <= 0.0:
         return 0.0
@@ -269,7 +269,7 @@ def _critical_lean(par, k):
 @njit(alone=True)
 def _turn(par, k, s, phi, x, z):
     """Phi'' [1/s2], and the part of it that the ground makes; x, z: ground acceleration over g."""
-    lever = par[ALPHA + k] - phi
+    lever = par[SLENDERNESS + k] - phi
     sine, cosine = math.sin(lever), math.cos(lever)
     driven = -par[P2 + k] * (z * sine + s * x * cosine)
     turn = driven - par[P2 + k] * sine
@@ -323,7 +323,7 @@ def _rock(ground, length, total, dt, scale, par, tilt, rate, states, impacts, ou
     fastest = par[FASTEST]
     pieces = max(1, math.ceil(fastest * dt / _STEP))
     full = dt / pieces
-    over_g = scale / GRAVITY
+    over_g = scale / _GRAVITY
     s = 0.0
     if tilt != 0.0 or rate != 0.0:
         s = math.copysign(1.0, tilt if tilt != 0.0 else rate)
@@ -332,7 +332,12 @@ def _rock(ground, length, total, dt, scale, par, tilt, rate, states, impacts, ou
     peak, count, work, loss = phi, 0, 0.0, 0.0
     fall, record, n_states = -1.0, states.shape[0] > 0, 1
     if record:
-        states[0, TIME], states[0, TILT], states[0, RATE], states[0, EDGE] = 0.0, tilt, s * rate, s
+        (
+            states[0, SWING_TIME],
+            states[0, SWING_TILT],
+            states[0, SWING_RATE],
+            states[0, SWING_EDGE],
+        ) = 0.0, tilt, s * rate, s
     for sample in range(total - 1):
         x0 = z0 = x1 = z1 = 0.0
         if sample < length:
@@ -420,14 +425,14 @@ def _rock(ground, length, total, dt, scale, par, tilt, rate, states, impacts, ou
                         work += done * par[PER_MASS + k]
                         elapsed += late
                         loss += 0.5 * par[PER_MASS + k] * rate * rate
-                        rate = par[KEPT + k] * abs(rate)
+                        rate = par[RESTITUTION + k] * abs(rate)
                         phi = 0.0
                         if par[ONLY] == 0.0:
                             s, k = -s, 1 - k
                         if count < impacts.shape[0]:
                             impacts[count] = sample * dt + start + elapsed
                         count += 1
-                        if rate <= _REST * math.sqrt(par[P2 + k]) * par[ALPHA + k]:
+                        if rate <= _REST * math.sqrt(par[P2 + k]) * par[SLENDERNESS + k]:
                             rate, s, k = 0.0, 0.0, 0
                             # at the very threshold rounding decides between uplift and rest: time
                             # must go on
@@ -440,23 +445,27 @@ def _rock(ground, length, total, dt, scale, par, tilt, rate, states, impacts, ou
                 if fall >= 0.0:
                     break
         if record:
-            states[n_states, TIME] = (sample + 1) * dt if fall < 0.0 else fall
-            states[n_states, TILT], states[n_states, RATE], states[n_states, EDGE] = (
+            states[n_states, SWING_TIME] = (sample + 1) * dt if fall < 0.0 else fall
+            (
+                states[n_states, SWING_TILT],
+                states[n_states, SWING_RATE],
+                states[n_states, SWING_EDGE],
+            ) = (
                 s * phi,
                 s * rate,
                 s,
             )
-            states[n_states, WORK], states[n_states, LOSS] = work, -loss
+            states[n_states, SWING_WORK], states[n_states, SWING_LOSS] = work, -loss
             n_states += 1
         if fall >= 0.0:
             break
-    out[LAST], out[LAST_RATE], out[FALL], out[SIDE] = s * phi, s * rate, fall, s
+    out[LAST_TILT], out[LAST_RATE], out[FALL_TIME], out[FALL_SIDE] = s * phi, s * rate, fall, s
     if fall < 0.0 and s != 0.0:
         free, more, side = _free_peak(par, k, s, phi, rate)
-        peak, count, out[SIDE] = max(peak, free), count + more, side
+        peak, count, out[FALL_SIDE] = max(peak, free), count + more, side
     if fall >= 0.0:
         peak = math.inf
-    out[PEAK], out[IMPACTS] = peak, count
+    out[PEAK_TILT], out[IMPACT_COUNT] = peak, count
 
 
 @njit(alone=True)
@@ -483,11 +492,11 @@ def _free_peak(par, k, s, phi, rate):
             peak = max(peak, high)
         if par[HELD] == 0.0 and swing == 1:  # each swing is less than the one before
             break
-        rate = par[KEPT + k] * math.sqrt(max(2 * energy, 0.0))
+        rate = par[RESTITUTION + k] * math.sqrt(max(2 * energy, 0.0))
         phi = 0.0
         if par[ONLY] == 0.0:
             s, k = -s, 1 - k
-        if rate <= _REST * math.sqrt(par[P2 + k]) * par[ALPHA + k]:
+        if rate <= _REST * math.sqrt(par[P2 + k]) * par[SLENDERNESS + k]:
             break
         count += 1
     return peak, 0, s
@@ -500,7 +509,9 @@ def look(par, k, leans, out):
     """
     critical = _critical_lean(par, k)
     for one in range(len(leans)):
-        gravity = par[P2 + k] * (math.cos(par[ALPHA + k] - leans[one]) - math.cos(par[ALPHA + k]))
+        gravity = par[P2 + k] * (
+            math.cos(par[SLENDERNESS + k] - leans[one]) - math.cos(par[SLENDERNESS + k])
+        )
         out[one, 0], out[one, 1], out[one, 2], out[one, 3] = (
             _restoring(par, k, leans[one]),
             gravity,

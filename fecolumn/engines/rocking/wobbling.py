@@ -25,7 +25,7 @@ from fecolumn.motions.record import GroundMotion
 
 #: Tolerance of a step's error, relative to the state: free motion then keeps its energy to 1e-10 in
 #: a hundred swings
-TOLERANCE = 1e-12
+STEP_TOLERANCE = 1e-12
 #: Difference of the inertias across the axis, over their mean, that a round body may have
 _ROUND = 0.02
 
@@ -181,10 +181,10 @@ class Wobbling:
     ) -> ModelResponse:
         """As of Model; `impact_times` are those of passing upright in a plane or nearly so."""
         from fecolumn.engines.rocking.wobbling_motion import (
-            LIFTED,
-            LOSS,
-            TIME,
-            WORK,
+            LIFTED_TILT,
+            WOBBLE_LOSS,
+            WOBBLE_TIME,
+            WOBBLE_WORK,
             energies,
             foot_forces,
             wobble,
@@ -192,18 +192,24 @@ class Wobbling:
 
         ground = np.concatenate([motion.acceleration, np.zeros((math.ceil(free_s / motion.dt), 3))])
         start = np.array(
-            [max(tilt, LIFTED) if tilt or tilt_rate else 0.0, direction, tilt_rate, 0.0]
+            [max(tilt, LIFTED_TILT) if tilt or tilt_rate else 0.0, direction, tilt_rate, 0.0]
         )
         rows, passages, fallen = wobble(
-            self.body, ground, motion.dt, start, self.critical_tilt, TOLERANCE, self.restitution
+            self.body,
+            ground,
+            motion.dt,
+            start,
+            self.critical_tilt,
+            STEP_TOLERANCE,
+            self.restitution,
         )
         notes, peaks = self._check_forces(foot_forces(self.body, rows, ground[: len(rows)]), rows)
         kinetic, strain, gravity = self.columns * energies(self.body, rows).T
-        work, impact = self.columns * rows[:, [WORK, LOSS]].T
+        work, impact = self.columns * rows[:, [WOBBLE_WORK, WOBBLE_LOSS]].T
         theta, phi = rows[:, 1], rows[:, 2]
         along, up = self.moved(theta)
         return ModelResponse(
-            time=rows[:, TIME],
+            time=rows[:, WOBBLE_TIME],
             coordinates={"theta": theta, "phi": phi},
             units={"theta": "rad", "phi": "rad"},
             tilt=theta,

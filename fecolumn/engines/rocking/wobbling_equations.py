@@ -29,7 +29,7 @@ import math
 
 from fecolumn.foundation._compiled import njit
 
-RADIUS, CENTRE, HEIGHT, MASS, SLAB, ACROSS, ALONG, STIFFNESS, PULL, GRAVITY = range(10)
+_RADIUS, _CENTRE, _HEIGHT, _MASS, _SLAB, _ACROSS, _ALONG, _STIFFNESS, _PULL, _GRAVITY = range(10)
 
 
 @njit(alone=True)
@@ -37,8 +37,8 @@ def _levers(body, tilt):
     """Mass times rise and times way to the azimuth of all masses [kg m], and their derivatives by
     the tilt. The second derivatives are -lever' and rise'.
     """
-    u = body[RADIUS] * (body[MASS] + 2 * body[SLAB])
-    w = body[CENTRE] * body[MASS] + body[HEIGHT] * body[SLAB]
+    u = body[_RADIUS] * (body[_MASS] + 2 * body[_SLAB])
+    w = body[_CENTRE] * body[_MASS] + body[_HEIGHT] * body[_SLAB]
     s, c = math.sin(0.5 * tilt), math.cos(0.5 * tilt)
     sine, versine = 2 * s * c, 2 * s * s
     cosine = 1 - versine
@@ -53,17 +53,17 @@ def _levers(body, tilt):
 @njit(alone=True)
 def _tilt_inertia(body):
     """A [kg m2]."""
-    column = body[MASS] * (body[CENTRE] ** 2 + body[RADIUS] ** 2)
-    return body[ACROSS] + column + body[SLAB] * (body[HEIGHT] ** 2 + 4 * body[RADIUS] ** 2)
+    column = body[_MASS] * (body[_CENTRE] ** 2 + body[_RADIUS] ** 2)
+    return body[_ACROSS] + column + body[_SLAB] * (body[_HEIGHT] ** 2 + 4 * body[_RADIUS] ** 2)
 
 
 @njit(alone=True)
 def _azimuth_inertia(body, tilt):
     """B [kg m2], and its derivative by the tilt."""
-    upper = body[HEIGHT] * body[SLAB]
-    across = body[ACROSS] + body[CENTRE] ** 2 * body[MASS] + body[HEIGHT] * upper
-    along = body[ALONG] + body[RADIUS] ** 2 * (body[MASS] + 4 * body[SLAB])
-    mixed = 2 * body[RADIUS] * (body[CENTRE] * body[MASS] + 2 * upper)
+    upper = body[_HEIGHT] * body[_SLAB]
+    across = body[_ACROSS] + body[_CENTRE] ** 2 * body[_MASS] + body[_HEIGHT] * upper
+    along = body[_ALONG] + body[_RADIUS] ** 2 * (body[_MASS] + 4 * body[_SLAB])
+    mixed = 2 * body[_RADIUS] * (body[_CENTRE] * body[_MASS] + 2 * upper)
     s, c = math.sin(0.5 * tilt), math.cos(0.5 * tilt)
     part = across * c * c + along * s * s + mixed * s * c
     slope = (along - across) * s * c + 0.5 * mixed * (c * c - s * s)
@@ -76,7 +76,7 @@ def _tilt_acceleration(body, tilt, spin, push, ground_z):
     _, _, rise, lever = _levers(body, tilt)
     inertia, slope = _azimuth_inertia(body, tilt)
     turning = 0.5 * slope * (spin / inertia) ** 2
-    weight = (body[GRAVITY] + ground_z) * rise
+    weight = (body[_GRAVITY] + ground_z) * rise
     tendon = moments(body, tilt)[2]
     return (turning - weight - tendon - push * lever) / _tilt_inertia(body)
 
@@ -102,7 +102,7 @@ def force(body, tilt, tilt_rate, spin, push, across_push, ground_z):
     """Force of the ground on the foot [N]: towards the azimuth, across it, up. It is the rate of
     the momentum of all masses.
     """
-    total = body[MASS] + body[SLAB]
+    total = body[_MASS] + body[_SLAB]
     _, lever, rise_rate, lever_rate = _levers(body, tilt)
     inertia, slope = _azimuth_inertia(body, tilt)
     turn = spin / inertia
@@ -111,7 +111,7 @@ def force(body, tilt, tilt_rate, spin, push, across_push, ground_z):
     return (
         rise_rate * tilt_rate**2 + lever_rate * fall - lever * turn**2 + total * push,
         2 * lever_rate * tilt_rate * turn + lever * turned + total * across_push,
-        -lever_rate * tilt_rate**2 + rise_rate * fall + total * (body[GRAVITY] + ground_z),
+        -lever_rate * tilt_rate**2 + rise_rate * fall + total * (body[_GRAVITY] + ground_z),
     )
 
 
@@ -124,9 +124,9 @@ def inertia(body, tilt):
 @njit(alone=True)
 def potential(body, tilt):
     """Of gravity, 0 upright, and of the tendon [J]."""
-    stretch = 2 * body[RADIUS] * math.sin(0.5 * tilt)
+    stretch = 2 * body[_RADIUS] * math.sin(0.5 * tilt)
     rise = _levers(body, tilt)[0]
-    return body[GRAVITY] * rise, (body[PULL] + 0.5 * body[STIFFNESS] * stretch) * stretch
+    return body[_GRAVITY] * rise, (body[_PULL] + 0.5 * body[_STIFFNESS] * stretch) * stretch
 
 
 @njit(alone=True)
@@ -135,5 +135,5 @@ def moments(body, tilt):
     tendon's energy [N m].
     """
     _, _, rise_rate, lever_rate = _levers(body, tilt)
-    pull = body[PULL] + 2 * body[STIFFNESS] * body[RADIUS] * math.sin(0.5 * tilt)
-    return rise_rate, lever_rate, body[RADIUS] * math.cos(0.5 * tilt) * pull
+    pull = body[_PULL] + 2 * body[_STIFFNESS] * body[_RADIUS] * math.sin(0.5 * tilt)
+    return rise_rate, lever_rate, body[_RADIUS] * math.cos(0.5 * tilt) * pull

@@ -23,10 +23,12 @@ from fecolumn.engines.rocking.wobbling_equations import force, inertia, moments,
 from fecolumn.foundation._compiled import njit
 
 # Columns of the rows
-TIME, TILT, AZIMUTH, RATE, SPIN, WORK, LOSS = range(7)
+WOBBLE_TIME, WOBBLE_TILT, WOBBLE_AZIMUTH, WOBBLE_RATE, WOBBLE_SPIN, WOBBLE_WORK, WOBBLE_LOSS = (
+    range(7)
+)
 # tilt [rad] below which passing upright is done in closed form; its error is of this order
 CLOSEST = 1e-9
-LIFTED = 1e-8  # tilt [rad] at which a column starts that lifts off
+LIFTED_TILT = 1e-8  # tilt [rad] at which a column starts that lifts off
 _PLANAR = 1e-3  # of CLOSEST: what comes closer passes in a plane, as its spin is rounding
 _REST = 1e-6  # of the critical tilt: a column that would swing no higher stands
 _FLAT = math.pi / 2
@@ -165,8 +167,8 @@ def wobble(body, ground, dt, start, critical, tolerance, restitution):
 
     Returns
     -------
-    rows (m, 7) of TIME ... LOSS at the samples, the last one where it lies flat; (passages,)
-        their times [s]; whether it lies flat.
+    rows (m, 7) of WOBBLE_TIME ... WOBBLE_LOSS at the samples, the last one where it lies flat;
+        (passages,) their times [s]; whether it lies flat.
     """
     n = len(ground)
     rows = np.zeros((n, 7))
@@ -191,7 +193,7 @@ def wobble(body, ground, dt, start, critical, tolerance, restitution):
     )
     k = np.zeros((13, 5))
     passages = [0.0 for _ in range(0)]
-    rows[0, TILT:WORK] = y[:4]
+    rows[0, WOBBLE_TILT:WOBBLE_WORK] = y[:4]
     h = 0.1 * dt
     for sample in range(n - 1):
         first, slope = ground[sample], (ground[sample + 1] - ground[sample]) / dt
@@ -209,10 +211,10 @@ def wobble(body, ground, dt, start, critical, tolerance, restitution):
                 # it leans against the ground's acceleration and turns with it: any other spin would
                 # be a quick vibration
                 y[0], y[1], y[2], y[3] = (
-                    LIFTED,
+                    LIFTED_TILT,
                     math.atan2(-now[1], -now[0]),
                     0.0,
-                    inertia(body, LIFTED)[1] * turn,
+                    inertia(body, LIFTED_TILT)[1] * turn,
                 )
                 loss += sum(_energy(body, y))
                 standing, h = False, 1e-3 * dt
@@ -237,13 +239,21 @@ def wobble(body, ground, dt, start, critical, tolerance, restitution):
             elapsed += most
             y[:] = x
             if y[0] >= _FLAT:
-                rows[sample + 1, TIME], rows[sample + 1, TILT:LOSS], rows[sample + 1, LOSS] = (
+                (
+                    rows[sample + 1, WOBBLE_TIME],
+                    rows[sample + 1, WOBBLE_TILT:WOBBLE_LOSS],
+                    rows[sample + 1, WOBBLE_LOSS],
+                ) = (
                     sample * dt + elapsed,
                     y,
                     loss,
                 )
                 return rows[: sample + 2], np.array(passages), True
-        rows[sample + 1, TIME], rows[sample + 1, TILT:LOSS], rows[sample + 1, LOSS] = (
+        (
+            rows[sample + 1, WOBBLE_TIME],
+            rows[sample + 1, WOBBLE_TILT:WOBBLE_LOSS],
+            rows[sample + 1, WOBBLE_LOSS],
+        ) = (
             (sample + 1) * dt,
             y,
             loss,
@@ -256,7 +266,9 @@ def energies(body, rows):
     """Kinetic, strain and gravity of each row (n, 3) [J]."""
     found = np.zeros((len(rows), 3))
     for row in range(len(rows)):
-        found[row, 0], found[row, 1], found[row, 2] = _energy(body, rows[row, TILT:LOSS])
+        found[row, 0], found[row, 1], found[row, 2] = _energy(
+            body, rows[row, WOBBLE_TILT:WOBBLE_LOSS]
+        )
     return found
 
 
@@ -268,10 +280,10 @@ def foot_forces(body, rows, ground):
     found = np.zeros((len(rows), 3))
     for row in range(len(rows)):
         tilt, azimuth, rate, spin = (
-            rows[row, TILT],
-            rows[row, AZIMUTH],
-            rows[row, RATE],
-            rows[row, SPIN],
+            rows[row, WOBBLE_TILT],
+            rows[row, WOBBLE_AZIMUTH],
+            rows[row, WOBBLE_RATE],
+            rows[row, WOBBLE_SPIN],
         )
         if tilt > 0:
             x, y = ground[row, 0], ground[row, 1]

@@ -8,11 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
+from fecolumn.contact.points import GROUND
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES, BrickMesh, outline_edges
 from fecolumn.mesh.mass import MassProperties
-
-#: Master of a contact that is no body.
-GROUND = -1
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,11 +103,11 @@ class JointFace:
 
     @property
     def on_ground(self) -> bool:
-        """Whether its slave stands on the ground."""
+        """Whether the slave of this joint stands on a ground, not on another body."""
         return self.master == GROUND
 
     def stands_on(self, ground: int) -> bool:
-        """Whether its slave stands on the ground of this number."""
+        """Whether the slave stands on the ground with this number, its place in the case."""
         return self.on_ground and self.ground == ground
 
     @cached_property

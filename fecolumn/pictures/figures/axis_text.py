@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import typing
 
-from fecolumn.case.bodies import KINDS
+from fecolumn.case.bodies import BODY_KINDS
 from fecolumn.case.case_tables import NAMED
 from fecolumn.case.model_sections import SECTIONS
 from fecolumn.case.sections import Cap, Flange
@@ -73,7 +73,7 @@ def axis_unit(key: str) -> str:
         owners.append(SECTIONS[section])
     if section in NAMED:  # [bodies.NAME] and the like
         name = name.rpartition(".")[2]
-        owners += [*KINDS.values(), Flange, Cap] if section == "bodies" else [NAMED[section]]
+        owners += [*BODY_KINDS.values(), Flange, Cap] if section == "bodies" else [NAMED[section]]
     return next(
         (
             f.metadata["unit"]

@@ -16,7 +16,7 @@ VIEWS = {
     "plan": (-90.0, 90.0),
 }
 #: Views that may be taken from the level.
-LEVEL = ("lean", "front", "side")
+_LEVEL = ("lean", "front", "side")
 # Free margin around what moves [-]
 _MARGIN = 1.06
 
@@ -45,11 +45,11 @@ def camera(result, view: str, times: np.ndarray, aspect: float = 1.0, below: flo
     result
         Result.
     below
-        room [m] for arrows below all else; where there is some, the views LEVEL look along the
+        room [m] for arrows below all else; where there is some, the views _LEVEL look along the
         level, so that what is in the middle of a wall is seen over its face where it is.
     """
     azimuth, elevation = VIEWS[view]
-    if below and view in LEVEL:
+    if below and view in _LEVEL:
         elevation = 0.0
     azimuth, elevation = (
         np.radians(_across_lean(result, times) if azimuth is None else azimuth),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-VIEWS = ("lean", "front", "side", "iso", "foot", "plan")
+VIEW_NAMES = ("lean", "front", "side", "iso", "foot", "plan")
 
 
 def add_arguments(parser) -> None:
@@ -24,7 +24,7 @@ def add_arguments(parser) -> None:
     )
     parser.add_argument(
         "--view",
-        choices=VIEWS,
+        choices=VIEW_NAMES,
         help="from where: lean (default, of --html iso) sees the largest lean at full length, "
         "front looks along y, side along -x",
     )

@@ -37,11 +37,11 @@ def render(folder, options: RenderOptions = _ALL, quiet: bool = False) -> list[P
     if options.html:
         return [_page(result, options, target)]
     if options.paraview:
-        from fecolumn.pictures.render.paraview import NAME, write_view
+        from fecolumn.pictures.render.paraview import PARAVIEW_FILE, write_view
 
-        with written(target, "render paraview", names=(NAME,)) as draft:
+        with written(target, "render paraview", names=(PARAVIEW_FILE,)) as draft:
             write_view(result, draft, options.view, quiet)
-        return [target / NAME]
+        return [target / PARAVIEW_FILE]
     start, end = _window(result, options)
     files = []
     if options.only != "movie":
@@ -52,12 +52,12 @@ def render(folder, options: RenderOptions = _ALL, quiet: bool = False) -> list[P
 
 
 def _page(result, options: RenderOptions, target: Path) -> Path:
-    from fecolumn.pictures.render.page.document import NAME, page_of
+    from fecolumn.pictures.render.page.document import PARAVIEW_FILE, page_of
 
     page = page_of(result, _window(result, options), options.view, options.speed)
-    with written(target, "render html", names=(NAME,)) as draft:
-        (draft / NAME).write_text(page, encoding="utf-8")
-    return target / NAME
+    with written(target, "render html", names=(PARAVIEW_FILE,)) as draft:
+        (draft / PARAVIEW_FILE).write_text(page, encoding="utf-8")
+    return target / PARAVIEW_FILE
 
 
 def _window(result, options: RenderOptions) -> tuple[float, float]:

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.engines.scene.scene import GROUND, JointFace
+from fecolumn.contact.points import GROUND
+from fecolumn.engines.scene.scene import JointFace
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.render.frame import Fields, Frame
@@ -17,7 +18,7 @@ from fecolumn.pictures.render.thrust import JointForces
 if TYPE_CHECKING:
     from fecolumn.pictures.render.result import Result
 
-COLOURS = ("stress", "displacement", "none")
+_COLOURS = ("stress", "displacement", "none")
 #: Largest elastic displacement as it is drawn under "auto", over the height of what moves [-]
 SEEN = 0.05
 # Points of the pressure's path a frame, so that it is a curve where a body rolls
@@ -43,7 +44,7 @@ class Frames:
     exaggeration
         factor on elastic displacements [-].
     colour
-        one of COLOURS.
+        one of _COLOURS.
     centres
         (k, 2) [m] of the contact pressure on a body alone by its motion, nan in flight; None of
         several bodies.
@@ -66,7 +67,7 @@ class Frames:
         forces: bool = False,
     ):
         """Frames at `times` (k,) [s], each for `interval` [s]; exaggerate: elastic displacements by
-        this factor, or "auto"; colour: of COLOURS, "" for what there is; like: others whose
+        this factor, or "auto"; colour: of _COLOURS, "" for what there is; like: others whose
         exaggeration, forces and ranges of colours these have; forces: of the joints are drawn.
 
         Raises

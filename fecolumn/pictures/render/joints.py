@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.engines.scene.scene import GROUND, JointFace
+from fecolumn.contact.points import GROUND
+from fecolumn.engines.scene.scene import JointFace
 from fecolumn.pictures.render.pose import Poses
 
 

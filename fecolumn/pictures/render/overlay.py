@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from fecolumn.pictures.render.frames import Frames
 
 #: Colour of the thrust line by what colours the bodies, and of arrows
-THRUST, ARROW = {"stress": BLUE, "displacement": VERMILION, "none": VERMILION}, BLACK
+_THRUST, ARROW = {"stress": BLUE, "displacement": VERMILION, "none": VERMILION}, BLACK
 # Over the size of the scene [-]: length and half width of an arrow's head, half width of its shaft
 # and of the thrust line, width of the white rim of either, radius of a hinge
 _HEAD, _WIDE, _SHAFT, _LINE, _RIM, _HINGE = 0.045, 0.0165, 0.0060, 0.0040, 0.0022, 0.017
@@ -34,7 +34,7 @@ class Overlay:
 
         self._camera, self._nearer, self._meshes = camera, 2 * frames.result.height, []
         self._size, self._length = scene_size(frames.scene), frames.forces.scale
-        self._thrust = THRUST[frames.colour]
+        self._thrust = _THRUST[frames.colour]
         for colour, points in self._parts(first):
             mesh = pyvista.PolyData.from_regular_faces(*_triangles(points))
             plotter.add_mesh(mesh, color=colour, lighting=False)
@@ -137,7 +137,7 @@ def draw_legend(axes, frames: Frames, newton_per_inch: float) -> None:
     text = dict(va="center_baseline", fontsize=8)
     axes.text(0.11 + long, 0, f"{force / quantity.scale:g} {quantity.unit}", **text)
     place = 0.11 + long + 0.6
-    axes.plot([place, place + 0.28], [0, 0], color=THRUST[frames.colour], linewidth=1.8)
+    axes.plot([place, place + 0.28], [0, 0], color=_THRUST[frames.colour], linewidth=1.8)
     axes.text(place + 0.34, 0, "thrust line", **text)
     place += 1.06
     for colour, told, step in ((BLACK, "hinge", 0.5), ("white", "thrust at edge", 0.0)):

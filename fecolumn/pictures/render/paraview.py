@@ -14,7 +14,7 @@ from fecolumn.pictures.render.field_frames import FieldFrames
 from fecolumn.pictures.render.state_frames import write_fields
 
 #: Name of the script
-NAME = "view.py"
+PARAVIEW_FILE = "view.py"
 _TEMPLATE = Path(__file__).with_name("view.txt")
 
 
@@ -60,7 +60,7 @@ def write_view(result, folder: Path, view: str = "lean", quiet: bool = True) -> 
     text = _TEMPLATE.read_text(encoding="utf-8")
     for name, value in values.items():
         text = text.replace(f"@{name}@", value)
-    write_bytes(folder / NAME, text.encode())
+    write_bytes(folder / PARAVIEW_FILE, text.encode())
 
 
 def _numbers(values: np.ndarray) -> str:

@@ -9,9 +9,9 @@ import numpy as np
 
 from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.engines.dynamics.history import read_history
-from fecolumn.engines.reduced.states import NAME as STATES
+from fecolumn.engines.reduced.states import STATES_FILE as STATES
 from fecolumn.engines.scene.scene import JointFace, Scene
-from fecolumn.engines.summary import NAME, check_owner, read_summary
+from fecolumn.engines.summary import SUMMARY_FILE, check_owner, read_summary
 from fecolumn.foundation.files import Unreadable, is_file, read_json
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.field_frames import FieldFrames, FrameSeries
@@ -217,17 +217,18 @@ def read_result(folder, body: str = "") -> Result:
             "is a rocking model of rigid bodies: nothing is meshed that could be "
             "drawn; its history has figures",
         )
-    if not is_file(folder / NAME):
+    if not is_file(folder / SUMMARY_FILE):
         raise InputError(
             folder,
             "",
             None,
-            f"the analysis has not ended (no {NAME}); fecolumn resume {folder} goes on with it",
+            f"the analysis has not ended (no {SUMMARY_FILE}); fecolumn resume {folder} goes on "
+            "with it",
         )
     try:
         summary = read_summary(folder, read_json(folder / "case.json").get("id"))
     except Unreadable as error:
-        raise InputError(folder / NAME, "", None, str(error)) from None
+        raise InputError(folder / SUMMARY_FILE, "", None, str(error)) from None
     history = read_rows(folder / "history.h5")
     known = read_scene_history(case, folder, history, body)
     fields = FieldFrames(folder / "fields")

@@ -16,13 +16,13 @@ from fecolumn.pictures.render.frame import Fields
 
 #: Modes of a model made anew are those of the analysis when frequencies and signatures agree to
 #: this share: states are kept in single precision
-SAME = 1e-5
+_SAME = 1e-5
 
 
 def same_modes(old: np.ndarray, new: np.ndarray) -> bool:
     """Whether frequencies or signatures made anew are those that a file has."""
     return old.shape == new.shape and np.allclose(
-        old, new, rtol=0, atol=SAME * max(float(np.abs(old).max(initial=0.0)), 1e-300)
+        old, new, rtol=0, atol=_SAME * max(float(np.abs(old).max(initial=0.0)), 1e-300)
     )
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 _MOST_POINTS = 4000
 #: Uplift over the foot's width [-] below which a body only slides: elastic deformation alone opens
 #: some 1e-5 of it
-LIFTED = 1e-4
+LIFTED_UPLIFT = 1e-4
 # Lines that a strip has at most
 _MOST = 4
 
@@ -46,7 +46,7 @@ def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
         return _largest([piece.kind for piece in scene.bodies], values)
 
     widths = [np.ptp(scene.points[contact.points], axis=0).max() for contact in contacts]
-    if any(up.max() > LIFTED * width for (up, _), width in zip(moved, widths)):
+    if any(up.max() > LIFTED_UPLIFT * width for (up, _), width in zip(moved, widths)):
         shown = (
             strip("tilt", r"$\theta$", "rad", by_kind([tilt[rows] for tilt in tilts])),
             strip("uplift", "$w$", "m", _largest(names, [up for up, _ in moved])),

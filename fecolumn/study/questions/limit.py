@@ -43,7 +43,7 @@ class PeakQuantity:
     entry: str
 
 
-QUANTITIES = {
+_QUANTITIES = {
     "top": PeakQuantity(_LENGTHS, "u_max_m", "", ""),
     "tilt": PeakQuantity(_ANGLES, "tilt_max_rad", "bodies", "tilt_max_rad"),
     "acceleration": PeakQuantity(_ACCELERATIONS, "", "bodies", "acceleration_max_m_s2"),
@@ -65,7 +65,7 @@ _ENDINGS: dict[str, Callable[[dict[str, Any]], bool]] = {
 }
 _KNOWN = (
     "overturn, slide off, lost (either), or one of "
-    f"{', '.join(QUANTITIES)} with a value and its unit, such as top > 50 mm, tilt > 2 deg, "
+    f"{', '.join(_QUANTITIES)} with a value and its unit, such as top > 50 mm, tilt > 2 deg, "
     "slide[foot] > 5 mm, acceleration > 0.5 g, tension[tendon] > 20 kN"
 )
 
@@ -79,7 +79,7 @@ class LimitEvent:
     text
         in the user's words.
     quantity
-        name in QUANTITIES, or of how an analysis ends.
+        name in _QUANTITIES, or of how an analysis ends.
     part
         how the name of the joint, body, link or storey begins; "" for any of them.
     threshold
@@ -109,7 +109,7 @@ class LimitEvent:
 
     def peak(self, summary: dict[str, Any]) -> float:
         """Largest value of the quantity in a run, in SI units; InputError as of `happened`."""
-        kind = QUANTITIES[self.quantity]
+        kind = _QUANTITIES[self.quantity]
         if kind.whole and not self.part:
             return float(summary[kind.whole])
         parts = summary.get(kind.table) or {}
@@ -170,9 +170,9 @@ def read_event(text: str, command: str, engine: str | None = None) -> LimitEvent
     found = _EVENT.fullmatch(text.strip())
     name = " ".join((found[1] if found else plain).replace("_", " ").split())
     name = name.removeprefix("peak ")
-    if found is None or name not in QUANTITIES:
-        raise refuse(f"must be {_KNOWN}{meant(name, [*QUANTITIES, *_ENDINGS])}")
-    kind, (_, part, value, unit) = QUANTITIES[name], found.groups()
+    if found is None or name not in _QUANTITIES:
+        raise refuse(f"must be {_KNOWN}{meant(name, [*_QUANTITIES, *_ENDINGS])}")
+    kind, (_, part, value, unit) = _QUANTITIES[name], found.groups()
     words = ", ".join(kind.units)
     if unit not in kind.units:
         what = f"{unit!r} is no unit of {name}" if unit else f"{name} has no unit here"

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from fecolumn.study.alpha import ALPHA
+from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED, Claim
 from fecolumn.study.report.notation import axis_name, count, fixed, interval, level_text, number
-from fecolumn.study.report.sweep import DT, Setting, Sweep
+from fecolumn.study.report.sweep import DT_KEY, Setting, Sweep
 
 _RESAMPLES = 2000
 _SMALL = 1.5  # a factor below it is a small increase
@@ -80,8 +80,8 @@ def cost_ratios(sweep: Sweep, axis: str, ends: bool = False) -> list[CostRatio]:
 def cost_claims(sweep: Sweep) -> list[Claim]:
     """A smaller time step costs much more, less numerical damping a little more."""
     return [
-        _step_claim(sweep, cost_ratios(sweep, DT)),
-        _alpha_claim(sweep, cost_ratios(sweep, ALPHA, ends=True)),
+        _step_claim(sweep, cost_ratios(sweep, DT_KEY)),
+        _alpha_claim(sweep, cost_ratios(sweep, ALPHA_KEY, ends=True)),
     ]
 
 
@@ -95,7 +95,7 @@ def _step_claim(sweep: Sweep, ratios: list[CostRatio]) -> Claim:
     if not ratios:
         return Claim("d1", paper, "No motion has been run at two time steps yet.", rule, UNDECIDED)
     parts = [
-        f"From {level_text(DT, one.high)} to {level_text(DT, one.low)}, the cost of a "
+        f"From {level_text(DT_KEY, one.high)} to {level_text(DT_KEY, one.low)}, the cost of a "
         "second of motion grows by a factor of "
         f"{number(1 / one.ratio)} "
         f"{interval(1 / one.ratio_high, 1 / one.ratio_low, number)}; the steps alone "
@@ -110,7 +110,7 @@ def _step_claim(sweep: Sweep, ratios: list[CostRatio]) -> Claim:
     if any(1 / one.ratio < 0.8 * one.high / one.low for one in ratios):
         parts.append(
             "Cost grows more slowly than the number of steps. "
-            f"{_iterations(sweep, DT, ratios[0].low, ratios[-1].high)}"
+            f"{_iterations(sweep, DT_KEY, ratios[0].low, ratios[-1].high)}"
         )
     return Claim("d1", paper, " ".join(parts), rule, verdict)
 
@@ -125,7 +125,7 @@ def _alpha_claim(sweep: Sweep, ratios: list[CostRatio]) -> Claim:
         return Claim("d2", paper, "No motion has been run at two values of α yet.", rule, UNDECIDED)
     one = ratios[0]
     text = (
-        f"From α = {level_text(ALPHA, one.low)} to {level_text(ALPHA, one.high)} the "
+        f"From α = {level_text(ALPHA_KEY, one.low)} to {level_text(ALPHA_KEY, one.high)} the "
         f"cost changes by a factor of {fixed(one.ratio)} "
         f"{interval(one.ratio_low, one.ratio_high)} (geometric mean, {count(one.n, 'motion')})."
     )
@@ -134,7 +134,7 @@ def _alpha_claim(sweep: Sweep, ratios: list[CostRatio]) -> Claim:
         one.ratio_high < 1 or one.ratio_low > _SMALL,
     )
     if outside:
-        text += f" Here ours disagrees. {_iterations(sweep, ALPHA, one.low, one.high)}"
+        text += f" Here ours disagrees. {_iterations(sweep, ALPHA_KEY, one.low, one.high)}"
     return Claim(
         "d2", paper, text, rule, SUPPORTED if inside else NOT_SUPPORTED if outside else UNDECIDED
     )

@@ -5,11 +5,11 @@ is then marginal.
 from __future__ import annotations
 
 from fecolumn.statistics.equivalence import difference_shortfall, equality_shortfall
-from fecolumn.study.alpha import ALPHA
+from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.claim import MARGIN, NOT_SUPPORTED, SUPPORTED, UNDECIDED, Claim
 from fecolumn.study.report.notation import count, fixed, level_text, p_clause, percent, setting_text
 from fecolumn.study.report.pair import FINE_STEPS, WITH_COARSE_STEP, ComparedPair
-from fecolumn.study.report.sweep import DT
+from fecolumn.study.report.sweep import DT_KEY
 
 _SAME = (
     "supported: no paired p below 0.05 (Holm over the family) and a distance beyond "
@@ -41,20 +41,20 @@ def distribution_claims(pairs: list[ComparedPair], alpha_note: str = "") -> list
         _different(
             "b1",
             "The CDF depends moderately on Δt where steps above 1 ms take part.",
-            family(DT, WITH_COARSE_STEP),
+            family(DT_KEY, WITH_COARSE_STEP),
             _COARSE_STEP,
         ),
         _same(
             "b2",
             "The CDF does not depend significantly on Δt once Δt ≤ 1 ms.",
-            family(DT, FINE_STEPS),
+            family(DT_KEY, FINE_STEPS),
             "two time steps of 1 ms or below",
         ),
         _same(
             "c",
             "Once Δt ≤ 1 ms, the influence of α on the CDF is marginal and practically "
             "insignificant.",
-            family(ALPHA, FINE_STEPS),
+            family(ALPHA_KEY, FINE_STEPS),
             "two values of α at a time step of 1 ms or below",
             alpha_note,
         ),

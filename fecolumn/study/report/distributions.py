@@ -10,7 +10,7 @@ from fecolumn.pictures.figures.interval_figure import IntervalRow, Scale, interv
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.statistics.convergence import cdf_convergence
 from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
-from fecolumn.study.alpha import ALPHA
+from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.claim import CALIBRATION_TARGET
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.families import families, shortfalls
@@ -89,7 +89,7 @@ def distributions(sweep: Sweep, pairs: list[ComparedPair], gallery: Gallery) -> 
             *shortfalls(pairs),
             *(
                 [Paragraph(sweep.alpha_note, warning=True)]
-                if sweep.alpha_note and ALPHA in sweep.varied
+                if sweep.alpha_note and ALPHA_KEY in sweep.varied
                 else []
             ),
             families(pairs),

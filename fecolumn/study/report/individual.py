@@ -7,7 +7,7 @@ import numpy as np
 from fecolumn.engines.ending import lost
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.pair_figure import Variable, pair_figure
-from fecolumn.study.alpha import ALPHA
+from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.distributions import setting_words
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.gallery import Gallery
@@ -84,7 +84,7 @@ def individual(sweep: Sweep, gallery: Gallery) -> PageSection | None:
                 folded=len(rows) > _FOLD,
             )
         )
-    if ALPHA in sweep.varied and sweep.alpha_note:
+    if ALPHA_KEY in sweep.varied and sweep.alpha_note:
         blocks.append(Paragraph(sweep.alpha_note, warning=True))
     blocks.append(_motions(sweep))
     return PageSection("One by one", blocks)

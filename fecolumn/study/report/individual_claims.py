@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.statistics.holm import holm
 from fecolumn.statistics.trend import Trend, trend
-from fecolumn.study.alpha import ALPHA
+from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED, Claim
 from fecolumn.study.report.notation import (
     axis_name,
@@ -19,7 +19,7 @@ from fecolumn.study.report.notation import (
     percent,
     setting_text,
 )
-from fecolumn.study.report.sweep import DT, FINE_DT_S, Line, Sweep, common_motions, common_peaks
+from fecolumn.study.report.sweep import DT_KEY, FINE_DT_S, Line, Sweep, common_motions, common_peaks
 
 _STRONG_SPREAD, _LITTLE_SPREAD = 1.25, 1.05
 _OFTEN = 0.05
@@ -95,10 +95,10 @@ def individual_claims(sweep: Sweep, axes) -> list[Claim]:
 
 
 def _fine_trend(line: Line) -> Trend | None:
-    fine = [s for s in line.settings if s.values.get(DT, 1.0) <= FINE_DT_S]
+    fine = [s for s in line.settings if s.values.get(DT_KEY, 1.0) <= FINE_DT_S]
     return (
         trend(*Line(line.axis, line.others, tuple(fine)).peaks())
-        if line.axis == DT and 1 < len(fine) < len(line.settings)
+        if line.axis == DT_KEY and 1 < len(fine) < len(line.settings)
         else None
     )
 
@@ -183,7 +183,7 @@ def _trend(sweep: Sweep, axis: str) -> Claim:
         )
     else:
         parts.append(f"Not one is significant (smallest {p_clause(worst.p_holm)}).")
-    if axis == ALPHA and sweep.alpha_note:
+    if axis == ALPHA_KEY and sweep.alpha_note:
         parts.append(sweep.alpha_note)
     if verdict == UNDECIDED:
         widest = max(outside, key=lambda one: one.trend.tau_high - one.trend.tau_low)

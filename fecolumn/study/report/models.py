@@ -23,12 +23,12 @@ from fecolumn.study.report.distributions import axis_columns
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import count, interval, millimetres, number, p_value, percent
-from fecolumn.study.report.sweep import ENGINE, Setting, Sweep, common_motions
+from fecolumn.study.report.sweep import ENGINE_KEY, Setting, Sweep, common_motions
 
 #: What the others are measured against: the first of these with the most motions that one of them
 #: has.
 NEAREST = ("full", "reduced", "rigid")
-NAMES = {
+_NAMES = {
     "full": "finite elements, full order",
     "reduced": "finite elements, reduced",
     "rigid": "rigid body with contact",
@@ -38,16 +38,16 @@ NAMES = {
     "wobbling_frame": "wobbling frame",
     "podium": "rocking podium",
 }
-ALL = "all"
+_ALL = "all"
 _PANELS, _MOST = 6, 12
 
 
 def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     """The section; None where the study has one engine, or no two of them on common motions."""
-    lines = [line for line in _lines(sweep) if line.reference] if ENGINE in sweep.varied else []
+    lines = [line for line in _lines(sweep) if line.reference] if ENGINE_KEY in sweep.varied else []
     if not lines:
         return None
-    others = [axis for axis in sweep.varied if axis != ENGINE]
+    others = [axis for axis in sweep.varied if axis != ENGINE_KEY]
     ensembles = _ensembles(lines)
     fewer = {
         name: sorted(
@@ -55,7 +55,7 @@ def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
                 len(line.common(one))
                 for line in lines
                 for one in line.settings
-                if one.values[ENGINE] == name
+                if one.values[ENGINE_KEY] == name
             }
         )
         for line in lines
@@ -67,9 +67,9 @@ def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
         for name, some in ensembles.items()
         for row in _rows(line, others, name if len(ensembles) > 1 else "", some, bool(fewer))
     ]
-    nearest = {line.reference.values[ENGINE] for line in lines}
-    references = " or ".join(NAMES[one] for one in NEAREST if one in nearest)
-    found = {one.values[ENGINE] for line in lines for one in line.settings}
+    nearest = {line.reference.values[ENGINE_KEY] for line in lines}
+    references = " or ".join(_NAMES[one] for one in NEAREST if one in nearest)
+    found = {one.values[ENGINE_KEY] for line in lines for one in line.settings}
     motions_text = (
         f"{_span(len(line.reference.runs) for line in lines)} motions{_exceptions(fewer)}"
     )
@@ -97,13 +97,13 @@ def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
         (line, name, some)
         for line in lines
         for name, some in ensembles.items()
-        if (name != ALL or len(ensembles) == 1) and _of(line.reference.runs, some)
+        if (name != _ALL or len(ensembles) == 1) and _of(line.reference.runs, some)
     ]
     panels = [
         CdfPanel(
             ", ".join(
                 [
-                    *([name] if name != ALL else []),
+                    *([name] if name != _ALL else []),
                     *(axis_text(axis, value) for axis, value in line.others.items()),
                 ]
             ),
@@ -131,7 +131,7 @@ def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     columns = (
         *axis_columns(others),
         *named,
-        PageColumn("engine", "engine", lambda one: str(NAMES.get(one, one)), text=True),
+        PageColumn("engine", "engine", lambda one: str(_NAMES.get(one, one)), text=True),
         PageColumn("n", "n"),
         PageColumn("overturned", "over\N{SOFT HYPHEN}turned"),
         PageColumn("p_overturn", "P(overturn)", percent),
@@ -197,7 +197,7 @@ class _Beside:
     @property
     def fewer(self) -> list[str]:
         return [
-            one.values[ENGINE]
+            one.values[ENGINE_KEY]
             for one in self.settings
             if len(self.common(one)) < len(self.reference.runs)
         ]
@@ -205,8 +205,8 @@ class _Beside:
 
 def _lines(sweep: Sweep) -> list[_Beside]:
     found = []
-    for others, settings in sweep.groups(ENGINE):
-        known = [one for name in NEAREST for one in settings if one.values[ENGINE] == name]
+    for others, settings in sweep.groups(ENGINE_KEY):
+        known = [one for name in NEAREST for one in settings if one.values[ENGINE_KEY] == name]
         reference = max(known, key=lambda one: len(one.runs), default=None)
         there = tuple(one for one in settings if reference and common_motions((reference, one)))
         if len(there) > 1:
@@ -222,18 +222,18 @@ def _span(numbers) -> str:
 def _exceptions(fewer: dict[str, list[int]]) -> str:
     """What is said of engines that have fewer motions, by their names."""
     spans = (
-        f"{NAMES.get(name, name)}: {_span(numbers)} of them" for name, numbers in fewer.items()
+        f"{_NAMES.get(name, name)}: {_span(numbers)} of them" for name, numbers in fewer.items()
     )
     return f" ({', '.join(spans)})" if fewer else ""
 
 
 def _label(line: _Beside, setting: Setting, motions: int) -> str:
-    name = setting.values[ENGINE]
-    return NAMES.get(name, name) + (f", n = {motions}" if name in line.fewer else "")
+    name = setting.values[ENGINE_KEY]
+    return _NAMES.get(name, name) + (f", n = {motions}" if name in line.fewer else "")
 
 
 def _ensembles(lines) -> dict[str, set | None]:
-    """Motions by the ensemble file that they are of, ALL of them first; ALL alone where the study
+    """Motions by the ensemble file that they are of, _ALL of them first; _ALL alone where the study
     has no two such files, or motions of none.
     """
     found: dict[str, set] = {}
@@ -247,9 +247,9 @@ def _ensembles(lines) -> dict[str, set | None]:
             None,
         )
         if member is None:
-            return {ALL: None}
+            return {_ALL: None}
         found.setdefault(Path(member[0]).stem, set()).add(motion)
-    return {ALL: None} | (found if 1 < len(found) <= _MOST else {})
+    return {_ALL: None} | (found if 1 < len(found) <= _MOST else {})
 
 
 def _of(motions, some: set | None) -> list[str]:
@@ -281,7 +281,7 @@ def _rows(line: _Beside, others, ensemble: str, some: set | None, any_fewer: boo
         yield (
             *(setting.values[axis] for axis in others),
             *([ensemble] if ensemble else []),
-            setting.values[ENGINE],
+            setting.values[ENGINE_KEY],
             len(motions),
             int(fallen.sum()),
             float(fallen.mean()),

@@ -7,7 +7,7 @@ import re
 
 from fecolumn.pictures.figures.axis_text import axis_unit, axis_words, level_number
 
-ALL = "all analyses"  # where nothing tells settings apart
+ALL_ANALYSES = "all analyses"  # where nothing tells settings apart
 MINUS, DASH, THIN = "\N{MINUS SIGN}", "\N{EM DASH}", "\N{NARROW NO-BREAK SPACE}"
 _SYMBOLS = {
     "integration.dt_s": "\N{GREEK CAPITAL LETTER DELTA}t",
@@ -141,7 +141,7 @@ def sentence(words: str) -> str:
 def setting_text(values: dict) -> str:
     """Values of all axes, such as "Δt = 0.001 s, α = −0.2"."""
     if not values:
-        return ALL
+        return ALL_ANALYSES
     equals = "\N{NO-BREAK SPACE}=\N{NO-BREAK SPACE}"
     return ", ".join(
         level_text(key, value)

@@ -11,7 +11,7 @@ from fecolumn.foundation.atomic import write_bytes
 from fecolumn.foundation.folder import written
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.ecdf import proportion_interval
-from fecolumn.study.alpha import ALPHA
+from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.all_motions import all_motions
 from fecolumn.study.report.audit import audit
 from fecolumn.study.report.claim import MARGIN, SUPPORTED, Claim, ClaimList
@@ -42,7 +42,7 @@ from fecolumn.study.report.power import power
 from fecolumn.study.report.provenance import provenance
 from fecolumn.study.report.sensitivity import sensitivity_section
 from fecolumn.study.report.specimen import specimen
-from fecolumn.study.report.sweep import DT, Sweep, read_sweep
+from fecolumn.study.report.sweep import DT_KEY, Sweep, read_sweep
 from fecolumn.study.report.timing import timing
 from fecolumn.study.store import DONE, FAILED
 
@@ -87,13 +87,13 @@ def write_report(folder, output=None, files=("pdf", "png")) -> Path:
 
 def has_claims(sweep: Sweep) -> bool:
     """Whether the paper's claims can be put to the study: it varies the time step and alpha_HHT."""
-    return DT in sweep.varied and ALPHA in sweep.varied
+    return DT_KEY in sweep.varied and ALPHA_KEY in sweep.varied
 
 
 def claims_of(sweep: Sweep, pairs: list[ComparedPair]) -> list[Claim]:
     """The paper's claims (a) to (d) put to the study."""
     return [
-        *individual_claims(sweep, (DT, ALPHA)),
+        *individual_claims(sweep, (DT_KEY, ALPHA_KEY)),
         *distribution_claims(pairs, sweep.alpha_note),
         *cost_claims(sweep),
     ]

@@ -11,8 +11,8 @@ from typing import Any
 from fecolumn.statistics.compare import Comparison, compare
 from fecolumn.statistics.equivalence import distance_bound
 from fecolumn.statistics.holm import holm
-from fecolumn.study.alpha import ALPHA
-from fecolumn.study.report.sweep import DT, FINE_DT_S, Line, Sweep
+from fecolumn.study.alpha import ALPHA_KEY
+from fecolumn.study.report.sweep import DT_KEY, FINE_DT_S, Line, Sweep
 
 _MOST = 240  # beyond it only the extreme levels of each line are compared
 _LEAST_MOTIONS = 2
@@ -100,7 +100,7 @@ def read_pairs(sweep: Sweep) -> list[ComparedPair]:
 
 def _family(line: Line) -> str:
     """Tests that answer one question: an axis, and whether a coarse time step takes part."""
-    steps = [setting.values[DT] for setting in line.settings if DT in setting.values]
-    if line.axis not in (DT, ALPHA) or not steps:
+    steps = [setting.values[DT_KEY] for setting in line.settings if DT_KEY in setting.values]
+    if line.axis not in (DT_KEY, ALPHA_KEY) or not steps:
         return line.axis
     return f"{line.axis}, {FINE_STEPS if max(steps) <= FINE_DT_S else WITH_COARSE_STEP}"

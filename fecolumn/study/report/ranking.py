@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fecolumn.statistics.sensitivity import Sensitivity, sensitivity
-from fecolumn.study.report.sweep import ENGINE, Setting, Sweep, common_motions, common_peaks
+from fecolumn.study.report.sweep import ENGINE_KEY, Setting, Sweep, common_motions, common_peaks
 
 _SAMPLED = 8  # an axis with more levels is a sampled one: its outer quarters are compared
 _LEAST_MOTIONS = 5
@@ -39,7 +39,7 @@ def ranking(sweep: Sweep) -> list[Rank]:
     found = [
         rank
         for axis in sweep.varied
-        if axis != ENGINE
+        if axis != ENGINE_KEY
         for rank in [
             _sampled(sweep, axis) if len(sweep.axes[axis]) > _SAMPLED else _crossed(sweep, axis)
         ]

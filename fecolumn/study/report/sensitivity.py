@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fecolumn.pictures.figures.axis_text import axis_text, level_number
 from fecolumn.pictures.figures.interval_figure import IntervalRow, Scale, interval_figure
-from fecolumn.study.alpha import ALPHA
+from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import (
@@ -125,7 +125,7 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> PageSection | None:
             Paragraph(text),
             *(
                 [Paragraph(sweep.alpha_note, warning=True)]
-                if any(rank.axis == ALPHA for rank in ranks) and sweep.alpha_note
+                if any(rank.axis == ALPHA_KEY for rank in ranks) and sweep.alpha_note
                 else []
             ),
             figure,

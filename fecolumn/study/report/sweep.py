@@ -12,15 +12,15 @@ import numpy as np
 from fecolumn.engines.ending import P_LOST, P_OVERTURN, cut_short
 from fecolumn.foundation.files import read_json
 from fecolumn.statistics.ecdf import largest_peak
-from fecolumn.study.alpha import ALPHA, alpha_note
+from fecolumn.study.alpha import ALPHA_KEY, alpha_note
 from fecolumn.study.plan import ENSEMBLE_AXES
-from fecolumn.study.report.notation import ALL, setting_text
+from fecolumn.study.report.notation import ALL_ANALYSES, setting_text
 from fecolumn.study.report.subject import Subject, subject_of
 from fecolumn.study.store import DONE, FAILED, read_study
 
-DT, ENGINE = "integration.dt_s", "integration.engine"
+DT_KEY, ENGINE_KEY = "integration.dt_s", "integration.engine"
 FINE_DT_S = 1e-3 * (1 + 1e-9)  # what the paper calls small enough
-PAPER_CHOICE = {DT: 1e-3, ALPHA: -0.2}
+PAPER_CHOICE = {DT_KEY: 1e-3, ALPHA_KEY: -0.2}
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +184,7 @@ class Sweep:
     def at(self, values: dict) -> str:
         """Words such as "at Δt = 0.001 s"."""
         words = self.words(values)
-        return f"in {ALL}" if words == ALL else f"at {words}"
+        return f"in {ALL_ANALYSES}" if words == ALL_ANALYSES else f"at {words}"
 
     def words(self, values: dict) -> str:
         """Values of the axes that vary, such as "Δt = 0.001 s, α = −0.2"; those of one value alone

@@ -6,13 +6,13 @@ import numpy as np
 
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
-from fecolumn.study.alpha import ALPHA
+from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.cost import second_cost
 from fecolumn.study.report.distributions import axis_columns
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import axis_name, number, sentence
-from fecolumn.study.report.sweep import DT, Setting, Sweep
+from fecolumn.study.report.sweep import DT_KEY, Setting, Sweep
 
 _CURVES, _FOLD = 7, 40
 
@@ -109,16 +109,16 @@ def _figure(sweep: Sweep, gallery: Gallery):
     """Cost along the time step where it was varied, a curve for each level of the next axis,
     medians with 16-84 % bands.
     """
-    if DT not in sweep.varied:
+    if DT_KEY not in sweep.varied:
         return None
-    others = [axis for axis in sweep.varied if axis != DT]
-    axis = ALPHA if ALPHA in others else others[0] if others else None
+    others = [axis for axis in sweep.varied if axis != DT_KEY]
+    axis = ALPHA_KEY if ALPHA_KEY in others else others[0] if others else None
     curves = []
     for level in sweep.axes[axis][:_CURVES] if axis else [None]:
         members = [one for one in sweep.done if axis is None or one.values[axis] == level]
-        steps = sorted({one.values[DT] for one in members})
+        steps = sorted({one.values[DT_KEY] for one in members})
         costs = [
-            np.concatenate([second_cost(one) for one in members if one.values[DT] == step])
+            np.concatenate([second_cost(one) for one in members if one.values[DT_KEY] == step])
             for step in steps
         ]
         quantiles = np.array([np.nanquantile(cost, [0.16, 0.5, 0.84]) for cost in costs])
@@ -165,8 +165,8 @@ def _relative(sweep: Sweep, axis: str) -> list[Curve]:
     if not all(isinstance(level, (int, float)) for level in sweep.axes[axis]):
         return []
     curves = []
-    for step in sweep.axes[DT][:_CURVES]:
-        lines = [line for line in sweep.lines(axis) if line.others[DT] == step]
+    for step in sweep.axes[DT_KEY][:_CURVES]:
+        lines = [line for line in sweep.lines(axis) if line.others[DT_KEY] == step]
         if not lines:
             continue
         line, motions = lines[len(lines) // 2], lines[len(lines) // 2].motions()
@@ -182,7 +182,7 @@ def _relative(sweep: Sweep, axis: str) -> list[Curve]:
         if np.isfinite(middle).all():
             curves.append(
                 Curve(
-                    axis_text(DT, step),
+                    axis_text(DT_KEY, step),
                     np.array(line.levels, float),
                     np.exp(middle),
                     (np.exp(middle - reach), np.exp(middle + reach)),

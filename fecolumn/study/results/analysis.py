@@ -79,9 +79,9 @@ class AnalysisResult:
         InputError
             it is damaged, edited, or of another case.
         """
-        from fecolumn.engines.summary import NAME, summary_of_folder
+        from fecolumn.engines.summary import SUMMARY_FILE, summary_of_folder
 
-        return summary_of_folder(self.folder) if is_file(self.folder / NAME) else {}
+        return summary_of_folder(self.folder) if is_file(self.folder / SUMMARY_FILE) else {}
 
     @functools.cached_property
     def case(self):

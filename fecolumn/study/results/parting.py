@@ -15,7 +15,7 @@ from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.figures.quantity import Quantity
-from fecolumn.pictures.render.strips import LIFTED
+from fecolumn.pictures.render.strips import LIFTED_UPLIFT
 
 #: Difference at which two histories have parted, over the larger of their peaks [-]: a twentieth is
 #: seen in a figure
@@ -190,7 +190,9 @@ def _uplift(case, history) -> tuple[np.ndarray, bool]:
     )
     height = np.maximum(np.max(rises, axis=0), 0.0) if rises else np.zeros(len(history["time"]))
     # an edge that is lifted by a share of the width is a tilt of as much
-    return height, bool(np.max(tilts) > LIFTED if tilts else np.max(history["tilt"]) > LIFTED)
+    return height, bool(
+        np.max(tilts) > LIFTED_UPLIFT if tilts else np.max(history["tilt"]) > LIFTED_UPLIFT
+    )
 
 
 def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:

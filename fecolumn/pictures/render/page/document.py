@@ -23,9 +23,9 @@ from fecolumn.pictures.render.result import Result
 from fecolumn.pictures.render.strips import strips_of
 
 #: The file
-NAME = "motion.html"
+PAGE_FILE = "motion.html"
 #: What has to be installed
-INSTALL = "needs k3d: pip install 'fecolumn[html]'"
+_INSTALL = "needs k3d: pip install 'fecolumn[html]'"
 # The programs of the page, each needed by the next
 _PROGRAMS = "turns.js", "strip.js", "page.js"
 _GENERATOR = '<meta name="generator" content="fecolumn'
@@ -63,7 +63,7 @@ def page_of(result: Result, span: tuple[float, float], view: str, speed: float) 
     try:
         import k3d  # noqa: F401
     except ImportError as error:
-        raise InputError(COMMAND, "--html", None, f"{INSTALL} ({error})") from None
+        raise InputError(COMMAND, "--html", None, f"{_INSTALL} ({error})") from None
     times = times_of(result, span, speed)
     parts, plot = parts_of(result, times), MotionPlot(result, times, _VIEW)
     colours = {

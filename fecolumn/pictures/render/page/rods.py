@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.engines.scene.scene import GROUND
+from fecolumn.contact.points import GROUND
 from fecolumn.pictures.render.page.parts import RigidPart
 from fecolumn.pictures.render.result import Result
 

@@ -1,0 +1,162 @@
+"""Gravity equilibrium where proximal steps alone hardly move: reactions are those of statics."""
+
+import numpy as np
+import pytest
+from small_structures import STONE, structure
+
+from fecolumn.case.sections import GRAVITY
+from fecolumn.contact.points import BASE
+from fecolumn.contact.pose import poses_of
+from fecolumn.engines.dynamics.links import span
+from fecolumn.engines.reduced_engine import engine_of
+from fecolumn.foundation._compiled import interpreted
+from fecolumn.structures.structure import structure_model
+
+# what is not balanced, over the weight (`tolerances.BALANCED`), and what it makes of reactions
+EXACT = 1e-7
+COARSE = dict(kind="block", element_size_m=0.1, modes=6)
+
+
+def standing(**tables):
+    """Engine of a structure in gravity equilibrium."""
+    case = structure(contact=dict(interior_points=9), **tables)
+    return engine_of(case, structure_model(case), "small.toml")
+
+
+def force(engine, joint: int) -> np.ndarray:
+    """Force (3,) of a joint on its slave [N] in the table frame."""
+    motion, structure = engine.motion, engine.structure
+    poses = poses_of(structure.interfaces, motion.frames["center"], motion.rotation, motion.grounds)
+    own = engine.points["interface"] == joint
+    return poses["frame"][joint] @ motion.contact["force"][own].sum(axis=0)
+
+
+def carried(engine, joint: int) -> float:
+    """What a joint carries [N]."""
+    return abs(float(force(engine, joint)[2]))
+
+
+def weights(engine) -> np.ndarray:
+    """Of each body [N]."""
+    return engine.structure.bodies.body["mass"] * GRAVITY
+
+
+def heavy_on_light(engine: str, density: float, modulus: float):
+    """A cube of lead of 1 m on a block of 0.3 m of so many kg/m3 and Pa."""
+    light = COARSE | dict(length_m=0.3, width_m=0.3, height_m=0.3, density_kg_m3=density)
+    cube = COARSE | dict(length_m=1.0, width_m=1.0, height_m=1.0, element_size_m=0.25)
+    lead = dict(youngs_modulus_pa=16e9, poissons_ratio=0.4, density_kg_m3=11340.0)
+    return standing(
+        bodies=dict(
+            light=light | dict(youngs_modulus_pa=modulus, poissons_ratio=0.2),
+            heavy=cube | lead | dict(at_m=[0, 0, 0.3]),
+        ),
+        joints=dict(foot=dict(between=["light", "ground"]), top=dict(between=["light", "heavy"])),
+        integration=dict(engine=engine, dt_s=5e-4),
+    )
+
+
+@pytest.mark.filterwarnings("ignore:.*density_kg_m3")
+@pytest.mark.parametrize(
+    "engine, density, modulus",
+    [("rigid", 400.0, 1e9), ("rigid", 0.4, 1e9), ("reduced", 20.0, 1e8), ("reduced", 0.4, 2e10)],
+)
+def test_a_light_body_carries_a_heavy_one_up_to_a_million_times_its_mass(engine, density, modulus):
+    made = heavy_on_light(engine, density, modulus)
+    light, heavy = weights(made)
+    assert carried(made, 0) == pytest.approx(light + heavy, rel=EXACT)
+    assert carried(made, 1) == pytest.approx(heavy, rel=EXACT)
+    # and it stays where it is: nothing is let go at the start
+    rows, _ = made.advance(np.zeros((20, 3)))
+    assert carried(made, 0) == pytest.approx(light + heavy, rel=1e-5)
+
+
+def test_a_tendon_between_a_post_on_a_pad_and_a_lintel_is_in_balance():
+    """Of each body the forces of joints and of the tendon, which has lost some of its prestress to
+    the pad, hold the weight.
+    """
+    post = COARSE | STONE | dict(length_m=0.3, width_m=0.5, height_m=1.2)
+    made = standing(
+        bodies=dict(
+            left=post | dict(at_m=[-0.5, 0, -0.4]),
+            right=post | dict(height_m=0.8, at_m=[0.5, 0, 0]),
+            lintel=COARSE
+            | STONE
+            | dict(length_m=1.4, width_m=0.5, height_m=0.15, at_m=[0, 0, 0.8]),
+        ),
+        grounds=dict(
+            lower=dict(
+                level_m=-0.4, kind="pad", stiffness_n_m3=5e8, yield_pa=6e4, damping_ratio=0.2
+            ),
+            upper=dict(kind="rigid"),
+        ),
+        joints=dict(
+            l=dict(between=["left", "lower"]),
+            r=dict(between=["right", "upper"]),
+            heads=dict(between=["left", "lintel"], stiffness_n_m3=1e9),
+            other=dict(between=["right", "lintel"]),
+        ),
+        links=dict(
+            t=dict(
+                kind="tendon",
+                body="left",
+                point_m=[0, 0.2, 0.6],
+                to="lintel",
+                to_point_m=[0, 0.2, 1.3],
+                stiffness_n_m=1e6,
+                prestress_n=500.0,
+            )
+        ),
+        integration=dict(engine="reduced", dt_s=5e-4),
+    )
+    left, right, lintel = weights(made)
+    (tie,), way = made.motion.ties, np.empty(3)
+    length = interpreted(span)(made.structure, 0, made.motion, way)
+    pull = way * tie["force"] / length
+    assert 400.0 < tie["force"] < 500.0
+    on = np.zeros((3, 3))
+    for k, joint in enumerate(made.structure.interfaces):
+        for b, sign in ((joint["slave"], 1.0), (joint["master"], -1.0)):
+            if b != BASE:
+                on[b] += sign * force(made, k)
+    balance = on + np.outer([1.0, 0.0, -1.0], pull)
+    balance[:, 2] -= [left, right, lintel]
+    np.testing.assert_allclose(balance, 0.0, atol=EXACT * (left + right + lintel))
+    feet = carried(made, 0) + carried(made, 1)
+    assert feet == pytest.approx(left + right + lintel, rel=EXACT)
+
+
+@pytest.mark.parametrize("modulus, layer", [(1e9, 1e10), (2e7, 1e10), (5e7, 1e11)])
+def test_a_soft_post_stands_on_stiff_glue(modulus, layer):
+    """Pressure goes through the contact, whatever the glue: it carries both weights, and the post
+    becomes shorter by its own weight's half and the cap's on E A / h.
+    """
+    soft = dict(youngs_modulus_pa=modulus, poissons_ratio=0.0, density_kg_m3=500.0)
+    made = standing(
+        bodies=dict(
+            post=COARSE | soft | dict(length_m=0.3, width_m=0.3, height_m=1.5),
+            cap=COARSE | STONE | dict(length_m=0.4, width_m=0.4, height_m=0.4, at_m=[0, 0, 1.5]),
+        ),
+        joints=dict(
+            foot=dict(between=["post", "ground"], tension_pa=1e6, bond_stiffness_n_m3=layer),
+            top=dict(between=["post", "cap"]),
+        ),
+        integration=dict(engine="reduced", dt_s=2e-5),
+    )
+    post, cap = weights(made)
+    assert carried(made, 0) == pytest.approx(post + cap, rel=1e-5)
+    assert carried(made, 1) == pytest.approx(cap, rel=EXACT)
+    sunk = -(made.motion.frames["center"] - made.view.center)[1, 2]
+    assert sunk == pytest.approx((cap + post / 2) * 1.5 / (modulus * 0.09), rel=0.05)
+
+
+@pytest.mark.parametrize("engine", ["rigid", "reduced"])
+def test_bodies_as_far_apart_as_they_may_be_placed_come_to_rest(engine):
+    low = COARSE | STONE | dict(length_m=0.1, width_m=0.1, height_m=0.1)
+    made = standing(
+        bodies={name: low | dict(at_m=[x, x, 0.0]) for name, x in (("one", -1e4), ("other", 1e4))},
+        joints={name: dict(between=[name, "ground"]) for name in ("one", "other")},
+        integration=dict(engine=engine, dt_s=1e-3),
+    )
+    for joint, weight in enumerate(weights(made)):
+        assert carried(made, joint) == pytest.approx(weight, rel=EXACT)
