@@ -23,14 +23,14 @@ from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import Plan, plan_of
-from fecolumn.study.report.models import NAMES
 from fecolumn.study.run import complete_study
 
 STUDY = Path(__file__).with_name("models_beside.toml")
 ENGINE = "integration.engine"
-LABELS = NAMES | dict(
+LABELS = dict(
     housner="planar block",
     wobbling="rolling column",
+    rigid="rigid body with contact",
     reduced="finite elements",
     full="finite elements, full order",
 )
