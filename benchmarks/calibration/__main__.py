@@ -1,7 +1,7 @@
 """Which specimen overturns as often as that of the paper: P(overturn) over diameter and height of
 the column.
 
-    ./containers/run python -m benchmarks.calibration [-o DIR] [-j N]
+    ./containers/run python -m benchmarks.calibration [-o DIR] [-j N] [--motions N]
 
 Katsamakas and Vassiliou (COMPDYN) publish neither dimensions nor motions; they found P(overturn) =
 43.5 % at dt = 1e-3 s and alpha = -0.2. With the Lick ensemble the column nearest to it is chosen
@@ -19,6 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.beside import markdown
 from fecolumn.foundation.atomic import write_bytes
 from fecolumn.pictures.figures.style import PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.statistics.ecdf import proportion_interval
@@ -124,6 +125,23 @@ def table(found) -> str:
     return text.getvalue()
 
 
+def printed(found) -> str:
+    """The map as a table of text: P(overturn) with its 95 % interval, a line a height."""
+    diameters, heights = (sorted({key[axis] for key in found}) for axis in (0, 1))
+
+    def cell(diameter, height):
+        overturned, done = found.get((diameter, height), (0, 0))
+        if not done:
+            return ""
+        low, high = proportion_interval(overturned, done)
+        share = f"{100 * overturned / done:.1f} ({100 * low:.1f} to {100 * high:.1f})"
+        return f"{share}, n = {done}"
+
+    head = "height [m]", *(f"diameter {1e3 * one:g} mm: P [%]" for one in diameters)
+    rows = [(f"{height:g}", *(cell(one, height) for one in diameters)) for height in heights]
+    return markdown(head, rows)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("-o", "--output", metavar="DIR", default="results/calibration")
@@ -135,18 +153,16 @@ def main() -> None:
         default=os.cpu_count() or 1,
         help="analyses at a time (default: %(default)s)",
     )
+    parser.add_argument("--motions", metavar="N", type=int, default=115, help="the first of them")
     args = parser.parse_args()
-    found = cells(
-        complete_study(
-            read_plan(Path(__file__).with_name("map.toml")),
-            Path(args.output) / "study",
-            workers=args.jobs,
-            retry_failed=True,
-        )
-    )
+    plan = read_plan(Path(__file__).with_name("map.toml"))
+    first = {f"lick:{number}" for number in range(1, args.motions + 1)}
+    only = {one.id for one in plan.analyses if one.values["motion.source"] in first}
+    folder = Path(args.output) / "study"
+    found = cells(complete_study(plan, folder, workers=args.jobs, retry_failed=True, only=only))
     write_bytes(Path(args.output) / "map.csv", table(found).encode())
     files = draw(found, Path(args.output) / "map")
-    print(table(found), end="")
+    print(printed(found))
     diameter, height = nearest(found)
     print(
         f"nearest to {100 * TARGET:g} %: outer diameter {1e3 * diameter:g} mm, height {height:g} m"

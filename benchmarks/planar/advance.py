@@ -52,6 +52,8 @@ class History:
         whether a body tilted by more than FALLEN, which ends it.
     unsolved
         steps whose friction problem was solved to more than TOLERANCE only.
+    cpu_s, steps
+        processor time of the steps [s], and their number, where a program tells them.
     """
 
     structure: Structure
@@ -61,6 +63,8 @@ class History:
     energy: np.ndarray
     fallen: bool
     unsolved: int
+    cpu_s: float = np.nan
+    steps: int = 0
 
     @property
     def tilt(self) -> np.ndarray:

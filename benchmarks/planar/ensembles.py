@@ -20,7 +20,8 @@ from benchmarks.planar.shaken import EVERY, Response, Shaken
 from fecolumn.foundation.atomic import write_bytes
 
 PLANAR, PACKAGE, SICONOS, BLOCK = "planar", "fecolumn", "Siconos", "equivalent block"
-_REST = 2.0  # [s]
+#: Rest after a motion [s]
+REST = 2.0
 _MOTION = dict(strong_part=(0.05, 0.95), time_scale=3.0, resample_s=0.01)
 _OWN = (
     "bodies.py",
@@ -76,7 +77,7 @@ def motion(case: Shaken, number: int, dt: float) -> np.ndarray:
         Motion(source=f"lick:{number}", **_MOTION), dt, "benchmarks.planar"
     ).acceleration[:, 0]
     return np.concatenate(
-        [a * (case.factor * case.uplift / np.abs(a).max()), np.zeros(round(_REST / dt))]
+        [a * (case.factor * case.uplift / np.abs(a).max()), np.zeros(round(REST / dt))]
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import tempfile
 from pathlib import Path
 
@@ -18,6 +19,8 @@ _SCRIPT = Path(__file__).with_name("siconos.py")
 #: What a motion depends on, besides the structure
 SOURCES = (Path(__file__), _SCRIPT, _SCRIPT.with_name("siconos_corner.c"))
 _CPU_LIMIT_S = 7200.0
+#: theta: no numerical damping; tolerance of NSGS and its most sweeps; tolerance of Newton's loop
+SETTINGS = dict(theta=0.5, tolerance=1e-10, sweeps=20000, newton=1e-9)
 #: Corners of a fixed body farther from the other one are out of reach, the ends of the ground [m]
 _REACH = 20.0
 
@@ -33,7 +36,9 @@ def version() -> str:
     return peer.version(next(one for one in peer.PEERS if one.name == "siconos"))
 
 
-def moved(structure: Structure, ground, dt: float, *, place=None, every: int = 1) -> History:
+def moved(
+    structure: Structure, ground, dt: float, *, place=None, every: int = 1, settings=SETTINGS
+) -> History:
     """As `advance.advance`, by Siconos; works of ground and contacts are not told, nan.
 
     Raises
@@ -54,6 +59,7 @@ def moved(structure: Structure, ground, dt: float, *, place=None, every: int = 1
         inertia=inertia,
         place=place,
         velocity=np.zeros_like(place),
+        settings=json.dumps(settings),
     )
     with tempfile.TemporaryDirectory() as folder:
         given, written = Path(folder) / "job.npz", Path(folder) / "found.npz"
@@ -70,11 +76,12 @@ def moved(structure: Structure, ground, dt: float, *, place=None, every: int = 1
             velocities = np.zeros_like(places)
             places[:, moving], velocities[:, moving] = found["place"], found["velocity"]
             fallen, unsolved = bool(found["fallen"]), int(found["unsolved"])
+            cost = float(found["cpu_s"]), int(found["steps"])
     energy, speed = np.full((len(places), 5), np.nan), velocities[:, moving]
     energy[:, 0] = ((speed[..., :2] ** 2).sum(axis=-1) @ mass + speed[..., 2] ** 2 @ inertia) / 2
     energy[:, 1] = places[:, moving, 1] @ mass * GRAVITY
     time = dt * every * np.arange(len(places))
-    return History(structure, time, places, velocities, energy, fallen, unsolved)
+    return History(structure, time, places, velocities, energy, fallen, unsolved, *cost)
 
 
 def _corners(structure: Structure, moving: list[int]) -> dict:

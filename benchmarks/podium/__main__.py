@@ -22,6 +22,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from multiprocessing import get_context
 from pathlib import Path
 
+from benchmarks.beside import markdown
 from benchmarks.podium.ensemble import SCENARIOS, batches, gathered, responses, write_study
 from fecolumn.foundation.atomic import write_csv
 from fecolumn.pictures.figures.podium_figure import podium_figure
@@ -82,8 +83,9 @@ def main() -> None:
     podium_figure(found, "tilt", r"$\theta_{\max}/\alpha$", (0.0, 1.05), folder / "tilt")
     podium_figure(found, "shear", r"$V_{\max}/V_{st}$", (1.0, 4.0), folder / "shear")
     print(f"{args.n * len(SCENARIOS)} motions, {len(buildings)} buildings\n")
-    for claim in podium_claims(buildings):
-        print(f"{claim.key} {claim.paper} {claim.verdict}\n   {claim.ours}\n   rule: {claim.rule}")
+    head = "claim", "in the paper", "here", "verdict", "rule"
+    claims = podium_claims(buildings)
+    print(markdown(head, [(one.key, one.paper, one.ours, one.verdict, one.rule) for one in claims]))
     print(f"\nwrote {folder}")
 
 

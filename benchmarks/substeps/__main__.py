@@ -20,10 +20,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from benchmarks.beside import pair_cells
 from fecolumn.engines.ending import lost
-from fecolumn.statistics.ecdf import censored, percentile, proportion_interval
-from fecolumn.statistics.flips import contingency, mcnemar
-from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
+from fecolumn.statistics.ecdf import percentile, proportion_interval
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study
@@ -74,24 +73,6 @@ PAIRS = (
 CAUSES = LITERAL, ROLLING, IMPACTS, SAMPLED
 
 
-def compared(first: dict, second: dict) -> tuple[float, float, int, int, float]:
-    """D and its p, motions that overturn in the first alone and in the second alone, McNemar's p;
-    of summaries by motion.
-    """
-    common = [motion for motion in first if motion in second]
-    sides = [[runs[motion] for motion in common] for runs in (first, second)]
-    distance = paired_kolmogorov_smirnov(
-        *(
-            censored(
-                np.array([run["u_max_m"] for run in side]), np.array([lost(run) for run in side])
-            )
-            for side in sides
-        )
-    )
-    table = contingency(*([bool(run["overturned"]) for run in side] for side in sides))
-    return distance.statistic, distance.p, int(table[1, 0]), int(table[0, 1]), mcnemar(table)
-
-
 def line(setting: Setting, runs: dict) -> str:
     """Of the table of settings: overturned, P, median peak, and steps, parts and impacts a
     motion.
@@ -110,15 +91,6 @@ def line(setting: Setting, runs: dict) -> str:
     )
 
 
-def told(p: float) -> str:
-    return f"{p:.3f}" if p >= 0.001 else "<0.001"
-
-
-def pair_cells(first: dict, second: dict) -> str:
-    distance, p, alone, other, flips = compared(first, second)
-    return f"{distance:.3f} | {told(p)} | {alone} | {other} | {told(flips)} |"
-
-
 def tables(found: dict[Setting, dict]) -> str:
     """The three tables, of the settings that are done."""
     text = [
@@ -133,7 +105,7 @@ def tables(found: dict[Setting, dict]) -> str:
         "|---|---:|---:|---:|---:|---:|",
     ]
     text += [
-        f"| {first}; {second} | {pair_cells(found[first], found[second])}"
+        f"| {first}; {second} | {' | '.join(pair_cells(found[first], found[second]))} |"
         for first, second in PAIRS
         if first in found and second in found
     ]
@@ -151,10 +123,9 @@ def tables(found: dict[Setting, dict]) -> str:
                 sum(bool(run["overturned"]) for run in runs.values()),
                 np.mean([run["impacts"] for run in runs.values()]),
             )
-            cells = (
-                pair_cells(runs, found[SAMPLED]) if setting != SAMPLED else "- | - | - | - | - |"
-            )
-            text.append(f"| {setting} | {over} | {cells} {impacts:.0f} | {joules:.3f} |")
+            cells = pair_cells(runs, found[SAMPLED]) if setting != SAMPLED else ("-",) * 5
+            cells = " | ".join((*cells, f"{impacts:.0f}", f"{joules:.3f}"))
+            text.append(f"| {setting} | {over} | {cells} |")
     return "\n".join(text)
 
 

@@ -2,15 +2,16 @@
 displacement, and how far they are from another sample.
 
     ./containers/run python -m benchmarks.wobbling [--motions synthetic | fema-p695 | DIR]
-        [--against FILE.csv] [--elements] [-o DIR]
+        [--against FILE.csv] [--bodies] [-j N] [-n N] [-o DIR]
 
 Source: the statistical validation of a wobbling model by shaking table tests on a restrained frame
 (Reggiani Manzo and Vassiliou; Vassiliou 2018). The tests' peaks are not published. --against
 compares with a table of one's own (columns bin, such as "NFP low", and u_max_m, "overturn" where it
 fell), by D, p as the paper's (asymptotic) and e50; without it the frame without tendons is the
 other sample, of the same motions. The printed p-values tell which distances the tests had:
-`samples_of_p`. --elements writes, instead, the study that puts finite elements beside the model
-(`benchmarks.wobbling.elements`), for fecolumn study and fecolumn report.
+`samples_of_p`. --bodies runs, instead, bodies with contact beside the model on the same motions
+(`benchmarks.wobbling.elements`), and prints a line for each bin; what is done is kept, and
+fecolumn report DIR/results has more of it.
 """
 
 from __future__ import annotations
@@ -22,8 +23,10 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.beside import markdown
+from benchmarks.wobbling.beside_bodies import runs_of
+from benchmarks.wobbling.beside_bodies import table as table_of
 from benchmarks.wobbling.bins import COUNTS, LEVELS, bins
-from benchmarks.wobbling.elements import write_study
 from benchmarks.wobbling.frame import PRINTED, Sample, respond, specimen
 from fecolumn.foundation.atomic import write_csv
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
@@ -76,10 +79,10 @@ def main() -> None:
         help="another sample of each bin; left out: the frame without tendons",
     )
     parser.add_argument(
-        "--elements",
-        action="store_true",
-        help="write the study of finite elements beside the model, and stop",
+        "--bodies", action="store_true", help="bodies with contact beside the model"
     )
+    parser.add_argument("-j", "--jobs", type=int, default=1, help="analyses of these at a time")
+    parser.add_argument("-n", type=int, default=1000, help="their first motions of each bin")
     parser.add_argument(
         "--seed", type=int, default=1, help="of synthetic motions (default: %(default)s)"
     )
@@ -91,12 +94,8 @@ def main() -> None:
             "and distributions are not those of the paper\n"
         )
     motions, frame, free = bins(args.motions, args.seed), specimen(), specimen(tendon_n_m=0.0)
-    if args.elements:
-        file = write_study(motions, Path(args.output))
-        print(
-            f"fecolumn study {file} -o {file.parent / 'results'} && fecolumn report "
-            f"{file.parent / 'results'}"
-        )
+    if args.bodies:
+        print(table_of(runs_of(motions, Path(args.output), args.jobs, args.n)))
         return
     other, against = (
         ("free", None) if args.against is None else ("other", read_against(args.against))
@@ -152,8 +151,7 @@ def main() -> None:
     folder.mkdir(parents=True, exist_ok=True)
     write_csv(folder / "peaks.csv", rows)
     write_csv(folder / "bins.csv", [head, *table])
-    for line in [head, *table]:
-        print("".join(f"{str(one):>12}" for one in line))
+    print(markdown(head, table))
     for file in cdf_figure(panels, folder / "cdf"):
         print(f"wrote {file}")
 

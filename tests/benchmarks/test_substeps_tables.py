@@ -2,6 +2,7 @@
 
 import pytest
 
+from benchmarks.beside import compared
 from benchmarks.substeps.__main__ import (
     CAUSES,
     FINE,
@@ -11,7 +12,6 @@ from benchmarks.substeps.__main__ import (
     ROLLING,
     SAMPLED,
     Setting,
-    compared,
     tables,
 )
 from fecolumn.study.plan import read_plan

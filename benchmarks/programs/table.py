@@ -1,0 +1,143 @@
+"""What the programs say of a structure, as rows of one table."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from benchmarks.beside import cost, markdown, pair_cells
+from benchmarks.programs.programs import BY_NAME, PROGRAMS, Program
+from benchmarks.programs.structures import rigid_bodies
+from fecolumn.engines.ending import lost
+from fecolumn.statistics.ecdf import percentile, proportion_interval
+
+#: Against what a structure's programs are measured unless told otherwise
+REFERENCES = dict(tube="rigid", block="judge", drums="judge", trilith="judge")
+HEAD = (
+    "structure and program",
+    "step [s]",
+    "motions",
+    "overturned",
+    "P [%]",
+    "95 % interval [%]",
+    "median u_max [mm]",
+    "D",
+    "p",
+    "overturn here alone",
+    "in the reference alone",
+    "McNemar p",
+    "peaks off, median",
+    "energy fed in, median [%]",
+    "most [%]",
+    "energy balance, error [%]",
+    "steps unsolved",
+    "CPU of a motion [s]",
+)
+
+
+def fed_in_of_history(file: Path, barrier: float) -> float:
+    """Largest rise of the mechanical energy less the work of the ground, over the energy that
+    overturns [J], of an analysis of the package; nan where it left no history.
+    """
+    import h5py
+
+    if not file.exists():
+        return np.nan
+    with h5py.File(file) as history:
+        energy = history["energy"]
+        balance = sum(energy[term][:] for term in ("kinetic", "strain", "gravity"))
+        balance = balance - energy["base_work"][:]
+    return float((balance - np.minimum.accumulate(balance)).max() / barrier)
+
+
+def cells(
+    structure: str,
+    program: Program,
+    runs: dict[int, dict[str, Any]],
+    reference: dict[int, dict[str, Any]],
+) -> tuple[str, ...]:
+    """A row: runs by motion; against the reference where it is another one."""
+    each, n = list(runs.values()), len(runs)
+    over = sum(bool(run["overturned"]) for run in each)
+    low, high = proportion_interval(over, n)
+    u, off = (np.array([read(run) for run in each]) for read in (_peak, lost))
+    median = percentile(u, off, 0.5)
+    beside = ("-",) * 6 if runs is reference else against(runs, reference)
+    risen = np.array([run["fed_in"] for run in each])
+    closure = np.median([run["energy_closure_rel"] for run in each])
+    return (
+        f"{structure}: {program.label}",
+        f"{program.dt:g}",
+        str(n),
+        str(over),
+        f"{100 * over / n:.1f}",
+        f"{100 * low:.1f} to {100 * high:.1f}",
+        f"{1e3 * median:.1f}" if np.isfinite(median) else "overturn",
+        *beside,
+        *(
+            ("-", "-", "-")
+            if program.name == "housner"
+            else (
+                f"{100 * np.median(risen):.2g}",
+                f"{100 * risen.max():.2g}",
+                f"{100 * closure:.1g}",
+            )
+        ),
+        str(sum(run.get("unsolved", 0) for run in each)),
+        cost(each),
+    )
+
+
+def against(runs: dict, reference: dict) -> tuple[str, ...]:
+    """D, p, motions that overturn in one alone, McNemar's p, and by how much the peaks of what
+    stands in both are off, of the motions in both.
+    """
+    common = [one for one in runs if one in reference]
+    stood = [one for one in common if not (lost(runs[one]) or lost(reference[one]))]
+    off = [abs(_peak(runs[one]) / _peak(reference[one]) - 1) for one in stood]
+    return *pair_cells(runs, reference), f"{np.median(off):.2g}" if off else "-"
+
+
+def _peak(run: dict) -> float:
+    return float(run["u_max_m"])
+
+
+def tables(
+    found: dict[str, dict[str, dict]], references: dict[str, str], versions: dict[str, str]
+) -> str:
+    """Both tables: of results by structure and program, and of the programs' settings.
+
+    found: runs by motion by program's name by structure.
+    """
+    rows = []
+    for structure, programs in found.items():
+        reference = programs.get(references[structure], {})
+        rows += [
+            cells(structure, BY_NAME[name], runs, reference)
+            for name, runs in programs.items()
+            if runs
+        ]
+    there = {name for programs in found.values() for name in programs}
+    settings = [
+        (one.label, versions.get(one.name, ""), f"{one.dt:g}", one.said, one.reason)
+        for one in PROGRAMS
+        if one.name in there
+    ]
+    named = "; ".join(f"{structure}: {BY_NAME[references[structure]].label}" for structure in found)
+    return "\n\n".join(
+        [
+            markdown(HEAD, rows),
+            f"Reference of D, p and McNemar's p: {named}.",
+            markdown(("program", "version", "step [s]", "settings", "because"), settings),
+        ]
+    )
+
+
+def with_energy(structure: str, summary: dict, folder: Path) -> dict:
+    """The summary of an analysis of the package, with what contact has fed in."""
+    if "fed_in" in summary:
+        return summary
+    barrier = rigid_bodies(structure).barrier
+    return summary | dict(fed_in=fed_in_of_history(folder / "history.h5", barrier))

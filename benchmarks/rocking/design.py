@@ -1,0 +1,52 @@
+"""Least slenderness that stands a pulse: the formula to design with beside computed outcomes.
+
+    ./containers/run python -m benchmarks.rocking.design
+
+A line for each pulse and duration p T_p, of a slender block (alpha 0.05 rad): least tan(alpha) over
+a_p/g by p T_p / (gamma + p T_p), where gamma is that of the lines of Makris and Roussos (1998)
+through computed spectra, w_p/p <= pi; the same computed by Housner's block: one over the least
+amplitude that overturns; and the formula over it, below 1 where it lets a block fall. A second.
+"""
+
+from __future__ import annotations
+
+import math
+
+from benchmarks.beside import markdown
+from fecolumn.engines.rocking.overturning import DESIGN, overturning_bands, slenderness_factor
+
+DURATIONS = (2.0, 3.0, 4.0, 8.0, 16.0)
+PULSES = ("one_sine", "one_cosine")
+#: Of the block that is computed [rad]; least and largest amplitude over that of uplift
+_SLENDER, _RANGE, _POINTS = 0.05, (1.0, 60.0), 4000
+
+
+def computed(pulse: str, duration: float) -> float:
+    """Least tan(alpha) over a_p/g of a block that stands the pulse: one over the least amplitude
+    that overturns, over that of uplift; 0 where none does.
+    """
+    bands = overturning_bands(
+        pulse, 2 * math.pi / duration, _SLENDER, lowest=_RANGE[0], highest=_RANGE[1], points=_POINTS
+    )
+    return 1 / bands[0].low if bands else 0.0
+
+
+def table() -> str:
+    """A line for each pulse and duration."""
+    rows = []
+    for pulse in PULSES:
+        for duration in DURATIONS:
+            exact, asked = computed(pulse, duration), float(slenderness_factor(duration, pulse))
+            ratio = f"{asked / exact:.3f}" if exact else "-"
+            name = f"{pulse.replace('_', '-')}, p T_p {duration:g}"
+            rows.append((name, f"{DESIGN[pulse]:.4f}", f"{asked:.4f}", f"{exact:.4f}", ratio))
+    head = "pulse", "gamma", "formula", "computed", "formula over computed"
+    return markdown(head, rows)
+
+
+def main() -> None:
+    print(table())
+
+
+if __name__ == "__main__":
+    main()
