@@ -133,6 +133,7 @@ def deactivate_point(i, points, before):
     points[i].idle = True
     for a in range(3):
         contact.force[a] = 0.0
+    contact.raised = 0.0
     contact.located = contact.beyond = contact.present = False
     return changed
 
@@ -196,7 +197,7 @@ def _exchange(i, gone, interfaces, frames, poses, contact, points, before):
         now.force[a], now.relative[a] = force, place[a] + moved
         if a < 2:
             now.anchor[a] = now.relative[a] - slip
-    now.relative[2] = was.relative[2]
+    now.relative[2], now.raised = was.relative[2], was.raised
     now.located, now.beyond = True, was.beyond
     if not now.force[2] > 0.0:
         for a in range(3):
@@ -210,4 +211,4 @@ def activate_point(now):
     """
     for a in range(3):
         now.force[a] = 0.0
-    now.located, now.beyond = False, True
+    now.located, now.beyond, now.raised = False, True, 0.0

@@ -1,14 +1,20 @@
 """Points that come back over an outline of a moving master and are below its surface then.
 
-They are at the side of the master: were they let in, contact would push them up and make energy.
-They stay open, SUNK, until they are above the surface.
+Where the way to the outline is the shorter one out of the master, they are at its side: were they
+let in, contact would push them up and make energy. They stay open, SUNK, in that step; each step
+asks again. Any other one is lifted to the surface, where it carries and lands as any point does,
+and sinks back slowly, as a place of found contact does: so bodies come out of each other. Without
+what a point gives alone, each one that comes over the outline of a face that stands is below it.
 """
 
 from __future__ import annotations
 
+import numpy as np
+
+from fecolumn.contact.bodies import GOES_ON
 from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.points import SUNK
-from fecolumn.contact.tolerances import OPEN
+from fecolumn.contact.tolerances import EDGE_REACH, OPEN, STAYS_DEEP
 from fecolumn.foundation._compiled import njit
 
 
@@ -24,20 +30,73 @@ def was_beyond(contact, rim_before, rim):
 
 
 @njit
-def mark_sunk(bodies, base, points, interfaces, poses, before, listed, loaded, heights, displaced):
-    """Mark as SUNK the points listed[loaded:] that stay below the surface although the loaded
-    points, listed[:loaded], press it down.
+def raise_or_leave(
+    bodies, base, points, interfaces, poses, before, listed, loaded, places, displaced
+):
+    """Of the points listed[loaded:], which come back over an outline, those that stay below the
+    surface although the loaded points, listed[:loaded], press it down: mark as SUNK those at the
+    master's side, and raise the others to the surface. How deep they are: `raised` in before.
 
     Parameters
     ----------
     poses
         (ni,) of POSE and before: (n,) of CONTACT at the start of the step.
-    heights
-        (n, 3) positions [m] there, the third of them.
+    places
+        (n, 3) positions there, relative to the surface [m].
     displaced
         (n, 3), room.
     """
     static_displacement(bodies, base, points, poses, before, listed, displaced)
     for i in listed[loaded:]:
-        if heights[i, 2] + displaced[i, 2] < -OPEN * interfaces[points[i].interface].width:
+        interface = interfaces[points[i].interface]
+        depth = -places[i, 2] - displaced[i, 2]
+        if not depth > OPEN * interface.width:
+            continue
+        before[i].raised = depth
+        aside = _to_outline(bodies.facets, interface, places[i, 0], places[i, 1])
+        if depth > aside + EDGE_REACH * interface.width:
             points[i].beyond = SUNK
+            continue
+        # above the surface, as one that is found there has landed when it carries
+        before[i].raised += 2 * OPEN * interface.width
+        points[i].lift += before[i].raised
+
+
+@njit
+def lower_raised(point, now, height, width):
+    """Lift a point that was raised by what is left of it in this step.
+
+    Parameters
+    ----------
+    point, now
+        of POINT, and of CONTACT at the start of the step.
+    height
+        of the point over the surface [m] there, without being raised: needed where it is open.
+    width
+        of the interface [m].
+    """
+    if now.force[2] > 0:
+        left = STAYS_DEEP * now.raised if now.raised > OPEN * width else 0.0
+    else:
+        left = min(now.raised, max(-height, 0.0))
+    now.relative[2] += left - now.raised
+    point.lift += left
+    now.raised = left
+
+
+@njit
+def _to_outline(facets, interface, x, y):
+    """Way [m] from a place in the frame of an interface to the outline of its master's surface;
+    infinite where none is known.
+    """
+    least, first = np.inf, interface.facet_first
+    for f in range(first, first + interface.facet_count):
+        facet = facets[f]
+        for q in range(3):
+            if facet.neighbours[q] >= 0 or facet.neighbours[q] == GOES_ON:
+                continue
+            x0, y0 = facet.corners[(q + 1) % 3, 0], facet.corners[(q + 1) % 3, 1]
+            u, v = facet.corners[(q + 2) % 3, 0] - x0, facet.corners[(q + 2) % 3, 1] - y0
+            along = min(max(((x - x0) * u + (y - y0) * v) / (u * u + v * v), 0.0), 1.0)
+            least = min(least, np.hypot(x - x0 - along * u, y - y0 - along * v))
+    return least

@@ -13,9 +13,10 @@ from fecolumn.contact.tolerances import OPEN
 #: position at which it sticks [m]; relative: its position on the slave relative to the master's
 #: surface, the third the gap [m], `located`: whether that was found, else the point is somewhere
 #: above; indentation of a pad below it, and by how much that has settled [m]; beyond: whether it
-#: was elsewhere than over the master's surface when it was last looked at. Of a joint with two
-#: sides: present: whether it took part; arm: (3,) [m] where it was on the slave, of a point of a
-#: rim how far it was moved off the rim.
+#: was elsewhere than over the master's surface when it was last looked at; raised: depth [m] below
+#: the surface at which it came back over an outline: where it is over the surface it is lifted by
+#: as much, see `contact.outline`. Of a joint with two sides: present: whether it took part; arm:
+#: (3,) [m] where it was on the slave, of a point of a rim how far it was moved off the rim.
 CONTACT = record(
     ("force", "f8", 3),
     ("anchor", "f8", 2),
@@ -24,6 +25,7 @@ CONTACT = record(
     ("settled", "f8"),
     ("located", "?"),
     ("beyond", "?"),
+    ("raised", "f8"),
     ("present", "?"),
     ("arm", "f8", 3),
 )

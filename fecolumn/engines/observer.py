@@ -92,7 +92,9 @@ class Observer:
             slide=self._slid(state.x, moved)[:2],
             contact_force=forces[carries & (points["master"] == GROUND)].sum(axis=0),
             active_nodes=int(carries.sum()),
-            penetration=max(0.0, -float(state.relative[over, 2].min(initial=0.0))),
+            penetration=float(
+                (state.contact["raised"] - over * state.relative[:, 2]).max(initial=0.0)
+            ),
             ground=state.ground[:3],
         )
         for b, part in enumerate(structure.parts):

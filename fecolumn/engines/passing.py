@@ -1,4 +1,6 @@
-"""Bodies that came through each other: pairs without a joint, looked for while an analysis runs."""
+"""Bodies that came through each other, looked for while an analysis runs: pairs without a joint,
+and those of which a joint with two sides does not hold them apart.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.convex import hulls_of
 from fecolumn.contact.nearby import pair_keys
 from fecolumn.contact.points import GROUND
-from fecolumn.contact.through import ThroughCheck
+from fecolumn.contact.through import ThroughCheck, find_depths
 from fecolumn.structures.hulls import hulls_of_parts
 from fecolumn.structures.model import StructureModel
 
@@ -20,11 +22,14 @@ _FAST = 1.0
 # Depth over the thickness of the thinner body from which on contact that is found has failed: its
 # middle is in the other one
 _FAILED = 0.5
+# The same, over that at the start, from which on a joint with two sides has not held bodies apart:
+# far above what a face gives, far below what can be overlooked
+_SANK = 1e-2
 
 
 class Passing:
     """Looks for pairs of bodies without a joint that are in each other, and for those whose contact
-    is found and that came through each other all the same.
+    is found, or which have a joint with two sides, and that came through each other all the same.
 
     Bodies that are not convex, or have no elements, are in no pair.
     """
@@ -45,6 +50,17 @@ class Passing:
         radii = np.abs(self._check.hulls.middle) + self._check.hulls.half
         self._radii = np.linalg.norm(radii, axis=1)
         self._looks, self._told = int((thick > 0).sum()) > 1, False
+        self._joined = np.array(
+            [
+                (joint.slave, joint.master)
+                for joint in structure.joints
+                if joint.pair >= 0 and joint.pad is None
+                if min(thick[joint.slave], thick[joint.master]) > 0
+            ],
+            np.int64,
+        ).reshape(-1, 2)
+        upright = [np.array([getattr(part, of) for part in parts]) for of in ("center", "rotation")]
+        self._depth_before = self._depths(*upright)
 
     def steps(self, motion, dt: float, most: int) -> int:
         """Steps [of dt s] after which to look again, `most` at most."""
@@ -68,6 +84,34 @@ class Passing:
             f"in a step: on the way it may sink into what it meets; integration.dt_s = {dt:g}: "
             f"{_rounded(dt * _FAST / ways[b]):g} s goes no further than that thickness"
         )
+
+    def overlaps(self, motion) -> str:
+        """Which two bodies a joint with two sides has let sink into each other, in words; "" where
+        none has, or all have been told.
+        """
+        if not len(self._joined):
+            return ""
+        sank = self._depths(motion.frames["center"], motion.rotation) - self._depth_before
+        share = sank / self._check.hulls.thickness[self._joined].min(axis=1)
+        k = int(np.argmax(share))
+        if share[k] <= _SANK:
+            return ""
+        # each pair is told once
+        self._depth_before[k] = np.inf
+        first, second = (self._names[b] for b in self._joined[k])
+        return (
+            f't = {motion.time:.4g} s: "{first}" and "{second}" are in each other by {sank[k]:.3g} '
+            f"m, {share[k]:.2g} times the thickness of the thinner one: the joint between their "
+            f"faces has not held them apart, as where one meets the side of the other; the motion "
+            f"after that is not to be used; a shorter integration.dt_s may hold them apart"
+        )
+
+    def _depths(self, centers, rotations) -> np.ndarray:
+        """How far [m] bodies of each joint with two sides are in each other, below 0 apart."""
+        depths = np.zeros(len(self._joined))
+        places = np.ascontiguousarray(centers, float), np.ascontiguousarray(rotations, float)
+        find_depths(self._check.hulls, *places, self._joined, self._check.relation, depths)
+        return np.maximum(depths, 0.0)
 
     def _speeds(self, motion) -> np.ndarray:
         """Largest velocities (nb,) [m/s] that points of bodies may have."""

@@ -123,6 +123,8 @@ class ReducedAnalysis(OfStructure, Analysis):
                 over = self._advance_while_quick(count, pace) and self._stays()
                 if told := passing.fast(engine.motion, self.case.integration.dt_s):
                     warnings.warn(f"{self._file}: {told}", stacklevel=2)
+                if told := passing.overlaps(engine.motion):
+                    warnings.warn(f"{self._file}: {told}", stacklevel=2)
                 if told := passing.told(engine.motion):
                     self._save()
                     raise AnalysisFailed(f"{told}; state saved in {self.folder / CHECKPOINT}")

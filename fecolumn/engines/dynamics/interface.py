@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import find_impact
 from fecolumn.contact.joints import Joints, left_faces
-from fecolumn.contact.outline import mark_sunk, was_beyond
+from fecolumn.contact.outline import lower_raised, raise_or_leave, was_beyond
 from fecolumn.contact.pad import begin_yielding, find_yielding, springs_of
 from fecolumn.contact.points import CONTACT, GROUND, OVER, SUNK, UNPREPARED
 from fecolumn.contact.pose import POSE, SLAVE, find_poses, frames_at
@@ -152,6 +152,8 @@ class ContactInterface(Places):
             False: the points stay in any case.
         """
         before, rims, rolled = state.contact.copy(), state.rims.copy(), False
+        # of rims and raised points it is found anew
+        self.points["lift"] = 0.0
         self.take_grounds(state.grounds, state.grounds)
         if self._springs[1] is not None:
             begin_yielding(self.points, self._springs[1])
@@ -233,17 +235,20 @@ class ContactInterface(Places):
 
     def _find_sunk(self, before, positions, poses, rims_before, rims) -> None:
         """As `reduced.equilibrium.find_sunk`; sunk points are put high above the surface."""
-        k = self.points["interface"]
-        below = np.flatnonzero(
-            before["beyond"] & (self.points["beyond"] == OVER) & (positions[:, 2] < 0)
-        )
+        k, comes = self.points["interface"], before["beyond"]
+        for i in np.flatnonzero((before["raised"] > 0) & ~self.points["idle"] & ~comes):
+            height, width = positions[i, 2], self.interfaces["width"][k[i]]
+            interpreted(lower_raised)(self.points[i], before[i], height, width)
+            positions[i, 2] += before["raised"][i]
+        before["raised"][comes] = 0.0
+        below = np.flatnonzero(comes & (self.points["beyond"] == OVER) & (positions[:, 2] < 0))
         back = [
             i for i in below if interpreted(was_beyond)(before[i], rims_before[k[i]], rims[k[i]])
         ]
         if not back:
             return
         loaded = np.flatnonzero(before["force"][:, 2] > 0)
-        interpreted(mark_sunk)(
+        interpreted(raise_or_leave)(
             self.bodies,
             self.surface,
             self.points,
@@ -255,6 +260,7 @@ class ContactInterface(Places):
             positions,
             np.zeros((self.size, 3)),
         )
+        positions[back, 2] += self.points["lift"][back]
         sunk = self.points["beyond"] == SUNK
         positions[sunk, 2] = self.interfaces["width"][k[sunk]]
 

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.arrays import put_matrix
-from fecolumn.contact.outline import mark_sunk, was_beyond
+from fecolumn.contact.arrays import put, put_matrix
+from fecolumn.contact.outline import lower_raised, raise_or_leave, was_beyond
 from fecolumn.contact.pad import begin_yielding, find_yielding
 from fecolumn.contact.points import CONTACT, GROUND, OVER, UNPREPARED
 from fecolumn.contact.pose import POSE, SLAVE, find_poses
@@ -189,8 +189,8 @@ def find_positions(structure, work, start, end):
 
 @njit
 def find_sunk(structure, base, work, start, rims):
-    """Mark those points as SUNK that come from beyond an outline and are below the surface at the
-    START of a step; see `contact.outline`.
+    """Raise the points that come from beyond an outline and are below the surface at the START of a
+    step, or mark them as SUNK, and lower those that were raised before; see `contact.outline`.
     """
     points, before, problem, poses, place = (
         work.points,
@@ -202,17 +202,26 @@ def find_sunk(structure, base, work, start, rims):
     loaded = problem.count[0]
     count = loaded
     for i in present_points(problem):
-        k = points[i].interface
-        if not was_beyond(before[i], start.rims[k], rims[k]):
+        k, now = points[i].interface, before[i]
+        comes = was_beyond(now, start.rims[k], rims[k])
+        if not comes and not now.raised > 0.0:
+            continue
+        if not comes and now.force[2] > 0:
+            lower_raised(points[i], now, 0.0, structure.interfaces[k].width)
             continue
         find_elastic(structure, points, i, start, work.elastic, START)
         find_position(points, i, start, work.elastic, START, place)
         find_on_master(structure, points, i, start, poses, work.elastic, START, place)
+        if not comes:
+            lower_raised(points[i], now, place[2], structure.interfaces[k].width)
+            continue
+        now.raised = 0.0
         if points[i].beyond == OVER and place[2] < 0.0:
-            problem.near[count], problem.slack[i, 2] = i, place[2]
+            problem.near[count] = i
+            put(place, problem.slack[i])
             count += 1
     if count > loaded:
-        mark_sunk(
+        raise_or_leave(
             structure.bodies,
             base,
             points,
@@ -406,6 +415,7 @@ def find_equilibrium(
         if residual <= 1.0 and (not by_operator or again or residual <= IN_PLACE_LEFT):
             for i in present_points(problem):
                 end.contact[i].beyond = points[i].beyond != OVER
+                end.contact[i].raised = before[i].raised
             end.whole[0].static = stored_energy(
                 problem, points, interfaces, scheme.springs, before, end.contact
             )

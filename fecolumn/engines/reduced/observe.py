@@ -173,8 +173,10 @@ def observe(structure, points, poses, view, motion, ledger, iterations, row):
             if structure.interfaces[points[i].interface].master == GROUND:
                 for a in range(3):
                     row[_FORCE + a] += contact[i].force[a]
+        depth = contact[i].raised
         if contact[i].located:
-            row[_DEPTH] = max(row[_DEPTH], -contact[i].relative[2])
+            depth -= contact[i].relative[2]
+        row[_DEPTH] = max(row[_DEPTH], depth)
     for a in range(3):
         row[_GROUND + a] = motion.whole[0].ground[a]
     row[_SPENT] = iterations

@@ -116,6 +116,9 @@ def place_points_of_step(structure, dt, work, start, end, allowed):
     find_poses(structure.interfaces, start.grounds, start.frames, halfway, poses[END], None)
     for i in range(len(work.points)):
         work.before[i] = start.contact[i]
+        if i < structure.found.point:
+            # of rims, balls and raised points it is found anew
+            work.points[i].lift = 0.0
     for k in range(len(structure.interfaces)):
         end.rims[k] = start.rims[k]
     mark_unused(structure.overlaps, structure.interfaces, start.frames, poses[START], end.rims)
