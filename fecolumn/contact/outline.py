@@ -1,10 +1,11 @@
 """Points that come back over an outline of a moving master and are below its surface then.
 
-Where the way to the outline is the shorter one out of the master, they are at its side: were they
+A point without force lacks what it gives alone under one: where a face stands, each one that comes
+over an outline is below the surface by what those that carry give. It takes part as they do. Of
+deeper ones those are at the master's side to whose outline the way is the shorter one: were they
 let in, contact would push them up and make energy. They stay open, SUNK, in that step; each step
 asks again. Any other one is lifted to the surface, where it carries and lands as any point does,
-and sinks back slowly, as a place of found contact does: so bodies come out of each other. Without
-what a point gives alone, each one that comes over the outline of a face that stands is below it.
+and sinks back slowly, as a place of found contact does: so bodies come out of each other.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ import numpy as np
 from fecolumn.contact.bodies import GOES_ON
 from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.points import SUNK
-from fecolumn.contact.tolerances import EDGE_REACH, OPEN, STAYS_DEEP
+from fecolumn.contact.tolerances import EDGE_REACH, GIVES_MORE, OPEN, STAYS_DEEP
 from fecolumn.foundation._compiled import njit
 
 
@@ -34,8 +35,9 @@ def raise_or_leave(
     bodies, base, points, interfaces, poses, before, listed, loaded, places, displaced
 ):
     """Of the points listed[loaded:], which come back over an outline, those that stay below the
-    surface although the loaded points, listed[:loaded], press it down: mark as SUNK those at the
-    master's side, and raise the others to the surface. How deep they are: `raised` in before.
+    surface although the loaded points, listed[:loaded], press it down, by more than these give:
+    mark as SUNK those at the master's side, and raise the others to the surface. How deep they are:
+    `raised` in before.
 
     Parameters
     ----------
@@ -49,8 +51,11 @@ def raise_or_leave(
     static_displacement(bodies, base, points, poses, before, listed, displaced)
     for i in listed[loaded:]:
         interface = interfaces[points[i].interface]
-        depth = -places[i, 2] - displaced[i, 2]
-        if not depth > OPEN * interface.width:
+        depth, give = -places[i, 2] - displaced[i, 2], OPEN * interface.width
+        for j in listed[:loaded]:
+            if _of_same_bodies(points[i], points[j]):
+                give = max(give, -GIVES_MORE * (places[j, 2] + displaced[j, 2]))
+        if depth <= give:
             continue
         before[i].raised = depth
         aside = _to_outline(bodies.facets, interface, places[i, 0], places[i, 1])
@@ -64,7 +69,7 @@ def raise_or_leave(
 
 @njit
 def lower_raised(point, now, height, width):
-    """Lift a point that was raised by what is left of it in this step.
+    """Lift a point that was raised by what is left of that in this step.
 
     Parameters
     ----------
@@ -75,13 +80,18 @@ def lower_raised(point, now, height, width):
     width
         of the interface [m].
     """
-    if now.force[2] > 0:
-        left = STAYS_DEEP * now.raised if now.raised > OPEN * width else 0.0
-    else:
-        left = min(now.raised, max(-height, 0.0))
+    deep = now.raised if now.force[2] > 0 else min(now.raised, -height)
+    left = STAYS_DEEP * deep if deep > OPEN * width else 0.0
     now.relative[2] += left - now.raised
     point.lift += left
     now.raised = left
+
+
+@njit
+def _of_same_bodies(one, other):
+    """Whether two points are between the same two bodies."""
+    same = one.slave == other.slave and one.master == other.master
+    return same or one.slave == other.master and one.master == other.slave
 
 
 @njit

@@ -243,6 +243,10 @@ SLIDES_KEPT = 20
 #: stands on it: feet as wide as what they stand on would else lose their outline to the first slip.
 #: On a base plate over the width of its last brick.
 EDGE_REACH = 2e-3
+#: Depth of a point that comes over an outline, over the most that those which carry between the
+#: same bodies give alone, up to which it takes part as they do: pressure that rises in a straight
+#: line towards an edge is at most twice that beside it.
+GIVES_MORE = 2.0
 
 # --- Joints with two sides, over the larger side of the slave's face
 # ----------------------------------------------------------------------------
@@ -296,8 +300,9 @@ THROUGH = 1e-3
 #: within which the places of a pair are found: those of bodies at rest stay the same from step to
 #: step.
 FOUND_NEAR = 1e-2
-#: Share of its lift that a place which was found below the surface keeps from step to step: it
-#: comes out within some hundred steps, at a hundredth of the depth in each.
+#: Share of its lift that a place which was found below the surface, or a point that came over an
+#: outline there, keeps from step to step: it comes out within some hundred steps, at a hundredth
+#: of the depth in each.
 STAYS_DEEP = 0.99
 #: Places of a pair that take part, at most; pairs for which there is room at first, for each body:
 #: a block in a wall is near to six others. There is more room when it is wanted.

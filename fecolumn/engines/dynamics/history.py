@@ -52,7 +52,7 @@ MEANING = {
     "twist": "rotation about the vertical",
     "contact_force": "force of the base on the column",
     "active_nodes": "foot nodes in contact",
-    "penetration": "largest penetration of a foot node",
+    "penetration": "largest depth of a contact point",
     "ground": "acceleration of the base",
     "iterations": "position iterations of the step",
     "theta_x": "tilt in the plane of x, positive towards +x",

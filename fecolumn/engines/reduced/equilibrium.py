@@ -221,6 +221,12 @@ def find_sunk(structure, base, work, start, rims):
             put(place, problem.slack[i])
             count += 1
     if count > loaded:
+        for i in problem.near[:loaded]:
+            if points[i].master != GROUND:
+                find_position(points, i, start, work.elastic, START, problem.slack[i])
+                find_on_master(
+                    structure, points, i, start, poses, work.elastic, START, problem.slack[i]
+                )
         raise_or_leave(
             structure.bodies,
             base,
