@@ -69,6 +69,8 @@ class Settling:
         self._start.contact["anchor"] = engine.places(centers, self._start.rotation)[:, :2]
         self._start.ties["length"] = engine.link_lengths(self._start)
         self._change = np.inf
+        # (nl,) what yielded in the last step [m]
+        self._flow = np.zeros(len(self._start.ties))
         self.steps, self.mover = 0, None
         self.moved, self.unbalanced = np.inf, np.inf
 
@@ -128,6 +130,7 @@ class Settling:
         carrying = (work.before["force"][:, 2] > 0) | (end.contact["force"][:, 2] > 0)
         points = np.abs(work.elastic.point[END] - work.elastic.point[START])[carrying]
         self.mover, self._change = int(np.argmax(of_each)), change
+        self._flow = end.ties["flowed"] - start.ties["flowed"]
         self.moved = float(max(of_each.max(), points.max(initial=0.0)))
         masses = self._masses
         forces = masses.mass * np.linalg.norm(ways, axis=1)
@@ -164,7 +167,9 @@ class Settling:
         too much on the way, a half of it, and so on.
         """
         start, engine, masses = self._start, self.engine, self._masses
-        tangent = tangent_of(self.structure, self._scheme.springs, engine.work, masses, start)
+        tangent = tangent_of(
+            self.structure, self._scheme.springs, engine.work, masses, start, self._flow != 0.0
+        )
         tangent[np.diag_indices_from(tangent)] += LEAST_FIRM * self._firmness
         place = self._coordinates(start)
         further = np.linalg.solve(tangent, self._firmness * self._change)
@@ -183,11 +188,16 @@ class Settling:
         return False
 
     def _is_used_up(self) -> bool:
-        """Whether the last step yields, breaks or settles anything, which stays."""
+        """Whether the last step breaks or settles anything, which stays, or yields otherwise than
+        the step before: a longer way in the same direction yields to the same place.
+        """
         before, after = self._start, self._end
-        return any(
-            (before.ties[name] != after.ties[name]).any() for name in ("flowed", "damage", "broken")
-        ) or bool((before.contact["settled"] != after.contact["settled"]).any())
+        flow = after.ties["flowed"] - before.ties["flowed"]
+        return (
+            bool(((flow != 0.0) & (np.sign(flow) != np.sign(self._flow))).any())
+            or any((before.ties[name] != after.ties[name]).any() for name in ("damage", "broken"))
+            or bool((before.contact["settled"] != after.contact["settled"]).any())
+        )
 
     def _coordinates(self, motion) -> np.ndarray:
         """Displacements of a motion, as of `tangent.coordinates_of`."""

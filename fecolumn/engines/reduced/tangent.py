@@ -52,17 +52,20 @@ def displacements_of(
     return rigid[:, :3] / np.sqrt(masses.mass)[:, None], turns, modal.reshape(count, -1)
 
 
-def tangent_of(structure, springs, work, masses: Masses, motion) -> np.ndarray:
+def tangent_of(structure, springs, work, masses: Masses, motion, yielding) -> np.ndarray:
     """Stiffness (n, n) [1/s2] in the coordinates of `coordinates_of` about a motion to which a step
     of `springs` came; bodies that grounds hold have none.
 
-    Points that carry hold in all directions, those that slide along their normals alone. The base's
-    compliance and the turning of forces are left out.
+    Points that carry hold in all directions, those that slide along their normals alone; links
+    that are `yielding` (nl,) by what they harden. The base's compliance and the turning of forces
+    are left out.
     """
     count, modes = len(masses.mass), structure.squares.shape[1]
     links = structure.links
     active = (motion.ties["force"] != 0.0) & ~motion.ties["broken"]
-    stiffness = np.where(active, links["stiffness"] * (1.0 - motion.ties["damage"]), 0.0)
+    hardened = links["hardens"] / (links["stiffness"] + links["hardens"])
+    left = np.where(yielding, hardened, 1.0 - motion.ties["damage"])
+    stiffness = np.where(active, links["stiffness"] * left, 0.0)
     rows = [np.zeros((0, (6 + modes) * count))]
     if active.any():
         bodies = list(zip(masses.mass, masses.inertia, motion.frames["center"], motion.rotation))
