@@ -7,11 +7,12 @@ from scipy.spatial.transform import Rotation
 
 from fecolumn.contact.problem import FAR_BASE, NO_ROOM, OK, near_points
 from fecolumn.contact.tolerances import (
+    BALANCE_HALVES,
     BALANCED,
+    BALANCED_AT_LEAST,
     HASTEN_FROM,
     HASTEN_TRIES,
     LEAST_FIRM,
-    REST_ROUNDING,
     REST_WAY,
     SLIDES_KEPT,
 )
@@ -73,6 +74,8 @@ class Settling:
         self._flow = np.zeros(len(self._start.ties))
         self.steps, self.mover = 0, None
         self.moved, self.unbalanced = np.inf, np.inf
+        # what was not balanced when it was last halved while bodies hardly moved, and in which step
+        self._yardstick, self._halved_at = np.inf, 0
 
     def step(self) -> float:
         """One proximal step: displacement of the body that moves most [m], or more where the forces
@@ -155,7 +158,12 @@ class Settling:
 
     def _done(self) -> float:
         """What the last step returns."""
-        if self.moved < REST_ROUNDING * self.height:
+        if not self.moved < REST_WAY * self.height:
+            self._yardstick, self._halved_at = np.inf, self.steps
+        if self.unbalanced < self._yardstick / 2:
+            self._yardstick, self._halved_at = self.unbalanced, self.steps
+        stalls = self.steps - self._halved_at >= BALANCE_HALVES
+        if stalls and self.unbalanced < BALANCED_AT_LEAST:
             return self.moved
         return max(self.moved, self.unbalanced / BALANCED * REST_WAY * self.height)
 
