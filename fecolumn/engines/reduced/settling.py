@@ -15,6 +15,7 @@ from fecolumn.contact.tolerances import (
     LEAST_FIRM,
     REST_WAY,
     SLIDES_KEPT,
+    STICKS,
 )
 from fecolumn.contact.work import move_anchors
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
@@ -172,8 +173,15 @@ class Settling:
 
         From x0 it went to x1, so that k M (x0 - x1) is not balanced at x1; K being the stiffness
         there, x1 + (K + k e M)^-1 k M (x1 - x0) would be at rest (Newton). Where contact changes
-        too much on the way, a half of it, and so on.
+        too much on the way, a half of it, and so on. Not where anything slides: nothing would hold
+        it.
         """
+        contact, points = self._start.contact, self.engine.work.points
+        force = contact["force"]
+        if (np.hypot(*force[:, :2].T) >= STICKS * points["friction"] * force[:, 2])[
+            force[:, 2] > 0
+        ].any():
+            return False
         start, engine, masses = self._start, self.engine, self._masses
         tangent = tangent_of(
             self.structure, self._scheme.springs, engine.work, masses, start, self._flow != 0.0
