@@ -176,11 +176,7 @@ class Settling:
         too much on the way, a half of it, and so on. Not where anything slides: nothing would hold
         it.
         """
-        contact, points = self._start.contact, self.engine.work.points
-        force = contact["force"]
-        if (np.hypot(*force[:, :2].T) >= STICKS * points["friction"] * force[:, 2])[
-            force[:, 2] > 0
-        ].any():
+        if self._slides():
             return False
         start, engine, masses = self._start, self.engine, self._masses
         tangent = tangent_of(
@@ -202,6 +198,12 @@ class Settling:
                 return True
             motions.copy(self._kept, start)
         return False
+
+    def _slides(self) -> bool:
+        """Whether any point that carries slides."""
+        force, friction = self._start.contact["force"], self.engine.work.points["friction"]
+        shear = np.hypot(*force[:, :2].T)
+        return bool(((force[:, 2] > 0) & (shear >= STICKS * friction * force[:, 2])).any())
 
     def _is_used_up(self) -> bool:
         """Whether the last step breaks or settles anything, which stays, or yields otherwise than
