@@ -5,9 +5,30 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.engines.ending import lost
-from fecolumn.statistics.ecdf import censored
+from fecolumn.statistics.ecdf import censored, percentile, proportion_interval
 from fecolumn.statistics.flips import contingency, mcnemar
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
+
+#: Heads of `share_cells`
+SHARE_HEAD = "motions", "overturned", "P [%]", "95 % interval [%]", "median u_max [mm]"
+
+
+def share_cells(runs: dict) -> tuple[str, ...]:
+    """Motions, how many overturn, their share with its interval, and the median peak, of summaries
+    by motion.
+    """
+    each, n = list(runs.values()), len(runs)
+    over = sum(bool(run["overturned"]) for run in each)
+    low, high = proportion_interval(over, n)
+    u, off = np.array([run["u_max_m"] for run in each]), np.array([lost(run) for run in each])
+    median = percentile(u, off, 0.5)
+    return (
+        str(n),
+        str(over),
+        f"{100 * over / n:.1f}",
+        f"{100 * low:.1f} to {100 * high:.1f}",
+        f"{1e3 * median:.1f}" if np.isfinite(median) else "overturn",
+    )
 
 
 def compared(first: dict, second: dict) -> tuple[float, float, int, int, float]:

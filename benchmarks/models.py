@@ -16,11 +16,11 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks.beside import cost, markdown, pair_cells
+from benchmarks.beside import SHARE_HEAD, cost, markdown, pair_cells, share_cells
 from fecolumn.engines.ending import lost
 from fecolumn.foundation.toml_file import read_toml
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
-from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
+from fecolumn.statistics.ecdf import ecdf
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import Plan, plan_of
 from fecolumn.study.run import complete_study
@@ -36,11 +36,7 @@ LABELS = dict(
 )
 HEAD = (
     "engine",
-    "motions",
-    "overturned",
-    "P [%]",
-    "95 % interval [%]",
-    "median u_max [mm]",
+    *SHARE_HEAD,
     "D",
     "p",
     "overturn in it alone",
@@ -61,11 +57,6 @@ def plan(full: bool) -> Plan:
 
 def line(engine: str, runs: dict, reference: dict) -> tuple[str, ...]:
     """A row of the table: summaries by motion, of an engine and of what it is set beside."""
-    each, n = list(runs.values()), len(runs)
-    k = sum(bool(run["overturned"]) for run in each)
-    low, high = (100 * bound for bound in proportion_interval(k, n))
-    u, off = np.array([run["u_max_m"] for run in each]), np.array([lost(run) for run in each])
-    median = percentile(u, off, 0.5)
     beside = ("-",) * 6
     if runs is not reference:
         common = [motion for motion in runs if motion in reference]
@@ -74,13 +65,9 @@ def line(engine: str, runs: dict, reference: dict) -> tuple[str, ...]:
         beside = (*pair_cells(runs, reference), share)
     return (
         f"{LABELS[engine]} ({engine})",
-        str(n),
-        str(k),
-        f"{100 * k / n:.1f}",
-        f"{low:.1f} to {high:.1f}",
-        f"{1e3 * median:.1f}" if np.isfinite(median) else "overturn",
+        *share_cells(runs),
         *beside,
-        cost(each),
+        cost(runs.values()),
     )
 
 

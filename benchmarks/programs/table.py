@@ -7,22 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.beside import cost, markdown, pair_cells
+from benchmarks.beside import SHARE_HEAD, cost, markdown, pair_cells, share_cells
 from benchmarks.programs.programs import BY_NAME, PROGRAMS, Program
 from benchmarks.programs.structures import rigid_bodies
 from fecolumn.engines.ending import lost
-from fecolumn.statistics.ecdf import percentile, proportion_interval
 
 #: Against what a structure's programs are measured unless told otherwise
 REFERENCES = dict(tube="rigid", block="judge", drums="judge", trilith="judge")
 HEAD = (
     "structure and program",
     "step [s]",
-    "motions",
-    "overturned",
-    "P [%]",
-    "95 % interval [%]",
-    "median u_max [mm]",
+    *SHARE_HEAD,
     "D",
     "p",
     "overturn here alone",
@@ -59,22 +54,14 @@ def cells(
     reference: dict[int, dict[str, Any]],
 ) -> tuple[str, ...]:
     """A row: runs by motion; against the reference where it is another one."""
-    each, n = list(runs.values()), len(runs)
-    over = sum(bool(run["overturned"]) for run in each)
-    low, high = proportion_interval(over, n)
-    u, off = (np.array([read(run) for run in each]) for read in (_peak, lost))
-    median = percentile(u, off, 0.5)
+    each = list(runs.values())
     beside = ("-",) * 6 if runs is reference else against(runs, reference)
     risen = np.array([run["fed_in"] for run in each])
     closure = np.median([run["energy_closure_rel"] for run in each])
     return (
         f"{structure}: {program.label}",
         f"{program.dt:g}",
-        str(n),
-        str(over),
-        f"{100 * over / n:.1f}",
-        f"{100 * low:.1f} to {100 * high:.1f}",
-        f"{1e3 * median:.1f}" if np.isfinite(median) else "overturn",
+        *share_cells(runs),
         *beside,
         *(
             ("-", "-", "-")

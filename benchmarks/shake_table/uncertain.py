@@ -3,15 +3,18 @@ or the campaign's own files give; no outcome of the campaign enters.
 
 | name | bounds | from |
 |---|---|---|
-| friction | 0.55 to 0.85 | dry granite: basic friction angles of 29 to 35 degrees (Barton and Choubey 1977) up to 0.85 (Byerlee 1978) |
-| restitution | 0 to 0.5 | of a contact point: an impact takes 1 to 0.75 of what Housner's block loses, the range of converged impacts in benchmarks/RESULTS.md |
+| friction | 0.55 to 0.85 | dry granite: Barton and Choubey (1977) to Byerlee (1978) |
+| restitution | 0 to 0.5 | of a point: converged impacts take 1 to 0.75 of Housner's loss |
 | youngs | 30 to 70 GPa, log | granite (Jaeger, Cook and Zimmerman 2007, table 7.1) |
 | softer | 1 to 10, log | compliance of a rough contact over that of a smooth one |
-| rounding | 0 to 0.01 m | radius of the edges: assumed; a scan cannot show less than the sides of its triangles |
+| rounding | 0 to 0.01 m | radius of the edges: assumed; no scan shows less than its triangles |
 | direction | -5 to 5 degrees | the rock was put on the table by hand |
-| crossover | 0.1 to 3 Hz, log | below it the table's displacement tells the motion, above it its accelerometer |
+| crossover | 0.1 to 3 Hz, log | displacement of the table below it, its accelerometer above |
 | upper | 25 to 100 Hz, log | the source's own filter, and one an octave above the table's band |
-"""  # noqa: E501
+
+Basic friction angles of dry granite are 29 to 35 degrees, up to a coefficient of 0.85; the range of
+converged impacts is that of benchmarks/RESULTS.md.
+"""
 
 from __future__ import annotations
 

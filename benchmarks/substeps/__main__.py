@@ -20,9 +20,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from benchmarks.beside import pair_cells
+from benchmarks.beside import pair_cells, share_cells
 from fecolumn.engines.ending import lost
-from fecolumn.statistics.ecdf import percentile, proportion_interval
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study
@@ -77,18 +76,11 @@ def line(setting: Setting, runs: dict) -> str:
     """Of the table of settings: overturned, P, median peak, and steps, parts and impacts a
     motion.
     """
-    each, n = list(runs.values()), len(runs)
-    over, off = sum(bool(run["overturned"]) for run in each), np.array([lost(run) for run in each])
-    low, high = proportion_interval(over, n)
-    median = percentile(np.array([run["u_max_m"] for run in each]), off, 0.5)
     steps, parts, impacts = (
-        np.mean([run[key] for run in each]) for key in ("steps", "parts", "impacts")
+        np.mean([run[key] for run in runs.values()]) for key in ("steps", "parts", "impacts")
     )
-    peak = f"{1e3 * median:.1f}" if np.isfinite(median) else "overturn"
-    return (
-        f"| {setting} | {n} | {over} | {100 * over / n:.1f} | {100 * low:.1f} to "
-        f"{100 * high:.1f} | {peak} | {steps:.0f} | {parts:.0f} | {impacts:.0f} |"
-    )
+    share = " | ".join(share_cells(runs))
+    return f"| {setting} | {share} | {steps:.0f} | {parts:.0f} | {impacts:.0f} |"
 
 
 def tables(found: dict[Setting, dict]) -> str:

@@ -113,8 +113,10 @@ def test_new_statue_needs_a_shape_and_a_foot(tmp_path, capsys):
     pyvista.Sphere(0.5, (0, 0, 0)).save(tmp_path / "ball.stl")
     assert main(["new", "statue", str(tmp_path / "a"), "--from", str(tmp_path / "ball.stl")]) == 2
     assert "no flat foot" in (said := capsys.readouterr().err) and "cut_foot_m" in said
-    pyvista.Cube((0, 0, 850), 400, 400, 1700).triangulate().save(tmp_path / "scan.stl")
-    for unit, asked in (((), True), (("--unit", "mm"), False)):
+    pyvista.Cube(center=(0, 0, 31), x_length=20, y_length=20, z_length=62).triangulate().save(
+        tmp_path / "scan.stl"
+    )
+    for unit, asked in (((), True), (("--unit", "cm"), False)):
         words = ["new", "statue", str(tmp_path / f"b{asked}"), "--from", str(tmp_path / "scan.stl")]
         assert main([*words, *unit]) == 0
         assert ("--unit mm, cm, in or ft says another" in capsys.readouterr().out) == asked

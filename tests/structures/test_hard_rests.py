@@ -160,3 +160,41 @@ def test_bodies_as_far_apart_as_they_may_be_placed_come_to_rest(engine):
     )
     for joint, weight in enumerate(weights(made)):
         assert carried(made, joint) == pytest.approx(weight, rel=EXACT)
+
+
+def test_friction_dampers_that_slip_while_a_bent_settles_hold_their_slip_force():
+    """On soil that settles by millimetres stiff dampers slip all the way: with their force of
+    slipping the soil carries all weights.
+    """
+    column = dict(kind="cylinder", outer_diameter_m=1.2, height_m=6.0, element_size_m=0.3)
+    made = standing(
+        bodies=dict(
+            column=column | dict(density_kg_m3=2500, copies_m=[[-3, 0, 0], [3, 0, 0]]),
+            cap=COARSE
+            | dict(length_m=8.5, width_m=1.6, height_m=1.2, element_size_m=0.4, at_m=[0, 0, 6])
+            | dict(mass_kg=150e3),
+        ),
+        grounds=dict(soil=dict(kind="pad", stiffness_n_m3=1e8, damping_ratio=0.2)),
+        joints=dict(
+            feet=dict(between=["column", "soil"], friction_coefficient=0.7),
+            heads=dict(between=["column", "cap"], friction_coefficient=0.7),
+        ),
+        links=dict(
+            damper=dict(
+                kind="friction",
+                body="column",
+                point_m=[0.5, 0, 0.5],
+                to="soil",
+                to_point_m=[1.5, 0, 0],
+                slip_n=5e4,
+                stiffness_n_m=1e8,
+            )
+        ),
+        integration=dict(engine="rigid", dt_s=1e-3),
+    )
+    soil, way = carried(made, 0) + carried(made, 1), np.empty(3)
+    for number, tie in enumerate(made.motion.ties):
+        length = interpreted(span)(made.structure, number, made.motion, way)
+        assert -5e4 <= tie["force"] < -4.99e4
+        soil += tie["force"] * way[2] / length
+    assert soil == pytest.approx(weights(made).sum(), rel=EXACT)

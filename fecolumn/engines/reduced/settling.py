@@ -7,13 +7,15 @@ from scipy.spatial.transform import Rotation
 
 from fecolumn.contact.problem import FAR_BASE, NO_ROOM, OK, near_points
 from fecolumn.contact.tolerances import (
+    BALANCE_HALVES,
     BALANCED,
+    BALANCED_AT_LEAST,
     HASTEN_FROM,
     HASTEN_TRIES,
     LEAST_FIRM,
-    REST_ROUNDING,
     REST_WAY,
     SLIDES_KEPT,
+    STICKS,
 )
 from fecolumn.contact.work import move_anchors
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
@@ -69,8 +71,12 @@ class Settling:
         self._start.contact["anchor"] = engine.places(centers, self._start.rotation)[:, :2]
         self._start.ties["length"] = engine.link_lengths(self._start)
         self._change = np.inf
+        # (nl,) what yielded in the last step [m]
+        self._flow = np.zeros(len(self._start.ties))
         self.steps, self.mover = 0, None
         self.moved, self.unbalanced = np.inf, np.inf
+        # what was not balanced when it was last halved while bodies hardly moved, and in which step
+        self._yardstick, self._halved_at = np.inf, 0
 
     def step(self) -> float:
         """One proximal step: displacement of the body that moves most [m], or more where the forces
@@ -128,6 +134,7 @@ class Settling:
         carrying = (work.before["force"][:, 2] > 0) | (end.contact["force"][:, 2] > 0)
         points = np.abs(work.elastic.point[END] - work.elastic.point[START])[carrying]
         self.mover, self._change = int(np.argmax(of_each)), change
+        self._flow = end.ties["flowed"] - start.ties["flowed"]
         self.moved = float(max(of_each.max(), points.max(initial=0.0)))
         masses = self._masses
         forces = masses.mass * np.linalg.norm(ways, axis=1)
@@ -152,7 +159,12 @@ class Settling:
 
     def _done(self) -> float:
         """What the last step returns."""
-        if self.moved < REST_ROUNDING * self.height:
+        if not self.moved < REST_WAY * self.height:
+            self._yardstick, self._halved_at = np.inf, self.steps
+        if self.unbalanced < self._yardstick / 2:
+            self._yardstick, self._halved_at = self.unbalanced, self.steps
+        stalls = self.steps - self._halved_at >= BALANCE_HALVES
+        if stalls and self.unbalanced < BALANCED_AT_LEAST:
             return self.moved
         return max(self.moved, self.unbalanced / BALANCED * REST_WAY * self.height)
 
@@ -161,10 +173,15 @@ class Settling:
 
         From x0 it went to x1, so that k M (x0 - x1) is not balanced at x1; K being the stiffness
         there, x1 + (K + k e M)^-1 k M (x1 - x0) would be at rest (Newton). Where contact changes
-        too much on the way, a half of it, and so on.
+        too much on the way, a half of it, and so on. Not where anything slides: nothing would hold
+        it.
         """
+        if self._slides():
+            return False
         start, engine, masses = self._start, self.engine, self._masses
-        tangent = tangent_of(self.structure, self._scheme.springs, engine.work, masses, start)
+        tangent = tangent_of(
+            self.structure, self._scheme.springs, engine.work, masses, start, self._flow != 0.0
+        )
         tangent[np.diag_indices_from(tangent)] += LEAST_FIRM * self._firmness
         place = self._coordinates(start)
         further = np.linalg.solve(tangent, self._firmness * self._change)
@@ -182,12 +199,23 @@ class Settling:
             motions.copy(self._kept, start)
         return False
 
+    def _slides(self) -> bool:
+        """Whether any point that carries slides."""
+        force, friction = self._start.contact["force"], self.engine.work.points["friction"]
+        shear = np.hypot(*force[:, :2].T)
+        return bool(((force[:, 2] > 0) & (shear >= STICKS * friction * force[:, 2])).any())
+
     def _is_used_up(self) -> bool:
-        """Whether the last step yields, breaks or settles anything, which stays."""
+        """Whether the last step breaks or settles anything, which stays, or yields otherwise than
+        the step before: a longer way in the same direction yields to the same place.
+        """
         before, after = self._start, self._end
-        return any(
-            (before.ties[name] != after.ties[name]).any() for name in ("flowed", "damage", "broken")
-        ) or bool((before.contact["settled"] != after.contact["settled"]).any())
+        flow = after.ties["flowed"] - before.ties["flowed"]
+        return (
+            bool(((flow != 0.0) & (np.sign(flow) != np.sign(self._flow))).any())
+            or any((before.ties[name] != after.ties[name]).any() for name in ("damage", "broken"))
+            or bool((before.contact["settled"] != after.contact["settled"]).any())
+        )
 
     def _coordinates(self, motion) -> np.ndarray:
         """Displacements of a motion, as of `tangent.coordinates_of`."""

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.tolerances import LEAST_COMPLIANCE, STICKS
+from fecolumn.contact.tolerances import LEAST_COMPLIANCE
 from fecolumn.engines.dynamics.links_of_model import rows_of_links
 from fecolumn.engines.reduced.elastic import END
 
@@ -52,17 +52,19 @@ def displacements_of(
     return rigid[:, :3] / np.sqrt(masses.mass)[:, None], turns, modal.reshape(count, -1)
 
 
-def tangent_of(structure, springs, work, masses: Masses, motion) -> np.ndarray:
+def tangent_of(structure, springs, work, masses: Masses, motion, yielding) -> np.ndarray:
     """Stiffness (n, n) [1/s2] in the coordinates of `coordinates_of` about a motion to which a step
     of `springs` came; bodies that grounds hold have none.
 
-    Points that carry hold in all directions, those that slide along their normals alone. The base's
-    compliance and the turning of forces are left out.
+    Points that carry hold in all directions: none may slide. Links that are `yielding` (nl,) hold
+    by what they harden. The base's compliance and the turning of forces are left out.
     """
     count, modes = len(masses.mass), structure.squares.shape[1]
     links = structure.links
     active = (motion.ties["force"] != 0.0) & ~motion.ties["broken"]
-    stiffness = np.where(active, links["stiffness"] * (1.0 - motion.ties["damage"]), 0.0)
+    hardened = links["hardens"] / (links["stiffness"] + links["hardens"])
+    left = np.where(yielding, hardened, 1.0 - motion.ties["damage"])
+    stiffness = np.where(active, links["stiffness"] * left, 0.0)
     rows = [np.zeros((0, (6 + modes) * count))]
     if active.any():
         bodies = list(zip(masses.mass, masses.inertia, motion.frames["center"], motion.rotation))
@@ -122,12 +124,9 @@ def _contact_rows(structure, springs, work, masses, motion) -> np.ndarray:
             at = slice(6 * count + modes * b, 6 * count + modes * (b + 1))
             pushes = bodies.pushes.reshape(-1, modes)[rows]
             moved[..., at] = (flat @ pushes).reshape(len(carrying), 3, modes)
-    limit = STICKS * points["friction"][carrying] * contact["force"][carrying, 2]
-    sticks = np.hypot(*contact["force"][carrying, :2].T) < limit
-    kept = np.column_stack([sticks, sticks, np.ones(len(carrying), bool)]).ravel()
-    squares, shapes = np.linalg.eigh(compliance[np.ix_(kept, kept)])
+    squares, shapes = np.linalg.eigh(compliance)
     if not (squares > 0.0).any():
         return np.zeros((0, moved.shape[2]))
     # points between the same nodes move as one but for rounding
     squares = np.maximum(squares, LEAST_COMPLIANCE * squares[-1:])
-    return (shapes / np.sqrt(squares)).T @ moved.reshape(3 * len(carrying), -1)[kept]
+    return (shapes / np.sqrt(squares)).T @ moved.reshape(3 * len(carrying), -1)
