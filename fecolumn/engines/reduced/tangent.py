@@ -62,16 +62,17 @@ def tangent_of(structure, springs, work, masses: Masses, motion, yielding) -> np
     count, modes = len(masses.mass), structure.squares.shape[1]
     links = structure.links
     active = (motion.ties["force"] != 0.0) & ~motion.ties["broken"]
-    hardened = links["hardens"] / (links["stiffness"] + links["hardens"])
-    left = np.where(yielding, hardened, 1.0 - motion.ties["damage"])
+    # a damper holds nothing: neither stiffness nor hardening
+    whole = np.maximum(links["stiffness"] + links["hardens"], np.finfo(float).tiny)
+    left = np.where(yielding, links["hardens"] / whole, 1.0 - motion.ties["damage"])
     stiffness = np.where(active, links["stiffness"] * left, 0.0)
     rows = [np.zeros((0, (6 + modes) * count))]
     if active.any():
         bodies = list(zip(masses.mass, masses.inertia, motion.frames["center"], motion.rotation))
         rows.append(rows_of_links(structure, stiffness, bodies, [np.ones(modes)] * count)[0])
     rows.append(_contact_rows(structure, springs, work, masses, motion))
-    whole = np.concatenate(rows)
-    tangent = whole.T @ whole
+    stacked = np.concatenate(rows)
+    tangent = stacked.T @ stacked
     own = np.arange(6 * count, (6 + modes) * count)
     tangent[own, own] += structure.squares.ravel()
     held = np.repeat(~masses.free, 6)
