@@ -37,11 +37,20 @@ def test_a_stack_of_elastic_blocks_carries_its_weight_and_rests(alpha):
     assert np.abs(rows - rows[0]).max() < 1e-12 and np.abs(energies[:, -1]).max() < 1e-10
 
 
-@pytest.mark.parametrize("height, stays_open", [(-5e-3, True), (-1e-6, False), (1e-6, False)])
+@pytest.mark.parametrize(
+    "height, pressed, stays_open",
+    [
+        (-0.1, False, True),
+        (-5e-3, False, False),
+        (-1e-6, False, False),
+        (-1e-6, True, False),
+        (1e-6, True, False),
+    ],
+)
 def test_a_point_that_comes_back_from_beyond_an_edge_stays_open_at_the_side_alone(
-    height, stays_open
+    height, pressed, stays_open
 ):
-    """At the side it is nearer to the edge than to the surface."""
+    """At the side it is nearer to the edge than to the surface; pressed: whether others carry."""
     run = stack().full()
     interface, state, x, contact = (
         run.system.interface,
@@ -51,6 +60,8 @@ def test_a_point_that_comes_back_from_beyond_an_edge_stays_open_at_the_side_alon
     )
     point = np.flatnonzero(interface.points["slave"] == 1)[0]
     contact["beyond"][point], contact["force"][point] = True, 0.0
+    if not pressed:
+        contact["force"] = 0.0
     x[run.system.bodies.rows[1], 2] += height - state.contact["relative"][point, 2]
     before, _, _ = interface.begin_step(replace(state, x=x, contact=contact), state.rotation, True)
     kept = np.zeros(len(before), bool)
