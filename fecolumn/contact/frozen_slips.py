@@ -21,6 +21,7 @@ from fecolumn.contact.arrays import largest
 from fecolumn.contact.blocks import eliminate
 from fecolumn.contact.coupling import motion_by, moved_by, slips_under
 from fecolumn.contact.tolerances import (
+    FROZEN_FARTHEST,
     FROZEN_MORE,
     FROZEN_ROUNDS,
     FROZEN_SEARCHES,
@@ -50,9 +51,9 @@ def find_impulses(coupling, q, friction, start, near, exact, allowed, usable):
         velocities [m/s] to which a convex problem is solved at most, by which the law may be
         missed, and by which after FROZEN_ROUNDS.
     """
-    n, made, missed = len(q), 0, np.inf
+    n, made, missed, tolerance = len(q), 0, np.inf, exact
     slips, impulses, slopes = np.zeros(n), np.empty((n, 3)), np.empty((n, 3, 3))
-    motion = motion_by(coupling, start)
+    motion, change = motion_by(coupling, start), np.zeros(n)
     if near:
         relative = slips_under(coupling, q, start)
         for i in range(n):
@@ -67,7 +68,12 @@ def find_impulses(coupling, q, friction, start, near, exact, allowed, usable):
             break
         if turn >= FROZEN_ROUNDS:
             halve_way(before, slips)
-    return impulses, missed, made
+        elif turn > 0 and turn % 2 == 0:
+            extrapolate(before, change, slips)
+        else:
+            for i in range(n):
+                change[i] = slips[i] - before[i]
+    return impulses, max(missed, tolerance), made
 
 
 @njit
@@ -87,6 +93,26 @@ def solve_frozen(coupling, q, friction, slips, motion, impulses, slopes, toleran
         wrong = abs(slip - slips[i]) if impulses[i, 2] > 0 else -relative[i, 2]
         missed, slips[i] = max(missed, wrong), slip
     return made, missed
+
+
+@njit
+def extrapolate(before, change, slips):
+    """Let slips (n,) go on along their way from those before to where it would end, were it
+    shortened in each round as in the last one, whose `change` (n,) led to those before (Irons and
+    Tuck 1969, International Journal for Numerical Methods in Engineering 1, after Aitken).
+
+    Where that is farther than FROZEN_FARTHEST times the way, or nearer than one part of so many,
+    they stay.
+    """
+    along = square = 0.0
+    for i in range(len(slips)):
+        bends = slips[i] - before[i] - change[i]
+        along -= change[i] * bends
+        square += bends * bends
+    if not square / FROZEN_FARTHEST < along < square * FROZEN_FARTHEST:
+        return
+    for i in range(len(slips)):
+        slips[i] = max(before[i] + along / square * (slips[i] - before[i]), 0.0)
 
 
 @njit

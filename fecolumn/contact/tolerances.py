@@ -159,6 +159,10 @@ FROZEN_ROUNDS, FROZEN_STEPS, FROZEN_SEARCHES = 12, 60, 30
 #: more than MANY_POINTS may be missed by, over what they else are, where all rounds are spent.
 FROZEN_MORE, FROZEN_HALVED, MANY_MISSED = 24, 4, 10.0
 FROZEN_SHARE, FROZEN_SLOPE = 0.1, 0.2
+#: Way along which slips are extrapolated in every second round, over that of the round, at most: of
+#: 60 impacts of shaken elastic drums two are left to the slower ways, and seven without. One part
+#: of it at least: chosen.
+FROZEN_FARTHEST = 10.0
 #: Points, over the ways in which a body moves, rigid motion and modes, from which an impact of
 #: elastic bodies is solved by levers and not by the whole matrix: both cost the same there.
 POINTS_A_LEVER = 1.5

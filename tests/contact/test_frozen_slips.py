@@ -67,7 +67,8 @@ def test_coulombs_law_is_missed_by_no_more_than_is_said(blocks, seed):
     full = np.hypot(*impulses.T[:2]) > 0.999 * FRICTION * impulses[:, 2]
     slips = np.hypot(*after.T[:2]) > missed + 1e-9
     assert full[presses & slips].all()
-    assert ((impulses * after)[:, :2].sum(axis=1) <= 1e-8).all()
+    works = (impulses * after)[:, :2].sum(axis=1)
+    assert (works <= 1.2 * missed * np.linalg.norm(impulses, axis=1) + 1e-10).all()
 
 
 def test_an_impact_that_stops_too_early_takes_energy_too(monkeypatch):

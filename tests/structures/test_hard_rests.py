@@ -162,9 +162,10 @@ def test_bodies_as_far_apart_as_they_may_be_placed_come_to_rest(engine):
         assert carried(made, joint) == pytest.approx(weight, rel=EXACT)
 
 
-def test_friction_dampers_that_slip_while_a_bent_settles_hold_their_slip_force():
+@pytest.mark.parametrize("body, stiffness", [("column", 1e8), ("column 1", 1e8), ("column 1", 1e9)])
+def test_friction_dampers_that_slip_while_a_bent_settles_hold_their_slip_force(body, stiffness):
     """On soil that settles by millimetres stiff dampers slip all the way: with their force of
-    slipping the soil carries all weights.
+    slipping the soil carries all weights. One of them makes its column alone firm in the search.
     """
     column = dict(kind="cylinder", outer_diameter_m=1.2, height_m=6.0, element_size_m=0.3)
     made = standing(
@@ -182,12 +183,12 @@ def test_friction_dampers_that_slip_while_a_bent_settles_hold_their_slip_force()
         links=dict(
             damper=dict(
                 kind="friction",
-                body="column",
+                body=body,
                 point_m=[0.5, 0, 0.5],
                 to="soil",
                 to_point_m=[1.5, 0, 0],
                 slip_n=5e4,
-                stiffness_n_m=1e8,
+                stiffness_n_m=stiffness,
             )
         ),
         integration=dict(engine="rigid", dt_s=1e-3),
@@ -195,6 +196,8 @@ def test_friction_dampers_that_slip_while_a_bent_settles_hold_their_slip_force()
     soil, way = carried(made, 0) + carried(made, 1), np.empty(3)
     for number, tie in enumerate(made.motion.ties):
         length = interpreted(span)(made.structure, number, made.motion, way)
-        assert -5e4 <= tie["force"] < -4.99e4
+        # one alone may be unloaded after it has slipped: statics allow any force that friction does
+        assert -5e4 <= tie["force"] < (-4.99e4 if body == "column" else 5e4)
         soil += tie["force"] * way[2] / length
-    assert soil == pytest.approx(weights(made).sum(), rel=EXACT)
+    # of a way of 8 mm what is left of the search moves soil and dampers a little more
+    assert soil == pytest.approx(weights(made).sum(), rel=2 * EXACT)

@@ -28,6 +28,17 @@ def gravity_equilibrium(engine) -> motions.MotionState:
         no equilibrium, for example of a column whose centre of mass does not stand over its foot.
     """
     firmness = firmness_of(engine.structure, engine.view.center)
+    try:
+        return _settled_firmly(engine, firmness)
+    except NoEquilibrium:
+        if not len(engine.structure.links) or np.ptp(firmness) == 0.0:
+            raise
+    # a stiff strut makes one column firm, and what lies on several then sinks on the others alone
+    return _settled_firmly(engine, np.full_like(firmness, firmness.max()))
+
+
+def _settled_firmly(engine, firmness: np.ndarray) -> motions.MotionState:
+    """As `_settled`, by firmer steps where contact does not converge."""
     firmest = max(10.0**FIRMER_TIMES * firmness.max(), 2 / engine.hht.dt**2)
     while True:
         try:
