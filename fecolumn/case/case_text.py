@@ -23,7 +23,11 @@ def case_text(case) -> str:
         name: f"{len(body.copies_m)} x {body.kind}" if body.copies_m else body.kind
         for name, body in case.bodies.items()
     }
-    lines = [f"Case {case.title!r}, id {case.id}"]
+    lines = [
+        f"Case {case.title!r}, id {case.id}"
+        if case.title
+        else f"Case without a title, id {case.id}"
+    ]
     lines += [f"  {name}: {section!r}" for name, section in case.own.items()]
     for what, named in (
         ("bodies", bodies),

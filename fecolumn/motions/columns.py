@@ -19,9 +19,22 @@ from fecolumn.motions.text import (
     unit_named,
 )
 
+# Axes by the compass, as `directions` has them: x is east, y north, z up
+_COMPASS = {
+    "x": ("ew", "e-w", "e_w", "e", "east"),
+    "y": ("ns", "n-s", "n_s", "n", "north"),
+    "z": ("ud", "u-d", "u_d", "up", "vertical", "vert"),
+}
 _NAMES = {
     "time": ("time", "t", "seconds", "zeit", "temps", "tempo", "tiempo"),
-    **{axis: (f"a{axis}", f"a_{axis}", f"acc_{axis}", f"acc{axis}", axis) for axis in "xyz"},
+    **{
+        axis: tuple(
+            f"{before}{name}"
+            for name in (axis, *compass)
+            for before in ("", "a", "a_", "acc", "acc_", "acc ")
+        )
+        for axis, compass in _COMPASS.items()
+    },
     "": ("a", "acc", "accel", "acceleration", "beschleunigung", "accelerazione", "aceleracion"),
 }
 _MEANING = {name: meaning for meaning, names in _NAMES.items() for name in names}
@@ -47,7 +60,7 @@ def read_columns(path: Path | str, dt_s: float) -> Recording:
     """Recording of a text file with one row a sample.
 
     A header row (also as a comment, as numpy.savetxt writes it) names the columns time, ax, ay, az
-    with their units in brackets. Without a header two columns are time [s] and acceleration, one
+    with their units in brackets, or the axes EW, NS and UD: x is east. Without a header two columns are time [s] and acceleration, one
     column is acceleration. Columns are parted by commas, semicolons, tabs or spaces; with
     semicolons or tabs a decimal comma is understood.
 
@@ -194,7 +207,8 @@ def _columns(header: str, comments: list[str], table: NDArray[Any]) -> tuple[lis
                 meaning, unit = "", unit if unit_named(unit) else ""
         if meaning is None:
             raise UnusableRecord(
-                f"column {name!r} is not known; must be one of time, ax, ay, az, in {_EXAMPLE}"
+                f"column {name!r} is not known; must be one of time, ax, ay, az, or EW, NS, UD, "
+                f"in {_EXAMPLE}"
             )
         if meaning in meanings:
             raise UnusableRecord(f"column {name!r}: there are two of its kind; needs {_EXAMPLE}")

@@ -27,6 +27,8 @@ def read(tmp_path, text, dt_s=0.0):
         "Time [s]\tAx [G]\tAy [G]\n" + BODY.replace(",", "\t"),
         "time [s] ax [g] ay [g]\n" + BODY.replace(",", "  "),
         "# time [s] ax [g] ay [g]\n" + BODY.replace(",", " "),
+        "Zeit [s];EW [g];NS [g]\n" + BODY.replace(",", ";").replace(".", ","),
+        "t,acc_e-w [g],acc_n-s [g]\n" + BODY,
         '"time [ms]","ay [g]","ax [g]"\n0,.4,.1\n10,.5D0,-.2\n20,-.6,.3\n',
     ],
 )
