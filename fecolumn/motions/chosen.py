@@ -1,4 +1,4 @@
-"""Motions of an ensemble that one text names: ensemble.h5#*, lick:1-40."""
+"""Motions of an ensemble that one text names: ensemble.h5#*, lick:1-40, fema-p695:SET/*."""
 
 from __future__ import annotations
 
@@ -9,14 +9,15 @@ from typing import Any
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions import lick
 from fecolumn.motions.ensemble_file import ALL_MOTIONS, file_and_number, members
+from fecolumn.motions.fema_p695 import FEMA_PREFIX, indices
 from fecolumn.motions.record import UnusableRecord
 
 _SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends included
 
 
 def chosen_motions(source: Any, key: str, file: Path | str) -> list[Any]:
-    """Every motion of ensemble.h5#* or lick:*, those of lick:1-40 or ensemble.h5#1-40; any other
-    value as it is.
+    """Every motion of ensemble.h5#*, lick:* or fema-p695:SET/*, those of lick:1-40,
+    ensemble.h5#1-40 or fema-p695:SET/1-10; any other value as it is.
 
     Parameters
     ----------
@@ -34,8 +35,12 @@ def chosen_motions(source: Any, key: str, file: Path | str) -> list[Any]:
     """
     if not isinstance(source, str):
         return [source]
+    place = ""
     if source.startswith(lick.LICK_PREFIX):
-        place, mark, wanted = "", lick.LICK_PREFIX, source.removeprefix(lick.LICK_PREFIX)
+        mark, wanted = lick.LICK_PREFIX, source.removeprefix(lick.LICK_PREFIX)
+    elif source.startswith(FEMA_PREFIX):
+        before, _, wanted = source.partition("/")
+        mark = f"{before}/"
     else:
         place, wanted = file_and_number(source) or ("", "")
         mark = f"{place}#"
@@ -43,14 +48,18 @@ def chosen_motions(source: Any, key: str, file: Path | str) -> list[Any]:
     if wanted != ALL_MOTIONS and not span:
         return [source]
     try:
-        count = (
-            len(members(str(Path(file).resolve().parent / f"{place}#{ALL_MOTIONS}")))
-            if place
-            else lick.COUNT
-        )
+        if place:
+            whole = str(Path(file).resolve().parent / f"{place}#{ALL_MOTIONS}")
+            numbers = list(range(1, len(members(whole)) + 1))
+        elif mark == lick.LICK_PREFIX:
+            numbers = list(range(1, lick.COUNT + 1))
+        else:
+            numbers = indices(mark.removeprefix(FEMA_PREFIX).removesuffix("/"))
     except UnusableRecord as error:
         raise InputError(file, key, source, str(error)) from None
-    first, last = map(int, span.groups()) if span else (1, count)
-    if not 1 <= first <= last <= count:
-        raise InputError(file, key, source, f"must be two rising numbers from 1 to {count}")
-    return [f"{mark}{number}" for number in range(first, last + 1)]
+    first, last = map(int, span.groups()) if span else (numbers[0], numbers[-1])
+    if not numbers[0] <= first <= last <= numbers[-1]:
+        raise InputError(
+            file, key, source, f"must be two rising numbers from {numbers[0]} to {numbers[-1]}"
+        )
+    return [f"{mark}{number}" for number in numbers if first <= number <= last]

