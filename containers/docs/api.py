@@ -24,6 +24,9 @@ GROUPS = {
     "Links": ("Link Tendon Spring Restrainer Strut GapStop Dashpot FrictionDamper".split()),
     "Other sections of a case": ("Motion Contact Integration Overturn Output MeshLimits".split()),
     "A column in the short form": "ShortForm Column Base MeshSizes".split(),
+    "Models of rigid bodies": (
+        "BlockModel FrameModel PodiumModel WobblingModel WobblingFrameModel".split()
+    ),
     "Motions and meshes": "motion_file load_motion specimen_mesh".split(),
     "Errors": "InputError AnalysisFailed StudyError".split(),
 }

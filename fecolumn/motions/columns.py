@@ -60,9 +60,9 @@ def read_columns(path: Path | str, dt_s: float) -> Recording:
     """Recording of a text file with one row a sample.
 
     A header row (also as a comment, as numpy.savetxt writes it) names the columns time, ax, ay, az
-    with their units in brackets, or the axes EW, NS and UD: x is east. Without a header two columns are time [s] and acceleration, one
-    column is acceleration. Columns are parted by commas, semicolons, tabs or spaces; with
-    semicolons or tabs a decimal comma is understood.
+    with their units in brackets, or the axes EW, NS and UD: x is east. Without a header two columns
+    are time [s] and acceleration, one column is acceleration. Columns are parted by commas,
+    semicolons, tabs or spaces; with semicolons or tabs a decimal comma is understood.
 
     Parameters
     ----------

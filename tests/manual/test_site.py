@@ -10,6 +10,8 @@ import sys
 import pytest
 from documents import ROOT
 
+import fecolumn
+from containers.docs import api
 from containers.docs.cells import cells
 from containers.docs.equations import is_equation, typeset, with_equations
 from containers.docs.links import broken_links
@@ -30,6 +32,10 @@ def test_every_page_of_the_manual_is_listed_once():
     pages = {path.name for path in MANUAL_FOLDER.glob("*.md")}
     assert pages == {f"{name}.md" for name in TOPICS}
     assert sorted(_listed()) == sorted(pages | tutorials | GENERATED)
+
+
+def test_every_public_name_stands_below_one_heading_of_the_page_of_names():
+    assert api.page().count("::: fecolumn.") == len(fecolumn.__all__)
 
 
 def test_equations_of_the_manual_are_known_and_what_commands_print_is_left():
