@@ -98,7 +98,7 @@ def test_site_is_built_without_a_warning_and_has_every_public_name(tmp_path):
     assert done.returncode == 0 and "WARNING" not in done.stderr, done.stderr[-3000:]
     from fecolumn import __all__ as names
 
-    api = (tmp_path / "site" / "api.html").read_text(encoding="utf-8")
-    assert all(f">{name}<" in api for name in names)
-    assert "must be greater than 0 and at most" in api  # the help of keys, not the source's alone
-    assert "unpkg.com" not in api
+    written = (tmp_path / "site" / "api.html").read_text(encoding="utf-8")
+    assert all(f">{name}<" in written for name in names)
+    assert "must be greater than 0 and at most" in written  # the help of keys, not the source's alone
+    assert "unpkg.com" not in written
