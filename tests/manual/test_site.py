@@ -100,5 +100,5 @@ def test_site_is_built_without_a_warning_and_has_every_public_name(tmp_path):
 
     written = (tmp_path / "site" / "api.html").read_text(encoding="utf-8")
     assert all(f">{name}<" in written for name in names)
-    assert "must be greater than 0 and at most" in written  # the help of keys, not the source's alone
+    assert "must be greater than 0 and at most" in written  # the help of keys
     assert "unpkg.com" not in written
