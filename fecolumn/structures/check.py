@@ -19,9 +19,11 @@ from fecolumn.structures.place import footing
 
 #: Contact points of one body, above which its compliance alone has more than 3000^2 numbers.
 _MOST_POINTS = 1000
-# Over the smaller body's size: how deep points of one body may lie in another, and how far a link's
-# end may lie outside
-_DEPTH, _OUTSIDE = 1e-4, 1e-6
+# Over the smaller body's size: how deep points of one body may lie in another
+_DEPTH = 1e-4
+# Over the body's diagonal: how far a link's end may lie outside it as it is drawn: a circle drawn
+# with twelve sides lies up to 1.7 % of its diameter outside these
+_OUTSIDE = 0.02
 # Over the weight: force by which a body may miss equilibrium
 _HELD = 1e-6
 # Directions of friction at a point: a pyramid around the cone, by up to 8 % wider, so that no

@@ -510,3 +510,21 @@ def test_what_cannot_be_is_refused_before_models_are_made(monkeypatch):
     )
     with pytest.raises(InputError, match="links.tie.point_m"):
         structure_model(structure(**tables), "small.toml")
+
+
+def test_a_link_at_the_circle_of_a_round_body_drawn_with_few_sides_is_taken():
+    """Of a facet's middle it lies outside by r (1 - cos(pi / sides)), which is not told apart."""
+    drum = dict(kind="cylinder", outer_diameter_m=1.2, height_m=6.0, element_size_m=0.3)
+    tie = dict(kind="spring", body="drum", to="ground", to_point_m=[3.0, 0, 0], stiffness_n_m=1e6)
+    for angle in np.linspace(0.0, np.pi / 4, 7):
+        point = [0.6 * np.cos(angle), 0.6 * np.sin(angle), 1.0]
+        case = case_from_tables(
+            dict(
+                bodies=dict(drum=drum | STONE),
+                joints=dict(foot=dict(between=["drum", "ground"])),
+                links=dict(tie=tie | dict(point_m=point)),
+                integration=dict(engine="rigid", dt_s=1e-3, duration_s=0.1),
+            ),
+            "drum.toml",
+        )
+        assert len(structure_model(case).links) == 1
