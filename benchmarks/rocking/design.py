@@ -2,8 +2,8 @@
 
     ./containers/run python -m benchmarks.rocking.design
 
-A line for each duration p T_p of two pulses, of a slender block (alpha 0.05 rad): least tan(alpha) over
-a_p/g by p T_p / (gamma + p T_p), where gamma is that of the lines of Makris and Roussos (1998)
+A line for each duration p T_p of two pulses, of a slender block (alpha 0.05 rad): least tan(alpha)
+over a_p/g by p T_p / (gamma + p T_p), where gamma is that of the lines of Makris and Roussos (1998)
 through computed spectra, w_p/p <= pi; the same computed by Housner's block: one over the least
 amplitude that overturns; and the formula over it, below 1 where it lets a block fall. A second.
 """
