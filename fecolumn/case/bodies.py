@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from fecolumn.case.body_keys import Placed, Solid, Stuff
+from fecolumn.case.body_keys import Placed, Solid, WithMaterial
 from fecolumn.case.mesh_file_keys import cut_key, size_key, unit_key
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.foundation.schema import parameter, required
@@ -282,7 +282,7 @@ class Meshed(Solid):
 
 
 @section_class(kw_only=True)
-class Storeys(Stuff):
+class Storeys(WithMaterial):
     """kind = "storeys": a rigid slab with a building on it, whose floors move sideways on springs;
     each list has a number a floor, from below, or one for all.
     """

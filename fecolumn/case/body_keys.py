@@ -51,7 +51,7 @@ class Placed(Section):
 
 
 @section_class(kw_only=True)
-class Stuff(Placed):
+class WithMaterial(Placed):
     """Every body but one of matrices: what it is made of, and how stiff its faces are where it does
     not deform.
     """
@@ -91,7 +91,7 @@ class Stuff(Placed):
 
 
 @section_class(kw_only=True)
-class Solid(Stuff):
+class Solid(WithMaterial):
     """Every body but one of matrices or storeys: its finite elements."""
 
     coarse_size_m: float | None = parameter(

@@ -396,6 +396,10 @@ def case_from_tables(tables: dict, file="case") -> Case:
         raise InputError(file, "", None, f"must be tables of keys, not {type(tables).__name__}")
     if model_engine_of(tables, file):
         return case_of_table(tables, file)
+    if not TABLES.keys().isdisjoint(tables):
+        from fecolumn.case.model_table import check_others
+
+        check_others(tables, file)
     found, named = fields_of_tables(
         {key: table for key, table in tables.items() if key not in TABLES}, file
     )

@@ -17,7 +17,7 @@ from fecolumn.case.bodies import (
     half_sides,
     rise,
 )
-from fecolumn.case.body_keys import Solid, Stuff
+from fecolumn.case.body_keys import Solid, WithMaterial
 from fecolumn.case.polygon import crossing, signed_area
 from fecolumn.case.sections import Material
 from fecolumn.foundation.schema import meant
@@ -26,7 +26,7 @@ from fecolumn.foundation.schema import meant
 _FLAT = 1e-9
 
 
-def material_of(body: Stuff, materials: dict[str, Material]) -> Material:
+def material_of(body: WithMaterial, materials: dict[str, Material]) -> Material:
     """Material of a body: that of its name, steel without one, with the keys that the body states
     itself.
     """

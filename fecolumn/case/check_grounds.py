@@ -15,6 +15,12 @@ OF_KINDS = {
         ("stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio", "yield_pa"), ("pad",)
     ),
 }
+# Keys of impacts, and why they are 0 on a pad
+_OF_IMPACTS = "restitution", "rolling_resistance"
+_ON_PAD = (
+    "must be 0 on a pad, whose springs take the place of impacts: its damping_ratio takes energy "
+    "there"
+)
 # Of bodies that do not stand on their nodes as they are
 _NOT_FLAT = ("foot_radius_m", "edge_radius_m")
 
@@ -29,6 +35,16 @@ def check_grounds(case, refuse) -> None:
             refuse(f"grounds.{name}", None, "nothing stands on it, and no link is held by it")
     for name, interface in case.joints.items():
         _check_interface(case, f"joints.{name}", interface, refuse)
+    if case.joints and all(_is_on_pad(case, one) for one in case.joints.values()):
+        for key in _OF_IMPACTS:
+            if (value := getattr(case.contact, key)) and not case.contact.between:
+                refuse(f"contact.{key}", value, _ON_PAD)
+
+
+def _is_on_pad(case, joint) -> bool:
+    """Whether springs take the place of impacts in a joint."""
+    ground = case.grounds.get(joint.on)
+    return joint.stiffness_n_m3 is not None or ground is not None and ground.kind == "pad"
 
 
 def _check_keys(case, key: str, ground: Ground, refuse) -> None:
@@ -55,19 +71,14 @@ def _check_keys(case, key: str, ground: Ground, refuse) -> None:
 
 def _check_interface(case, key: str, interface, refuse) -> None:
     ground = case.grounds.get(interface.on)
-    on_pad = interface.stiffness_n_m3 is not None or ground is not None and ground.kind == "pad"
+    on_pad = _is_on_pad(case, interface)
     if interface.stiffness_n_m3 is None:
         for one in ("shear_stiffness_n_m3", "damping_ratio", "yield_pa"):
             if value := getattr(interface, one):
                 refuse(f"{key}.{one}", value, f"is of a pad, which needs {key}.stiffness_n_m3")
-    for one in ("restitution", "rolling_resistance"):
+    for one in _OF_IMPACTS:
         if on_pad and (value := getattr(interface, one)):
-            refuse(
-                f"{key}.{one}",
-                value,
-                "must be 0 on a pad, whose springs take the place of impacts: its damping_ratio "
-                "takes energy there",
-            )
+            refuse(f"{key}.{one}", value, _ON_PAD)
     if not on_pad and (ground is None or ground.kind == "rigid"):
         return
     bodies = [interface.slave] + [interface.on] * (ground is None)

@@ -49,6 +49,19 @@ _COMMON = {
 }
 
 
+def check_others(tables: dict, file, but: str = "") -> None:
+    """Check tables of models that a case passes over: all but the one that it is of.
+
+    Raises
+    ------
+    InputError
+        unknown key, value out of range.
+    """
+    for name in TABLES:
+        if name != but and tables.get(name, False) is not False:
+            build(SECTIONS[name], tables[name], file, f"{name}.")
+
+
 def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
     """Fields of the Case of TOML tables that have a model's own; relative paths are taken from
     the folder of `file`.
@@ -66,6 +79,7 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
     engine = engine or model_engine_of(tables, file)
     table = next(name for name, model in TABLES.items() if model == engine)
     structure = "bodies" in tables
+    check_others(tables, file, table)
     tables = {
         key: value
         for key, value in tables.items()

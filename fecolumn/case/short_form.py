@@ -84,6 +84,10 @@ def short_form(tables: dict, file) -> ShortForm:
     InputError
         unknown or missing key, wrong type, value out of range, parts that do not fit.
     """
+    for name in _OF_FULL_FORM:
+        if tables.get(name, False) is not False:
+            told = "is of the full form, in which fecolumn show writes this case: state it there"
+            raise InputError(file, name, None, told)
     form = build(ShortForm, tables, file)
     return finished(
         dataclasses.replace(
@@ -93,6 +97,8 @@ def short_form(tables: dict, file) -> ShortForm:
     )
 
 
+# Tables of the full form alone
+_OF_FULL_FORM = "materials", "grounds", "joints", "links"
 # keys of [base] that a pad alone has
 PAD_KEYS = "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"
 

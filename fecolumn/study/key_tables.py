@@ -122,7 +122,7 @@ def tables() -> list[Table]:
 def _of_structures() -> list[Table]:
     """Tables of a structure's case beside those that it has in common with a column's."""
     from fecolumn.case.bodies import BODY_KINDS, Footed
-    from fecolumn.case.body_keys import Placed, Solid, Stuff
+    from fecolumn.case.body_keys import Placed, Solid, WithMaterial
     from fecolumn.case.ground import Ground
     from fecolumn.case.joint import Interface
     from fecolumn.case.link import LinkKeys
@@ -150,7 +150,8 @@ def _of_structures() -> list[Table]:
         "2\"; left out: the highest body's top",
     )
     bodies = [
-        own(kind) for kind in (Placed, Stuff, Solid, Footed, *dict.fromkeys(BODY_KINDS.values()))
+        own(kind)
+        for kind in (Placed, WithMaterial, Solid, Footed, *dict.fromkeys(BODY_KINDS.values()))
     ]
     others = {
         "bodies.NAME.flange": Flange,

@@ -201,3 +201,19 @@ def test_columns_of_a_model_start_alike():
     ):
         with pytest.raises(InputError, match=told):
             start_of(frame("rocking_frame", PIER, SLAB, initial=initial), "")
+
+
+@pytest.mark.parametrize("between", [["body", "floor"], ["floor", "body"]])
+@pytest.mark.parametrize("kind", ["rigid", "plate", "unbounded"])
+def test_the_ground_may_have_any_name(between, kind):
+    joints = dict(foot=dict(between=between, friction_coefficient=0.3))
+    named = case("housner", dict(body=BLOCK), joints, grounds=dict(floor=dict(kind=kind)))
+    stands = case("housner", dict(body=BLOCK), FOOT, contact=dict(friction_coefficient=0.3))
+    assert repr(model_of(named, "case.toml")) == repr(model_of(stands, "case.toml"))
+
+
+@pytest.mark.parametrize("of", [dict(bodies=dict(body=BLOCK), joints=FOOT), dict(column={})])
+def test_keys_of_a_table_that_is_passed_over_are_checked(of):
+    plan = dict(engine="reduced", duration_s=1.0)
+    with pytest.raises(InputError, match="block.foo = 1: unknown key"):
+        case_from_tables(of | dict(block=dict(foo=1), integration=plan), "case.toml")

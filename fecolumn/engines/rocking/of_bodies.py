@@ -157,15 +157,24 @@ class _Reader:
                 self._refuse(f"joints.{name}.stiffness_n_m3", joint.stiffness_n_m3, allowed)
 
     def _joints(self) -> set[tuple[str, str]]:
-        """Pairs of bodies, or a body and the ground, between which there are interfaces."""
+        """Pairs of bodies, or a body and the ground, between which there are joints; a ground of
+        any name is GROUND_NAME.
+        """
         pairs = set()
-        for interface in self.case.joints.values():
-            own, others = (
-                {one} if one == GROUND_NAME else {body for body, _ in self.case.copies_of(one)}
-                for one in (interface.slave, interface.on)
-            )
+        for joint in self.case.joints.values():
+            own, others = self._sides(joint)
             pairs |= {pair for a in own for b in others for pair in ((a, b), (b, a))}
         return pairs
+
+    def _sides(self, joint) -> tuple[set[str], set[str]]:
+        """Bodies on both sides of a joint, or GROUND_NAME."""
+        one, other = (
+            {GROUND_NAME}
+            if name in self.case.grounds
+            else {body for body, _ in self.case.copies_of(name)}
+            for name in (joint.slave, joint.on)
+        )
+        return one, other
 
     def _alone(self) -> str:
         """The one body, which stands on the ground."""
@@ -240,12 +249,11 @@ class _Reader:
 
     def _friction(self, name: str) -> float:
         """Coefficient of friction between a body and the ground."""
-        for interface in self.case.joints.values():
-            if interface.on == GROUND_NAME and name in {
-                body for body, _ in self.case.copies_of(interface.slave)
-            }:
-                own = interface.friction_coefficient
-                return self.case.contact.friction_coefficient if own is None else own
+        for joint in self.case.joints.values():
+            own, others = self._sides(joint)
+            if name in own and GROUND_NAME in others or name in others and GROUND_NAME in own:
+                stated = joint.friction_coefficient
+                return self.case.contact.friction_coefficient if stated is None else stated
         return self.case.contact.friction_coefficient
 
     def _mass(self, name: str) -> float:
