@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
+from fecolumn.contact.tolerances import ROUND_NODES
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
 from fecolumn.structures.bonds import pulls_of_bonds
@@ -19,11 +20,11 @@ from fecolumn.structures.place import footing
 
 #: Contact points of one body, above which its compliance alone has more than 3000^2 numbers.
 _MOST_POINTS = 1000
-# Over the smaller body's size: how deep points of one body may lie in another
-_DEPTH = 1e-4
-# Over the body's diagonal: how far a link's end may lie outside it as it is drawn: a circle drawn
-# with twelve sides lies up to 1.7 % of its diameter outside these
-_OUTSIDE = 0.02
+# Over the smaller body's size: how deep points of one body may lie in another, and how far a link's
+# end may lie outside
+_DEPTH, _OUTSIDE = 1e-4, 1e-6
+# Over its diameter: how far a circle lies outside the polygon of fewest sides that it is drawn as
+_ROUND = (1 - math.cos(math.pi / ROUND_NODES)) / 2
 # Over the weight: force by which a body may miss equilibrium
 _HELD = 1e-6
 # Directions of friction at a point: a pyramid around the cone, by up to 8 % wider, so that no
@@ -238,7 +239,8 @@ def check_links(case, extents: dict, file) -> None:
                 low, high = np.array(extents[of])
                 arm = place - case.bodies[of].places[copy]
                 outside = np.linalg.norm(np.maximum(np.maximum(low - arm, arm - high), 0.0))
-                if outside > _OUTSIDE * np.linalg.norm(high - low):
+                round_by = _ROUND * getattr(case.bodies[of], "outer_diameter_m", 0.0)
+                if outside > _OUTSIDE * np.linalg.norm(high - low) + round_by:
                     told = f'must be a point of "{case.names_of(of)[copy]}": it lies '
                     told += f"{outside:.3g} m outside"
                     if end == "to_point_m":

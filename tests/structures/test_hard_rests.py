@@ -199,5 +199,6 @@ def test_friction_dampers_that_slip_while_a_bent_settles_hold_their_slip_force(b
         # one alone may be unloaded after it has slipped: statics allow any force that friction does
         assert -5e4 <= tie["force"] < (-4.99e4 if body == "column" else 5e4)
         soil += tie["force"] * way[2] / length
-    # of a way of 8 mm what is left of the search moves soil and dampers a little more
-    assert soil == pytest.approx(weights(made).sum(), rel=2 * EXACT)
+    # of a search that was made twice a little more of the way of 8 mm is left
+    exact = EXACT if body == "column" else 2 * EXACT
+    assert soil == pytest.approx(weights(made).sum(), rel=exact)

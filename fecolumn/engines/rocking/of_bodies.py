@@ -250,8 +250,7 @@ class _Reader:
     def _friction(self, name: str) -> float:
         """Coefficient of friction between a body and the ground."""
         for joint in self.case.joints.values():
-            own, others = self._sides(joint)
-            if name in own and GROUND_NAME in others or name in others and GROUND_NAME in own:
+            if {name, GROUND_NAME} <= set().union(*self._sides(joint)):
                 stated = joint.friction_coefficient
                 return self.case.contact.friction_coefficient if stated is None else stated
         return self.case.contact.friction_coefficient
