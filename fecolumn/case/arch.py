@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from pathlib import Path
+from typing import Any
 
 from fecolumn.case.bodies import Arch, Prism
 from fecolumn.case.body_keys import Placed, Solid
 from fecolumn.case.check_bodies import check_arch
-from fecolumn.foundation.schema import InputError, build
+from fecolumn.case.checked import refuse_in
+from fecolumn.foundation.schema import build
 
 #: Keys that a voussoir may have of its own
 _OWN = tuple(one.name for one in dataclasses.fields(Solid) if one.name not in ("at_m", "copies_m"))
@@ -19,10 +22,10 @@ _INSTEAD = {
     "mass_kg": ("density_kg_m3",),
 }
 # A prism by which the keys of a voussoir are checked
-_ANY: dict = {"outline_m": [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], "width_m": 1.0}
+_ANY: dict[str, Any] = {"outline_m": [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]], "width_m": 1.0}
 
 
-def without_voussoirs(tables) -> tuple[dict, dict[str, dict]]:
+def without_voussoirs(tables: Any) -> tuple[Any, dict[str, dict[str, Any]]]:
     """Tables of bodies, and of them those of single voussoirs, such as "arch 3" beside an arch."""
     if not isinstance(tables, dict):
         return tables, {}
@@ -35,7 +38,7 @@ def without_voussoirs(tables) -> tuple[dict, dict[str, dict]]:
 
 
 def with_voussoirs(
-    bodies: dict[str, Placed], own: dict[str, dict], file
+    bodies: dict[str, Placed], own: dict[str, dict[str, Any]], file: Path | str
 ) -> tuple[dict[str, Placed], dict[str, Arch]]:
     """Bodies of a case with those of arches in the place of these, and the arches by name; own:
     tables of single voussoirs.
@@ -46,12 +49,10 @@ def with_voussoirs(
         an arch that cannot be, a body that has the name of a voussoir, or a voussoir that is none,
         or says of itself what its arch does.
     """
-
-    def refuse(key, value, allowed):
-        raise InputError(file, key, value, allowed)
-
+    refuse = refuse_in(file)
     arches = {name: body for name, body in bodies.items() if isinstance(body, Arch)}
     found: dict[str, Placed] = {}
+    single: dict[str, Prism] = {}
     for name, body in bodies.items():
         if name not in arches:
             found[name] = body
@@ -61,6 +62,7 @@ def with_voussoirs(
         if twice := [one for one in made if one in bodies]:
             refuse(f"bodies.{twice[0]}", None, f"is the name of a voussoir of bodies.{name}")
         found |= made
+        single |= made
     for name, table in own.items():
         arch = name.rpartition(" ")[0]
         if arch in arches and name not in found:
@@ -72,19 +74,20 @@ def with_voussoirs(
                 f"is a voussoir of bodies.{arch}, which says its {not_own[0]}; of its own are "
                 f"{', '.join(_OWN)}",
             )
-        if name in found:
+        if name in single:
             checked = build(Prism, _ANY | table, file, f"bodies.{name}.")
-            found[name] = differing(found[name], {key: getattr(checked, key) for key in table})
+            found[name] = differing(single[name], {key: getattr(checked, key) for key in table})
     return found, arches
 
 
-def differing(body, own: dict):
+def differing(body: Prism, own: dict[str, Any]) -> Prism:
     """A voussoir with keys of its own."""
     left = {key for one in own for key in _INSTEAD.get(one, ()) if key not in own}
-    return dataclasses.replace(body, **dict.fromkeys(left), **own)
+    cleared: dict[str, Any] = dict.fromkeys(left)
+    return dataclasses.replace(body, **cleared, **own)
 
 
-def own_keys(body, made: Prism) -> dict | None:
+def own_keys(body: Placed | None, made: Prism) -> dict[str, Any] | None:
     """Keys in which a body differs from a voussoir of its arch; None where it is not one."""
     keys = [key for key in _OWN if getattr(body, key, None) != getattr(made, key)]
     own = {key: getattr(body, key) for key in keys if getattr(body, key, None) is not None}

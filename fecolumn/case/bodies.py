@@ -230,7 +230,7 @@ class Meshed(Solid):
         return "MeshBody"
 
     kind: str = parameter("mesh", doc="what the body is", choices=("mesh",))
-    at_m: tuple[float, ...] | None = parameter(
+    at_m: tuple[float, ...] | None = parameter(  # type: ignore[assignment]  # None: as drawn
         None,
         doc="place [x, y, z] to which the middle of its flat foot is moved; left out: nothing is "
         "moved",
@@ -380,7 +380,7 @@ BODY_KINDS = {
 }
 
 
-def half_sides(body) -> tuple[float, float]:
+def half_sides(body: Tube | Cylinder | Block | Cone) -> tuple[float, float]:
     """Radius [m] of a round foot and 0, or half the sides of a rectangular one, as of
     `model.Ball.edge`.
     """
@@ -391,8 +391,7 @@ def half_sides(body) -> tuple[float, float]:
     return (body.flange.outer_diameter_m if body.flange else body.outer_diameter_m) / 2, 0.0
 
 
-def rise(body) -> float:
+def rise(body: Tube | Cylinder | Block) -> float:
     """Height [m] of the highest point of a dome over its lowest one."""
-    return body.foot_radius_m - math.sqrt(
-        max(body.foot_radius_m**2 - sum(half**2 for half in half_sides(body)), 0.0)
-    )
+    radius = body.foot_radius_m or 0.0
+    return radius - math.sqrt(max(radius**2 - sum(half**2 for half in half_sides(body)), 0.0))

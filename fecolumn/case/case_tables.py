@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import typing
+from typing import Any
 
 from fecolumn.case.bodies import BODY_KINDS
 from fecolumn.case.body_keys import Placed
@@ -51,7 +52,7 @@ def of_this_version(key: str) -> str:
     return newer
 
 
-def type_of(key: str):
+def type_of(key: str) -> Any:
     """Type of a dotted key of a structure's case, whatever its bodies are called, or None:
     "bodies.slab.length_m" is a float.
     """

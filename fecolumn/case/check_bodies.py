@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from fecolumn.case.bodies import (
     Arch,
     Block,
-    Footed,
-    Matrices,
+    Cone,
+    Cylinder,
     Meshed,
     Plate,
     Prism,
@@ -17,7 +18,8 @@ from fecolumn.case.bodies import (
     half_sides,
     rise,
 )
-from fecolumn.case.body_keys import Solid, WithMaterial
+from fecolumn.case.body_keys import Placed, Solid, WithMaterial
+from fecolumn.case.checked import Refuse
 from fecolumn.case.polygon import crossing, signed_area
 from fecolumn.case.sections import Material
 from fecolumn.foundation.schema import meant
@@ -26,7 +28,7 @@ from fecolumn.foundation.schema import meant
 _FLAT = 1e-9
 
 
-def material_of(body: WithMaterial, materials: dict[str, Material]) -> Material:
+def material_of(body: WithMaterial, materials: Mapping[str, Material]) -> Material:
     """Material of a body: that of its name, steel without one, with the keys that the body states
     itself.
     """
@@ -40,7 +42,7 @@ def material_of(body: WithMaterial, materials: dict[str, Material]) -> Material:
     )
 
 
-def check_body(key: str, body, materials: dict, refuse) -> None:
+def check_body(key: str, body: Placed, materials: Mapping[str, Material], refuse: Refuse) -> None:
     """Refuse places, materials and dimensions that cannot be."""
     if body.at_m is not None and len(body.at_m) != 3:
         refuse(f"{key}.at_m", list(body.at_m), "must be three numbers: x, y, z")
@@ -57,7 +59,7 @@ def check_body(key: str, body, materials: dict, refuse) -> None:
         refuse(
             f"{key}.copies_m", [list(place) for place in body.copies_m], "must be different places"
         )
-    if isinstance(body, Matrices):
+    if not isinstance(body, WithMaterial):  # matrices have none
         return
     if body.material and body.material not in materials:
         refuse(
@@ -85,7 +87,7 @@ def check_body(key: str, body, materials: dict, refuse) -> None:
         _check_storeys(key, body, refuse)
 
 
-def _check_solid(key: str, body: Solid, refuse) -> None:
+def _check_solid(key: str, body: Solid, refuse: Refuse) -> None:
     if body.moves_with and not body.fixed:
         refuse(f"{key}.moves_with", body.moves_with, f"is of a body with {key}.fixed = true")
     if body.contact_stiffness_n_m3 is not None and body.deforms:
@@ -117,7 +119,7 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
             body.coarse_size_m,
             f"must be at least element_size_m = {body.element_size_m:g} m",
         )
-    if isinstance(body, Footed):
+    if isinstance(body, (Tube, Cylinder, Block)):
         _check_foot(key, body, refuse)
     if isinstance(body, (Block, Plate)):
         shorter = min(body.length_m, body.width_m)
@@ -126,6 +128,12 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
                 f"{key}.element_size_m", size, f"must be at most the shorter side, {shorter:g} m"
             )
         return
+    if isinstance(body, (Tube, Cylinder, Cone)):
+        _check_round(key, body, refuse)
+
+
+def _check_round(key: str, body: Tube | Cylinder | Cone, refuse: Refuse) -> None:
+    """Refuse plates narrower than the body, and elements that do not make it round."""
     for name in ("flange", "cap"):
         if (part := getattr(body, name, None)) is None:
             continue
@@ -137,10 +145,11 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
                 f"must be at least the body's own {body.outer_diameter_m:g} m",
             )
     hole = body.outer_diameter_m - 2 * body.wall_m if isinstance(body, Tube) else 0.0
-    if getattr(body, "flange", None) and body.flange.inner_diameter_m > hole:
+    flange = None if isinstance(body, Cone) else body.flange
+    if flange and flange.inner_diameter_m > hole:
         refuse(
             f"{key}.flange.inner_diameter_m",
-            body.flange.inner_diameter_m,
+            flange.inner_diameter_m,
             f"must be at most the body's own {hole:g} m",
         )
     around = math.pi * body.outer_diameter_m
@@ -153,7 +162,7 @@ def _check_solid(key: str, body: Solid, refuse) -> None:
         )
 
 
-def _check_inertia(key: str, values: tuple[float, ...], refuse) -> None:
+def _check_inertia(key: str, values: tuple[float, ...], refuse: Refuse) -> None:
     """Refuse a tensor that is none of a body."""
     told = list(values)
     if len(values) not in (3, 6):
@@ -169,7 +178,7 @@ def _check_inertia(key: str, values: tuple[float, ...], refuse) -> None:
             )
 
 
-def _check_prism(key: str, body: Prism, refuse) -> None:
+def _check_prism(key: str, body: Prism, refuse: Refuse) -> None:
     if body.coarse_size_m is not None:
         refuse(
             f"{key}.coarse_size_m",
@@ -212,7 +221,7 @@ def _check_prism(key: str, body: Prism, refuse) -> None:
         )
 
 
-def check_arch(key: str, arch: Arch, refuse) -> None:
+def check_arch(key: str, arch: Arch, refuse: Refuse) -> None:
     """Refuse rings that cannot be; what else is wrong is so of its voussoirs."""
     if arch.copies_m:
         refuse(
@@ -245,7 +254,7 @@ def check_arch(key: str, arch: Arch, refuse) -> None:
         )
 
 
-def _check_foot(key: str, body: Footed, refuse) -> None:
+def _check_foot(key: str, body: Tube | Cylinder | Block, refuse: Refuse) -> None:
     """Refuse spheres and edges that the foot has no room for."""
     halves = half_sides(body)
     if (radius := body.foot_radius_m) is not None:
@@ -284,7 +293,7 @@ def _check_foot(key: str, body: Footed, refuse) -> None:
         )
 
 
-def _check_storeys(key: str, body: Storeys, refuse) -> None:
+def _check_storeys(key: str, body: Storeys, refuse: Refuse) -> None:
     for name, fewest in (
         ("floor_masses_kg", 1),
         ("storey_heights_m", 1),

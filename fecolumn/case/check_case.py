@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from fecolumn.case.bodies import Storeys
 from fecolumn.case.check_found import check_found
 from fecolumn.case.check_grounds import check_grounds
+from fecolumn.case.checked import CheckedCase, Refuse, refuse_in
 from fecolumn.case.sections import (
     DEFAULT,
     FULL_ORDER_KEYS,
@@ -19,7 +22,7 @@ from fecolumn.foundation.schema import (
 _LEAST_WAY = 1e-6
 
 
-def check(case, file) -> None:
+def check(case: CheckedCase, file: Path | str) -> None:
     """What no single key can know: names that tables use of one another, and keys of which only one
     may stand.
     """
@@ -28,9 +31,7 @@ def check(case, file) -> None:
     from fecolumn.case.check_link import check_link
     from fecolumn.case.check_step import check_step
 
-    def refuse(key, value, allowed):
-        raise InputError(file, key, value, allowed)
-
+    refuse = refuse_in(file)
     if 0 < (cap := case.overturn.displacement_m) < _LEAST_WAY:
         told = f"must be 0 for none, or at least {_LEAST_WAY:g} m: less is no overturning"
         refuse("overturn.displacement_m", cap, told)
@@ -97,15 +98,15 @@ def check(case, file) -> None:
             if len(value := getattr(start, key)) != 3:
                 refuse(f"initial.{name}.{key}", list(value), "must be three numbers: x, y, z")
     if case.observed:
-        body = case.observed.partition(".")[0]
-        _check_name(case, "observed", body, refuse, ground=False)
-        if getattr(case.bodies[case.copies_of(body)[0][0]], "fixed", False):
+        watched = case.observed.partition(".")[0]
+        _check_name(case, "observed", watched, refuse, ground=False)
+        if getattr(case.bodies[case.copies_of(watched)[0][0]], "fixed", False):
             refuse("observed", case.observed, "must be a body that moves: this one is fixed")
-        if len(case.copies_of(body)) > 1:
+        if len(case.copies_of(watched)) > 1:
             refuse(
                 "observed",
                 case.observed,
-                f'must be one of its copies, such as "{case.names_of(body)[0]}"',
+                f'must be one of its copies, such as "{case.names_of(watched)[0]}"',
             )
     for name, body in case.bodies.items():
         if isinstance(body, Storeys) and not case.modes_of(name):
@@ -126,7 +127,9 @@ def check(case, file) -> None:
     _check_integration(case, refuse)
 
 
-def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
+def _check_name(
+    case: CheckedCase, key: str, name: str, refuse: Refuse, ground: bool = True
+) -> None:
     if ground and name in case.grounds:
         return
     try:
@@ -142,7 +145,7 @@ def _check_name(case, key: str, name: str, refuse, ground: bool = True) -> None:
         refuse(key, name, f"no such {what}{meant(name, known)}; known: {', '.join(known)}")
 
 
-def _check_integration(case, refuse) -> None:
+def _check_integration(case: CheckedCase, refuse: Refuse) -> None:
     from fecolumn.case.check_full import check_full
 
     plan = case.integration
@@ -180,7 +183,7 @@ def _check_integration(case, refuse) -> None:
         refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
 
 
-def check_duration(case, file) -> None:
+def check_duration(case: CheckedCase, file: Path | str) -> None:
     """Refuse to analyse a case that does not say for how long; its mesh may still be looked at."""
     if case.motion is None and case.integration.duration_s == 0:
         raise InputError(

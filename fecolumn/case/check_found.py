@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.case.body_keys import Placed
+from fecolumn.case.checked import CheckedCase, Refuse
 
 _KEY = "contact.between"
 # Engines that move bodies in three dimensions and find their contact point by point
 _ENGINES = ("reduced", "rigid")
 
 
-def check_found(case, refuse, check_name) -> None:
+def check_found(case: CheckedCase, refuse: Refuse, check_name: Callable[[str, str], None]) -> None:
     """Refuse bodies, grounds and joints that cannot meet just anywhere.
 
     check_name: function of a key and of the name of a body that it gives, refuses one that is
@@ -69,7 +73,7 @@ def check_found(case, refuse, check_name) -> None:
                 )
 
 
-def _check_body(name: str, body, refuse) -> None:
+def _check_body(name: str, body: Placed, refuse: Refuse) -> None:
     key = f"bodies.{name}"
     if isinstance(body, (Matrices, Storeys)):
         refuse(

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.case.bodies import Storeys
+from fecolumn.case.body_keys import WithMaterial
 from fecolumn.case.check_bodies import material_of
+from fecolumn.case.checked import CheckedCase, Refuse
 
 
-def check_full(case, refuse) -> None:
+def check_full(case: CheckedCase, refuse: Refuse) -> None:
     """Refuse keys that a case with integration.engine = "full" cannot have."""
     for name, body in case.bodies.items():
-        if isinstance(body, (Matrices, Storeys)):
+        if isinstance(body, Storeys) or not isinstance(body, WithMaterial):  # none of elements
             continue
         for key in ("foot_radius_m", "edge_radius_m"):
             if value := getattr(body, key, None):
@@ -42,7 +44,7 @@ def check_full(case, refuse) -> None:
         _check_no_impacts(case, refuse)
 
 
-def _check_no_impacts(case, refuse) -> None:
+def _check_no_impacts(case: CheckedCase, refuse: Refuse) -> None:
     """Refuse what belongs to an impact where contact is that of the literal HHT scheme."""
     told = "must be 0 where contact.impact = 'none'"
     for key in ("restitution", "rolling_resistance"):

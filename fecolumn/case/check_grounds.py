@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from fecolumn.case.checked import CheckedCase, Refuse
 from fecolumn.case.ground import Ground
+from fecolumn.case.joint import Interface
 
 #: Keys that say something of some kinds of ground alone, and these.
 OF_KINDS = {
@@ -25,7 +27,7 @@ _ON_PAD = (
 _NOT_FLAT = ("foot_radius_m", "edge_radius_m")
 
 
-def check_grounds(case, refuse) -> None:
+def check_grounds(case: CheckedCase, refuse: Refuse) -> None:
     """Refuse grounds, and joints with them and with pads, that cannot be."""
     for name, ground in case.grounds.items():
         _check_keys(case, f"grounds.{name}", ground, refuse)
@@ -41,13 +43,13 @@ def check_grounds(case, refuse) -> None:
                 refuse(f"contact.{key}", value, _ON_PAD)
 
 
-def _is_on_pad(case, joint) -> bool:
+def _is_on_pad(case: CheckedCase, joint: Interface) -> bool:
     """Whether springs take the place of impacts in a joint."""
     ground = case.grounds.get(joint.on)
     return joint.stiffness_n_m3 is not None or ground is not None and ground.kind == "pad"
 
 
-def _check_keys(case, key: str, ground: Ground, refuse) -> None:
+def _check_keys(case: CheckedCase, key: str, ground: Ground, refuse: Refuse) -> None:
     for one, kinds in OF_KINDS.items():
         if (value := getattr(ground, one)) and ground.kind not in kinds:
             refuse(
@@ -69,7 +71,7 @@ def _check_keys(case, key: str, ground: Ground, refuse) -> None:
         refuse(f"{key}.motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
 
 
-def _check_interface(case, key: str, interface, refuse) -> None:
+def _check_interface(case: CheckedCase, key: str, interface: Interface, refuse: Refuse) -> None:
     ground = case.grounds.get(interface.on)
     on_pad = _is_on_pad(case, interface)
     if interface.stiffness_n_m3 is None:

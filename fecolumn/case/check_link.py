@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 
+from fecolumn.case.checked import Refuse
 from fecolumn.case.link import LinkKeys
 
 # What a kind of links cannot do without, stiffness_n_m unless told, with its unit
@@ -31,7 +32,7 @@ def _told(kind: str) -> str:
     return "friction damper" if kind == "friction" else kind
 
 
-def check_link(key: str, link, refuse) -> None:
+def check_link(key: str, link: LinkKeys, refuse: Refuse) -> None:
     """Refuse a link without what its kind needs, or with what says nothing of it."""
     for name in ("point_m", "to_point_m"):
         if len(value := getattr(link, name)) != 3:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+from fecolumn.case.checked import CheckedCase, Refuse
 from fecolumn.case.sections import AUTO, Integration
 from fecolumn.foundation.schema import InputError
 
@@ -10,7 +13,7 @@ _KEY = "integration.dt_s"
 CHOOSE = ("reduced", "rigid")
 
 
-def check_step(plan: Integration, refuse) -> None:
+def check_step(plan: Integration, refuse: Refuse) -> None:
     """Refuse a step that is to be chosen where the engine cannot: called as refuse(key, value,
     allowed).
     """
@@ -23,7 +26,7 @@ def check_step(plan: Integration, refuse) -> None:
         )
 
 
-def check_stated(case, file) -> None:
+def check_stated(case: CheckedCase, file: Path | str) -> None:
     """Refuse a step that is to be chosen where many analyses are compared, which must have one.
 
     Raises

@@ -7,7 +7,7 @@ from __future__ import annotations
 import argparse
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn completion`."""
     parser.add_argument(
         "shell", choices=("bash", "zsh", "fish"), help="whose script is printed, one of %(choices)s"
@@ -24,10 +24,10 @@ def script(parser: argparse.ArgumentParser, shell: str) -> str:
     return shtab.complete(parser, shell=shell)
 
 
-def _offer_files(parser, files) -> None:
+def _offer_files(parser: argparse.ArgumentParser, files: dict[str, str | dict[str, str]]) -> None:
     for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction):
             for below in action.choices.values():
                 _offer_files(below, files)
         elif not action.choices and action.nargs != 0:
-            action.complete = files
+            action.complete = files  # type: ignore[attr-defined]  # by which shtab is told

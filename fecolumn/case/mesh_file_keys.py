@@ -1,11 +1,16 @@
-"""Keys of a mesh file that a body of [bodies] and the column of the short form share."""
+"""Keys of a mesh file that a body of [bodies] and the column of the short form share.
+
+Each is the default of a field of another type, as `parameter` is.
+"""
 
 from __future__ import annotations
+
+from typing import Any
 
 from fecolumn.foundation.schema import parameter
 
 
-def unit_key():
+def unit_key() -> Any:
     """Unit of a mesh file."""
     return parameter(
         None,
@@ -16,7 +21,7 @@ def unit_key():
     )
 
 
-def size_key():
+def size_key() -> Any:
     """Size of the elements made in what a mesh file draws [m]."""
     return parameter(
         None,
@@ -29,7 +34,7 @@ def size_key():
     )
 
 
-def cut_key():
+def cut_key() -> Any:
     """Height at which a drawn surface is cut off [m]."""
     return parameter(
         None,

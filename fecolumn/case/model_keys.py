@@ -4,10 +4,30 @@ is nothing to make a step in parts for.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Protocol
+
+from fecolumn.case.checked import Refuse
+from fecolumn.case.column_keys import Base
+from fecolumn.case.sections import Initial, Integration
+
 OF_COLUMN = ("housner", "wobbling")  # models that a case's column makes
 
 
-def check_model(case, models, refuse) -> None:
+class _OnBase(Protocol):
+    """What is asked of a ShortForm, which imports its checks."""
+
+    @property
+    def integration(self) -> Integration: ...
+
+    @property
+    def initial(self) -> Initial: ...
+
+    @property
+    def base(self) -> Base: ...
+
+
+def check_model(case: _OnBase, models: Sequence[str], refuse: Refuse) -> None:
     """Keys that a rocking model of rigid bodies, an engine of `models`, knows nothing of."""
     engine = case.integration.engine
     if engine not in models:
@@ -48,7 +68,7 @@ def check_model(case, models, refuse) -> None:
         )
 
 
-def check_substeps(case, models, refuse) -> None:
+def check_substeps(case: _OnBase, models: Sequence[str], refuse: Refuse) -> None:
     """integration.substeps where it would say nothing: of a rocking model, an engine of `models`,
     and of a pad.
     """

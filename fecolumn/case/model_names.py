@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from pathlib import Path
+
 from fecolumn.foundation.schema import InputError
 
 #: Name of a model's own table in a case file: name of the model.
@@ -14,7 +17,7 @@ TABLES = {
 }
 
 
-def model_engine_of(tables: dict, file) -> str | None:
+def model_engine_of(tables: Mapping[str, object], file: Path | str) -> str | None:
     """Name of the model that a case's tables ask for by a table of its own; None where an engine of
     finite elements is asked for, or no model's table is there.
 
@@ -28,7 +31,7 @@ def model_engine_of(tables: dict, file) -> str | None:
         return None
     plan = tables.get("integration")
     engine = plan.get("engine") if isinstance(plan, dict) else None
-    if engine in there:
+    if isinstance(engine, str) and engine in there:
         return engine
     if "bodies" in tables:
         return None

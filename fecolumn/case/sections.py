@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any, TypeVar
 
 from fecolumn.foundation.content import content
 from fecolumn.foundation.paths import OF_SECTIONS as FILES
@@ -16,8 +16,7 @@ from fecolumn.foundation.paths import absolute
 from fecolumn.foundation.schema import Section, parameter, required
 from fecolumn.foundation.section_class import section_class
 
-if TYPE_CHECKING:
-    pass
+_Stated = TypeVar("_Stated", bound=Section | None)
 
 #: Words of integration.substeps, for what a step is made in parts: a rim that rolls fast, a point
 #: that lands, nothing at all.
@@ -224,7 +223,7 @@ class Integration(Section):
     @property
     def shortest_s(self) -> float:
         """The time step, or the shortest that may be chosen [s]."""
-        return TRIAL_STEPS[-1] if self.step_is_chosen else self.dt_s
+        return TRIAL_STEPS[-1] if self.step_is_chosen else float(self.dt_s)
 
 
 @section_class()
@@ -305,7 +304,8 @@ class Motion(Section):
     @property
     def longest_free_vibration_s(self) -> float:
         """Time after the motion's end that is analysed at most."""
-        return self.rest_ceiling_s if self.free_vibration_s == UNTIL_REST else self.free_vibration_s
+        rests = self.free_vibration_s == UNTIL_REST
+        return self.rest_ceiling_s if rests else float(self.free_vibration_s)
 
 
 @section_class()
@@ -403,7 +403,7 @@ FULL_ORDER_KEYS = "tolerance", "max_iterations"
 DEFAULT = {field.name: field.default for field in dataclasses.fields(Integration)}
 
 
-def section_table(name: str, section) -> dict | None:
+def section_table(name: str, section: Section | None) -> dict[str, Any] | None:
     """What of a section of a case tells one analysis from another: files by content; keys that only
     guard or tell are left out.
 
@@ -412,7 +412,7 @@ def section_table(name: str, section) -> dict | None:
     """
     if section is None:
         return None
-    table = dataclasses.asdict(section)
+    table: dict[str, Any] = dataclasses.asdict(section)
     for field in dataclasses.fields(section):
         if (
             not field.metadata.get("counts", True)
@@ -425,11 +425,13 @@ def section_table(name: str, section) -> dict | None:
     return table
 
 
-def located(name: str, section, file):
+def located(name: str, section: _Stated, file: Path | str) -> _Stated:
     """A section of a case with its relative paths taken from the folder of `file`."""
     folder = Path(file).resolve().parent
     given = {key: getattr(section, key) for key in FILES.get(name, ()) if section}
     found = {
         key: path for key, source in given.items() if (path := absolute(source, folder)) != source
     }
-    return dataclasses.replace(section, **found) if found else section
+    if not found:  # as of None
+        return section
+    return dataclasses.replace(section, **found)  # type: ignore[type-var]  # no None is left

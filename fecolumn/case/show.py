@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import argparse
 
-def add_arguments(parser) -> None:
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn show`."""
     parser.add_argument("case", metavar="CASE.toml")
     parser.add_argument("--all", action="store_true", help="keys at their defaults, too")
 
 
-def main(args) -> int:
+def main(args: argparse.Namespace) -> int:
     """Print the full form; returns 0.
 
     Raises

@@ -286,6 +286,9 @@ class Section:
 
     __slots__ = ()
 
+    if typing.TYPE_CHECKING:  # every section is made a dataclass
+        __dataclass_fields__: typing.ClassVar[dict[str, dataclasses.Field[typing.Any]]]
+
     @classmethod
     def section_name(cls) -> str:
         """Name of the section in messages, "" of a whole case."""

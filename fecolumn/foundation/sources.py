@@ -28,6 +28,7 @@ DECIDING = (
     "case/check_found.py",
     "case/check_full.py",
     "case/check_grounds.py",
+    "case/checked.py",
     "case/check_link.py",
     "case/check_step.py",
     "case/given.py",

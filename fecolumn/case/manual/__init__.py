@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from pathlib import Path
 
 MANUAL_FOLDER = Path(__file__).parent
@@ -31,14 +32,14 @@ TOPICS = (
 )
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn help`."""
     parser.add_argument(
         "topic", nargs="?", default="", metavar="TOPIC", help="a topic; without one: all topics"
     )
 
 
-def main(args) -> int:
+def main(args: argparse.Namespace) -> int:
     """Print a topic, or what there is; returns 0.
 
     Raises

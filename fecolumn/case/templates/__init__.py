@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 from pathlib import Path
 
 from fecolumn.mesh.mesh_file import METRES, MeshFile
@@ -25,10 +26,10 @@ _OTHERS = {
 }
 
 
-class _Words(tuple):
+class _Words(tuple[str, ...]):
     """Words that completion offers; any other is taken, too: DIR, where KIND is left out."""
 
-    def __contains__(self, word) -> bool:
+    def __contains__(self, word: object) -> bool:
         return True
 
 
@@ -36,7 +37,7 @@ class _Words(tuple):
 _LOWEST, _HIGHEST = 0.05, 20.0
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn new`."""
     kinds = "; ".join(f"{name}: {what}" for name, what in TEMPLATES.items())
     parser.add_argument(
@@ -68,7 +69,7 @@ def add_arguments(parser) -> None:
     )
 
 
-def main(args) -> int:
+def main(args: argparse.Namespace) -> int:
     """Write the files; returns 0.
 
     Raises
@@ -88,7 +89,7 @@ def main(args) -> int:
     return 0
 
 
-def _kind_and_folder(args) -> tuple[str, str]:
+def _kind_and_folder(args: argparse.Namespace) -> tuple[str, str]:
     """Which of the two words is which, where there is but one.
 
     Raises
@@ -115,7 +116,7 @@ def _kind_and_folder(args) -> tuple[str, str]:
     return kind, folder
 
 
-def _statue(args) -> dict[str, str]:
+def _statue(args: argparse.Namespace) -> dict[str, str]:
     """Lines of the template of a statue and what takes their place, its shape read once.
 
     Raises
@@ -169,7 +170,7 @@ def _statue(args) -> dict[str, str]:
     return stated
 
 
-def write(kind: str, folder, stated: dict[str, str] | None = None) -> list[Path]:
+def write(kind: str, folder: Path | str, stated: dict[str, str] | None = None) -> list[Path]:
     """Write the files of a kind into a folder, with other words for some; as of `main`."""
     from fecolumn.foundation.schema import InputError
 
