@@ -146,6 +146,11 @@ def _by_whole(coupling, q, forces, give, point, basis, test, stiffening):
         begin[blocks.of[point[u]] + 1] += 1
     for k in range(g):
         begin[k + 1] += begin[k]
+    # how many from one on are of its point, the first of a point beside them
+    unknowns = np.ones(count, np.int64)
+    for u in range(count - 2, -1, -1):
+        if point[u] == point[u + 1]:
+            unknowns[u] += unknowns[u + 1]
     line, matrix, right = np.empty(3 * len(q)), np.empty((count, count)), np.empty(count)
     for u in range(count):
         row, x, y, z = 3 * point[u], test[u, 0], test[u, 1], test[u, 2]
@@ -160,13 +165,22 @@ def _by_whole(coupling, q, forces, give, point, basis, test, stiffening):
             near = 3 * blocks.order[blocks.first[k]]
             for j in range(near, near + 3 * (blocks.first[k + 1] - blocks.first[k])):
                 line[j] = x * first[j] + y * second[j] + z * third[j]
-            for v in range(begin[k], begin[k + 1]):
+            v = begin[k]
+            while v < begin[k + 1]:
                 column = 3 * point[v]
-                matrix[u, v] = (
-                    basis[v, 0] * line[column]
-                    + basis[v, 1] * line[column + 1]
-                    + basis[v, 2] * line[column + 2]
-                )
+                if unknowns[v] == 3:  # it sticks: along the axes
+                    for a in range(3):
+                        matrix[u, v + a] = line[column + a]
+                elif unknowns[v] == 2:
+                    for c in range(v, v + 2):
+                        matrix[u, c] = (
+                            basis[c, 0] * line[column]
+                            + basis[c, 1] * line[column + 1]
+                            + basis[c, 2] * line[column + 2]
+                        )
+                else:  # without friction: along the normal
+                    matrix[u, v] = line[column + 2]
+                v += unknowns[v]
         # the unknowns of a point are beside each other
         for v in range(max(u - 2, 0), min(u + 3, count)):
             if point[v] == point[u]:

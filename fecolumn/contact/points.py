@@ -19,14 +19,14 @@ from fecolumn.contact.tolerances import OPEN
 #: (3,) [m] where it was on the slave, of a point of a rim how far it was moved off the rim.
 CONTACT = record(
     ("force", "f8", 3),
-    ("anchor", "f8", 2),
-    ("relative", "f8", 3),
-    ("indentation", "f8", 3),
-    ("settled", "f8"),
     ("located", "?"),
     ("beyond", "?"),
-    ("raised", "f8"),
     ("present", "?"),
+    ("raised", "f8"),
+    ("relative", "f8", 3),
+    ("anchor", "f8", 2),
+    ("indentation", "f8", 3),
+    ("settled", "f8"),
     ("arm", "f8", 3),
 )
 
@@ -45,8 +45,13 @@ POINT = record(
     ("slave", "i8"),
     ("master", "i8"),
     ("interface", "i8"),
-    ("ground", "i8"),
     ("node", "i8"),
+    ("beyond", "i8"),
+    ("arm", "f8", 3),
+    ("lift", "f8"),
+    ("idle", "?"),
+    ("rolls", "?"),
+    ("ground", "i8"),
     ("friction", "f8"),
     ("law", "f8", 3),
     ("springs", "f8", 3),
@@ -54,16 +59,11 @@ POINT = record(
     ("count", "i8"),
     ("carriers", "i8", 4),
     ("weights", "f8", 4),
-    ("arm", "f8", 3),
-    ("lift", "f8"),
-    ("rolls", "?"),
     ("below", "i8", 4),
     ("shares", "f8", 4),
     ("facet", "i8"),
-    ("beyond", "i8"),
     ("seat", "f8", 3),
     ("uneven", "f8", (3, 3)),
-    ("idle", "?"),
 )
 
 #: In the place of a body: the master of what stands on the ground, and the end of a link there.

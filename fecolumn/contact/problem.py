@@ -154,10 +154,12 @@ def present_points(problem):
 
 
 @njit
-def list_near_points(problem, points, interfaces, positions, before, after):
-    """List the points that are low or carry force: those of which more than the place matters."""
+def list_near_points(problem, placed, points, interfaces, positions, before, after):
+    """List the points that are low or carry force: those of which more than the place matters;
+    placed: (k,) points of which some may, all others are known to be high.
+    """
     count, everyone = 0, problem.flags[STICKS_STILL]
-    for i in present_points(problem):
+    for i in placed:
         height = CLOSE * interfaces[points[i].interface].width
         close = (
             everyone or positions[i, 2] < height or after[i].force[2] > 0 or before[i].force[2] > 0
@@ -494,7 +496,7 @@ def solve_linear(
     most
         times that forces are found; 0 only looks how well they obey the laws.
     """
-    list_near_points(problem, points, interfaces, positions, before, after)
+    list_near_points(problem, present_points(problem), points, interfaces, positions, before, after)
     listed = near_points(problem)
     k, arms, old = len(listed), np.zeros((len(after), 3)), np.empty(3 * len(listed))
     # feet that stick still have it in their operator

@@ -11,8 +11,8 @@ import numpy as np
 from fecolumn.contact.arrays import put, put_matrix
 from fecolumn.contact.outline import lower_raised, raise_or_leave, was_beyond
 from fecolumn.contact.pad import begin_yielding, find_yielding
-from fecolumn.contact.points import CONTACT, GROUND, OVER, UNPREPARED
-from fecolumn.contact.pose import POSE, SLAVE, find_poses
+from fecolumn.contact.points import CONTACT, GROUND, OVER
+from fecolumn.contact.pose import POSE, find_poses
 from fecolumn.contact.problem import (
     ASSEMBLED,
     ITERATIONS_SPENT,
@@ -33,7 +33,6 @@ from fecolumn.contact.problem import (
 )
 from fecolumn.contact.stick import Stick, holds, is_worth, no_stick, same_points
 from fecolumn.contact.tolerances import (
-    CLOSE,
     IN_PLACE_LEFT,
     IN_PLACE_SLOW,
     IN_PLACE_TURN,
@@ -41,18 +40,16 @@ from fecolumn.contact.tolerances import (
     LEVEL,
 )
 from fecolumn.engines.reduced.elastic import (
-    COORDINATE,
     END,
     START,
     Elastic,
-    find_all_elastic,
     find_elastic,
     find_on_master,
     find_position,
-    locate_start,
     no_elastic,
 )
 from fecolumn.engines.reduced.motion import Action, begin_frames, follow, no_action
+from fecolumn.engines.reduced.positions import Positions, find_positions, no_positions
 from fecolumn.engines.reduced.secant import Secant, no_secant, predict_slips, update_secant
 from fecolumn.foundation._compiled import njit
 
@@ -60,8 +57,9 @@ from fecolumn.foundation._compiled import njit
 class Work(NamedTuple):
     """Room and memory of steps. points: (P,) of POINT in the step; before: (P,) of CONTACT, what
     the start brings to them; problem, stick: of `contact`; secant: of `reduced.secant`; action,
-    elastic: of `reduced.motion`; poses: (2, ni) of POSE at START and END of a step; positions,
-    early, late: (P, 3); places: (N, 3); marked, landing, turning: (P,) or (N,) masks.
+    elastic: of `reduced.motion`; poses: (2, ni) of POSE at START and END of a step;
+    positions: of `reduced.positions`; early, late: (P, 3); places: (N, 3); wanted: (N,), landing:
+    (P,), turning: (P,) masks.
     """
 
     points: np.ndarray
@@ -72,7 +70,7 @@ class Work(NamedTuple):
     action: Action
     elastic: Elastic
     poses: np.ndarray
-    positions: np.ndarray
+    positions: Positions
     early: np.ndarray
     late: np.ndarray
     places: np.ndarray
@@ -94,7 +92,8 @@ def work_of(structure, points) -> Work:
         no_action(modes, bodies, len(structure.interfaces), len(structure.links)),
         no_elastic(nodes, n),
         np.zeros((2, len(structure.interfaces)), POSE),
-        *(np.zeros((n, 3)) for _ in range(3)),
+        no_positions(n, len(structure.interfaces), bodies),
+        *(np.zeros((n, 3)) for _ in range(2)),
         np.zeros((nodes, 3)),
         np.zeros(nodes, bool),
         np.zeros(n, bool),
@@ -128,63 +127,6 @@ def stays(interfaces, points, before, poses, start, rims, free_center, advance, 
         if not is_worth(interfaces[k], poses[k], turn, way, reach):
             return False
     return True
-
-
-@njit
-def find_positions(structure, work, start, end):
-    """Positions of the points at the END of the step, those of points too high to matter without
-    their elastic displacement; whether all are over surfaces that are known.
-    """
-    interfaces, points, elastic, positions, poses = (
-        structure.interfaces,
-        work.points,
-        work.elastic,
-        work.positions,
-        work.poses[END],
-    )
-    all_of_them, reach, known = work.problem.flags[STICKS_STILL], np.zeros(len(end.frames)), True
-    most = all_of_them or 2 * work.problem.count[0] > work.problem.count[2]
-    find_poses(interfaces, end.grounds, end.frames, end.rotation, poses, end.rims)
-    for b in range(len(end.frames)):
-        for k in range(end.modal.shape[2]):
-            reach[b] += structure.squares[b, k] * end.modal[b, COORDINATE, k] ** 2
-        # no node moves farther than the modes' energy allows
-        reach[b] = np.sqrt(reach[b])
-        if most and end.modal.shape[2] > 0:
-            find_all_elastic(structure, b, end, elastic, END)
-    turned, center = np.empty((len(interfaces), 3, 3)), np.empty((len(interfaces), 3))
-    for k in range(len(interfaces)):
-        if not end.rims[k].apart:
-            _slave_in_frame(interfaces[k], poses[k], end, turned[k], center[k])
-    for i in present_points(work.problem):
-        point = points[i]
-        k, x, y, z = point.interface, point.arm[0], point.arm[1], point.arm[2]
-        for a in range(3):
-            positions[i, a] = (
-                center[k, a] + turned[k, a, 0] * x + turned[k, a, 1] * y + turned[k, a, 2] * z
-            )
-        positions[i, 2] += point.lift
-        # a point of the rim moves with nodes near to its own, which may reach farther, but not
-        # twice as far
-        low = CLOSE * interfaces[k].width + 2 * reach[point.slave] * structure.reach[point.node]
-        if point.master != GROUND:
-            low += reach[point.master] * interfaces[k].reach
-        if (
-            positions[i, 2] > low
-            and not all_of_them
-            and not (work.before[i].force[2] > 0 or end.contact[i].force[2] > 0)
-        ):
-            continue
-        if work.before[i].force[2] <= 0:
-            locate_start(
-                structure, points, i, start, work.poses[START], elastic, work.before, work.places[0]
-            )
-        find_elastic(structure, points, i, end, elastic, END)
-        find_position(points, i, end, elastic, END, positions[i])
-        if point.master != GROUND:
-            find_on_master(structure, points, i, end, poses, elastic, END, positions[i])
-            known &= points[i].beyond != UNPREPARED
-    return known
 
 
 @njit
@@ -242,19 +184,6 @@ def find_sunk(structure, base, work, start, rims):
 
 
 @njit
-def _slave_in_frame(interface, pose, motion, turned, center):
-    """Turned (3, 3), center (3,): how the slave is turned towards the frame of an interface, and
-    where its centre of mass is in it.
-    """
-    place, offset, frame = motion.frames[interface.slave].center, pose.origin, pose.frame
-    put_matrix(pose.turned[SLAVE], turned)
-    for a in range(3):
-        center[a] = 0.0
-        for c in range(3):
-            center[a] += frame[c, a] * (place[c] - offset[c])
-
-
-@njit
 def find_arms(structure, work, end):
     """Elastic displacements and seats at the END of the step of the points that carry, on which
     their moments depend.
@@ -298,7 +227,7 @@ def find_equilibrium(
         work.elastic,
         work.poses,
     )
-    carrying, foreseen, found = 0, False, structure.found.interface
+    carrying, came, foreseen, found = 0, False, False, structure.found.interface
     last, again, anew = np.inf, False, False
     # of joints they are known
     find_poses(
@@ -313,6 +242,7 @@ def find_equilibrium(
         end.contact[i] = before[i]
     for i in present_points(problem):
         points[i].beyond = OVER
+        came |= before[i].beyond or before[i].raised > 0.0
         if before[i].force[2] > 0:
             problem.near[carrying] = i
             carrying += 1
@@ -340,7 +270,8 @@ def find_equilibrium(
                 elastic.point[START, i, a],
                 elastic.seat[START, i, a],
             )
-    find_sunk(structure, base, work, start, rims)
+    if came:  # over an outline, in this step or before
+        find_sunk(structure, base, work, start, rims)
     begin_problem(
         problem,
         still or in_place,
@@ -387,10 +318,13 @@ def find_equilibrium(
                 work.action,
             ):
                 return ITERATIONS_SPENT
-        if not find_positions(structure, work, start, end):
+        known, placed = find_positions(structure, work, start, end, iteration == 0)
+        if not known:
             return OFF_PATCH
         if iteration == 0 or not problem.flags[STICKS_STILL]:
-            list_near_points(problem, points, interfaces, work.positions, before, end.contact)
+            list_near_points(
+                problem, placed, points, interfaces, work.positions.place, before, end.contact
+            )
         if find_yielding(points, scheme.springs, near_points(problem), end.contact):
             # the operator of feet that stick is that of pads that do not yield
             problem.flags[ASSEMBLED] = problem.flags[STICKS_STILL] = False
@@ -407,7 +341,7 @@ def find_equilibrium(
             work.stick,
             rims,
             poses[END],
-            work.positions,
+            work.positions.place,
             iteration == 0,
             before,
             end.contact,
