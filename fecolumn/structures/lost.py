@@ -23,7 +23,8 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
        one slab, which lean together as one column would alone.
     2. A part that links or side faces hold, or that rolls on a dome, is lost at 45 degrees, or at
        its critical tilt plus the angle of friction where that is more, but at 90 degrees at most.
-       If a link holds it and its critical tilt is above 45 degrees, it is lost at 90 degrees.
+       If its critical tilt is above 45 degrees, as of a slab wider than high, it is lost at 90
+       degrees: leaning beyond its critical tilt, it may still fall back.
     3. A part whose contact is found during the motion is never lost: the analysis goes on until it
        lies on the ground.
     4. Any other part is lost at 45 degrees.
@@ -42,8 +43,7 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
     """
     joints = list(structure.joints)
     found, supports = stances(structure, standing), supports_of(standing, joints)
-    linked = {place for link in structure.links for place in (link.a, link.b)}
-    held = set(linked)
+    held = {place for link in structure.links for place in (link.a, link.b)}
     for joint in joints:
         if not is_level(standing, joint):
             held |= {joint.slave, joint.master}
@@ -58,7 +58,7 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
             continue
         if place in held:
             steepest = stance.critical + np.arctan(stance.friction)
-            if place in linked and stance.critical > FAR:
+            if stance.critical > FAR:
                 steepest = np.pi / 2
             tilts[place] = max(FAR, min(steepest, np.pi / 2))
             continue

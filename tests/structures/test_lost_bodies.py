@@ -124,3 +124,21 @@ def test_a_tendon_pulls_a_wide_block_back_from_beyond_its_critical_tilt(tmp_path
     summary = run(case, tmp_path, quiet=True)
     assert not summary["overturned"] and summary["energy_closure_rel"] < 1e-12
     assert summary["outcome"] == "at rest"
+
+
+def test_a_wide_slab_beside_another_body_is_not_lost_while_it_may_fall_back(tmp_path):
+    """It leans by 74 degrees, beyond its critical tilt and the angle of friction, and falls back
+    onto its foot, as it does without the post.
+    """
+    slab = dict(kind="block", length_m=1.0, width_m=1.0, height_m=0.6, element_size_m=0.3) | STONE
+    joints = dict(foot=["slab", "ground"], other=["post", "ground"], side=["post", "slab"])
+    case = structure(
+        bodies=dict(slab=slab, post=slab | dict(height_m=0.5, at_m=[-1.2, 0.0, 0.0])),
+        joints={name: dict(between=between) for name, between in joints.items()},
+        initial=dict(slab=dict(tilt_rad=1.3, spin_rad_s=[0.0, -4.0, 0.0])),
+        integration=dict(engine="rigid", dt_s=1e-3, duration_s=1.5),
+        contact=dict(friction_coefficient=0.25, interior_points=0),
+    )
+    summary = run(case, tmp_path, quiet=True)
+    assert not summary["overturned"] and summary["duration_s"] == pytest.approx(1.5)
+    assert summary["bodies"]["slab"]["tilt_max_rad"] == pytest.approx(1.3, abs=0.01)
