@@ -32,7 +32,7 @@ BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE = (
 GREY = "#9A9A9A"
 _PRINT_DPI = 300  # of those parts of a PDF that are drawn as an image, for their many lines
 # Told apart by colour and by dash, so that print in grey still reads
-LINES = tuple(
+LINES: tuple[tuple[str, str | tuple[int, tuple[int, ...]]], ...] = tuple(
     zip(
         (BLUE, VERMILION, GREEN, PURPLE, ORANGE, BLACK, SKY),
         ("-", "--", "-.", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)), "-", "--"),

@@ -5,15 +5,18 @@ analysed was lost.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.engines.ending import lost
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.fan_figure import Fan, fan_figure
 from fecolumn.pictures.figures.plan_figure import LostDirections, plan_figure
 from fecolumn.pictures.figures.specimen_outline import specimen_outline
-from fecolumn.study.report.document import PageSection, Paragraph
+from fecolumn.study.report.document import Figure, PageBlock, PageSection, Paragraph
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.histories import Histories
 from fecolumn.study.report.notation import axis_name, count
@@ -36,7 +39,7 @@ def all_motions(sweep: Sweep, histories: Histories, gallery: Gallery) -> PageSec
         f"{_what(sweep)} in {count(len(own), 'motion')} {sweep.at(shown.values)}, against "
         f"time. {_marked(sweep, shown)}"
     )
-    blocks = [
+    blocks: list[PageBlock] = [
         Paragraph(_opening(sweep, histories, len(drawn), in_plan)),
         gallery.draw("fan", caption, fan_figure, [Fan("", own)], limit, critical_of([shown]), 1),
     ]
@@ -79,7 +82,9 @@ def _marked(sweep: Sweep, setting: Setting) -> str:
     return f"Crosses: {sweep.lost}, where the analysis stopped or left the axes."
 
 
-def _plan(sweep: Sweep, histories: Histories, shown: Setting, limit: float, gallery: Gallery):
+def _plan(
+    sweep: Sweep, histories: Histories, shown: Setting, limit: float, gallery: Gallery
+) -> Figure:
     here, anywhere = _directions([shown]), _directions(sweep.done)
     same = not {axis.partition(".")[0] for axis in sweep.varied} & SHAPE
     outline = specimen_outline(sweep.case) if sweep.case and same else None
@@ -106,13 +111,13 @@ def _plan(sweep: Sweep, histories: Histories, shown: Setting, limit: float, gall
     )
 
 
-def critical_of(settings) -> float | None:
+def critical_of(settings: Iterable[Setting]) -> float | None:
     """Critical displacement of the settings [m]; None where it is not the same in all."""
     found = {run.get("u_critical_m") for setting in settings for run in setting.runs.values()}
     return found.pop() if len(found) == 1 else None
 
 
-def _directions(settings) -> np.ndarray:
+def _directions(settings: Iterable[Setting]) -> NDArray[Any]:
     """[deg] of all that was lost and tells."""
     found = [
         run.get("overturn_direction_deg")
@@ -127,7 +132,7 @@ def _directions(settings) -> np.ndarray:
 
 def _multiples(
     sweep: Sweep, histories: Histories, drawn: list[Setting], limit: float, gallery: Gallery
-):
+) -> Figure:
     """A panel a setting on the same axes, ordered so that the axis of most levels runs across."""
     axes = sorted(sweep.varied, key=lambda axis: len(sweep.axes[axis]))
     ordered = sorted(

@@ -10,7 +10,14 @@ from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.study.mixture import codes, listed
 from fecolumn.study.report.distributions import axis_columns
-from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
+from fecolumn.study.report.document import (
+    Figure,
+    PageBlock,
+    PageColumn,
+    PageSection,
+    PageTable,
+    Paragraph,
+)
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import axis_name, count, fixed, number
 from fecolumn.study.report.sweep import Setting, Sweep
@@ -22,7 +29,7 @@ _CLOSED = 1e-3  # closure error that a reader should look at
 
 def audit(sweep: Sweep, gallery: Gallery) -> PageSection:
     """The section."""
-    blocks = [
+    blocks: list[PageBlock] = [
         Paragraph(_completeness(sweep)),
         *([Paragraph(f"{sweep.cut}.", warning=True)] if sweep.cut else []),
         _code(sweep),
@@ -177,15 +184,15 @@ def _table(sweep: Sweep) -> PageTable:
     )
 
 
-def _span(first, last) -> str:
-    return number(None) if first is None else f"{fixed(first)}–{fixed(last)}"
+def _span(first: float | None, last: float | None) -> str:
+    return number(None) if first is None or last is None else f"{fixed(first)}–{fixed(last)}"
 
 
-def _hundred(share) -> str:
+def _hundred(share: float | None) -> str:
     return fixed(None if share is None else 100 * share, 1)
 
 
-def _median_and_worst(setting: Setting, name: str):
+def _median_and_worst(setting: Setting, name: str) -> tuple[float | None, float | None]:
     values = np.abs(setting.column(name))
     return (
         (float(np.nanmedian(values)), float(np.nanmax(values)))
@@ -194,22 +201,22 @@ def _median_and_worst(setting: Setting, name: str):
     )
 
 
-def _largest(setting: Setting, name: str):
+def _largest(setting: Setting, name: str) -> float | None:
     values = setting.column(name)
     return float(np.nanmax(values)) if np.isfinite(values).any() else None
 
 
-def _total(setting: Setting, name: str):
+def _total(setting: Setting, name: str) -> int | None:
     values = setting.column(name)
     return int(np.nansum(values)) if np.isfinite(values).any() else None
 
 
-def _mean(setting: Setting, name: str):
+def _mean(setting: Setting, name: str) -> float | None:
     values = setting.column(name)
     return float(np.nanmean(values)) if np.isfinite(values).any() else None
 
 
-def _share(setting: Setting, term: str):
+def _share(setting: Setting, term: str) -> float | None:
     """Part of a term of the ledger in all losses of the setting [-]."""
     ledgers = [
         run["energy_j"] for run in setting.runs.values() if isinstance(run.get("energy_j"), dict)
@@ -222,7 +229,7 @@ def _share(setting: Setting, term: str):
     return losses[term] / whole if whole > 0 else None
 
 
-def _first_and_last(setting: Setting):
+def _first_and_last(setting: Setting) -> tuple[float | None, float | None]:
     times = [
         run["overturn_time_s"]
         for run in setting.runs.values()
@@ -231,7 +238,7 @@ def _first_and_last(setting: Setting):
     return (min(times), max(times)) if times else (None, None)
 
 
-def _overturn_times(sweep: Sweep, gallery: Gallery):
+def _overturn_times(sweep: Sweep, gallery: Gallery) -> Figure | None:
     """Share of the runs that have overturned by a time, settings of one axis together."""
     axis = next((axis for axis in sweep.varied if len(sweep.axes[axis]) <= _CURVES), None)
     end = max(

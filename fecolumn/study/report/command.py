@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 
-def add_arguments(parser) -> None:
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn report`."""
     parser.add_argument(
         "study",
@@ -15,7 +17,7 @@ def add_arguments(parser) -> None:
     )
 
 
-def main(args) -> int:
+def main(args: argparse.Namespace) -> int:
     """Write the report; 0 when it is written.
 
     Raises

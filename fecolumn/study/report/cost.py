@@ -4,10 +4,12 @@ cost.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.claim import NOT_SUPPORTED, SUPPORTED, UNDECIDED, Claim
@@ -18,7 +20,7 @@ _RESAMPLES = 2000
 _SMALL = 1.5  # a factor below it is a small increase
 
 
-def second_cost(setting: Setting, motions=None) -> np.ndarray:
+def second_cost(setting: Setting, motions: Sequence[str] | None = None) -> NDArray[Any]:
     """Wall time per second of analysed motion [s/s], one a motion: stepping alone, no start, no
     files, nothing made once.
     """
@@ -140,7 +142,7 @@ def _alpha_claim(sweep: Sweep, ratios: list[CostRatio]) -> Claim:
     )
 
 
-def _iterations(sweep: Sweep, axis: str, low, high) -> str:
+def _iterations(sweep: Sweep, axis: str, low: object, high: object) -> str:
     """Work of a step at two levels, as far as the analyses count it."""
     words = []
     for name, what in (("iterations", "iterations"), ("contact_iterations", "contact iterations")):

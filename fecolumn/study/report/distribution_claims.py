@@ -34,7 +34,7 @@ def distribution_claims(pairs: list[ComparedPair], alpha_note: str = "") -> list
     effect, or its lack, is built in.
     """
 
-    def family(axis, kind):
+    def family(axis: str, kind: str) -> list[ComparedPair]:
         return [pair for pair in pairs if pair.family == f"{axis}, {kind}"]
 
     return [

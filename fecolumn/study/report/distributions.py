@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.cdf_figure import BARS, SHADED, SHADES, CdfPanel, cdf_figure
@@ -12,7 +16,14 @@ from fecolumn.statistics.convergence import cdf_convergence
 from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
 from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.claim import CALIBRATION_TARGET
-from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
+from fecolumn.study.report.document import (
+    Figure,
+    PageBlock,
+    PageColumn,
+    PageSection,
+    PageTable,
+    Paragraph,
+)
 from fecolumn.study.report.families import families, shortfalls
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import (
@@ -33,6 +44,9 @@ from fecolumn.study.report.pair import ComparedPair
 from fecolumn.study.report.power import power
 from fecolumn.study.report.sweep import Setting, Sweep
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 _LINES, _PANELS, _ROWS = 7, 9, 40
 _FOLD, _LONGEST = 20, 60
 TARGET_NOTE = (
@@ -44,7 +58,7 @@ TARGET_NOTE = (
 
 def distributions(sweep: Sweep, pairs: list[ComparedPair], gallery: Gallery) -> PageSection:
     """The section; figures go to the gallery's folder."""
-    blocks: list = []
+    figures: list[Figure] = []
     for name, axis in _views(sweep):
         panels = _panels(sweep, axis)
         other = [axis_name(one) for one in sweep.varied if one != axis]
@@ -55,7 +69,7 @@ def distributions(sweep: Sweep, pairs: list[ComparedPair], gallery: Gallery) -> 
             if len(sweep.done) <= _LINES
             else "the settings of least, middle and largest P(overturn)"
         )
-        blocks.append(
+        figures.append(
             gallery.draw(
                 name,
                 f"Distribution of the largest top displacement: {what}"
@@ -69,8 +83,7 @@ def distributions(sweep: Sweep, pairs: list[ComparedPair], gallery: Gallery) -> 
                 panels,
             )
         )
-    first = blocks[0].name
-    blocks.insert(0, Paragraph(_opening(sweep, first)))
+    blocks: list[PageBlock] = [Paragraph(_opening(sweep, figures[0].name)), *figures]
     blocks += _overturning(sweep, gallery)
     if len(sweep.done) > 1:
         blocks.append(power(sweep))
@@ -121,7 +134,7 @@ def _views(sweep: Sweep) -> list[tuple[str, str | None]]:
     return [(f"cdf_by_{axis.split('.')[-1]}", axis) for axis in axes[:3]] or [("cdf", None)]
 
 
-def _median(u_max, overturned) -> float:
+def _median(u_max: NDArray[Any], overturned: NDArray[Any]) -> float:
     return percentile(u_max, overturned, 0.5)
 
 
@@ -182,7 +195,7 @@ def _long(texts: list[str]) -> bool:
     return max(map(len, texts)) > _LONGEST
 
 
-def _in_figure(values: dict) -> str:
+def _in_figure(values: dict[str, Any]) -> str:
     return ", ".join(axis_text(key, value) for key, value in values.items())
 
 
@@ -212,7 +225,7 @@ def _opening(sweep: Sweep, figure: str) -> str:
     )
 
 
-def _overturning(sweep: Sweep, gallery: Gallery) -> list:
+def _overturning(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
     rows, estimates, labels = [], [], _labels(sweep)
     off = any(run.get("slid_off") for setting in sweep.settings for run in setting.runs.values())
     for number, setting in enumerate(sweep.settings, 1):
@@ -302,7 +315,7 @@ def _overturning(sweep: Sweep, gallery: Gallery) -> list:
     return [gallery.draw("overturning", caption, interval_figure, [(scale, estimates)]), table]
 
 
-def axis_columns(axes) -> tuple[PageColumn, ...]:
+def axis_columns(axes: Iterable[str]) -> tuple[PageColumn, ...]:
     """Columns of the levels of axes."""
     return tuple(
         PageColumn(
@@ -318,16 +331,16 @@ def _unit(axis: str) -> str:
     return "" if axis_unit(axis) == "-" else axis_unit(axis)
 
 
-def _levels(axis: str, low, high) -> str:
+def _levels(axis: str, low: object, high: object) -> str:
     return f"{axis_name(axis)}: {level_text(axis, low)}, {level_text(axis, high)}"
 
 
-def setting_words(values: dict) -> str:
+def setting_words(values: dict[str, Any]) -> str:
     """Values of the other axes, nothing where there are none."""
     return setting_text(values) if values else ""
 
 
-def _whole(value) -> str:
+def _whole(value: int | None) -> str:
     return "\N{EM DASH}" if value is None else str(value)
 
 
@@ -388,7 +401,7 @@ def _comparisons(sweep: Sweep, pairs: list[ComparedPair]) -> PageTable:
     )
 
 
-def _convergence(sweep: Sweep, gallery: Gallery) -> list:
+def _convergence(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
     """How many motions the reference setting's distribution needs."""
     u, over = sweep.reference.peaks()
     if u.size < 10:
@@ -423,7 +436,7 @@ def _convergence(sweep: Sweep, gallery: Gallery) -> list:
     ]
 
 
-def _plain_ticks(axes) -> None:
+def _plain_ticks(axes: Axes) -> None:
     low, high = axes.get_xlim()
     ticks = [tick for tick in (3, 5, 10, 20, 50, 100, 200, 500, 1000) if low <= tick <= high]
     axes.set_xticks(ticks, [str(tick) for tick in ticks])

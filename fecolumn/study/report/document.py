@@ -5,9 +5,10 @@ from __future__ import annotations
 import base64
 import itertools
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, Protocol
 
 from fecolumn.foundation.atomic import write_csv
 
@@ -86,7 +87,7 @@ class PageTable:
 
     name: str
     columns: tuple[PageColumn, ...]
-    rows: list[tuple]
+    rows: list[tuple[Any, ...]]
     caption: str
     folded: bool = False
     kind: str = "table"
@@ -122,11 +123,19 @@ class PageTable:
         return file
 
 
-def _plain(value):
+def _plain(value: object) -> object:
     """A value as the CSV file takes it: nothing for what is missing, key=value for a setting."""
     if isinstance(value, dict):
         return " ".join(f"{key}={item}" for key, item in value.items())
     return "" if value is None or value != value else value
+
+
+class PageBlock(Protocol):
+    """What a section is made of; its kind says how the page writes it."""
+
+    @property
+    def kind(self) -> str:
+        """Such as "text", "figure" or "table"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +143,7 @@ class PageSection:
     """A numbered section."""
 
     title: str
-    blocks: list = field(default_factory=list)
+    blocks: Sequence[PageBlock] = field(default_factory=list)
 
     @property
     def anchor(self) -> str:
@@ -146,7 +155,12 @@ def numbered(sections: list[PageSection]) -> dict[str, str]:
     """Label, such as "Figure 1" or "Table 1", of every figure and table by name."""
     labels: dict[str, str] = {}
     for kind in ("figure", "table"):
-        named = [block for section in sections for block in section.blocks if block.kind == kind]
+        named = [
+            block
+            for section in sections
+            for block in section.blocks
+            if isinstance(block, (Figure, PageTable)) and block.kind == kind
+        ]
         labels |= {
             block.name: f"{kind.capitalize()}\N{NO-BREAK SPACE}{place}"
             for place, block in enumerate(named, 1)

@@ -8,6 +8,7 @@ import base64
 import json
 from collections import Counter
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -42,7 +43,7 @@ _DASHES = {"-": "", "--": "5 2.5", "-.": "7 2.5 1.5 2.5"}
 class Explorer:
     """The explorer as a block of the page; `data` is what its script reads, see `explorer_data`."""
 
-    data: dict
+    data: dict[str, Any]
     kind: str = "explorer"
 
     @property
@@ -76,7 +77,7 @@ _OPENING = (
 )
 
 
-def explorer_data(sweep: Sweep, histories: Histories) -> tuple[dict, str]:
+def explorer_data(sweep: Sweep, histories: Histories) -> tuple[dict[str, Any], str]:
     """What the page's script reads, and what is to be said of it.
 
     Keys: axes (name, unit, levels as text), settings (words, levels by place, peaks [mm] and ends
@@ -157,7 +158,7 @@ def _fitting(sweep: Sweep, histories: Histories) -> tuple[dict[str, str], float]
     return found, share
 
 
-def _said(sweep: Sweep, histories: Histories, chosen: dict, share: float) -> str:
+def _said(sweep: Sweep, histories: Histories, chosen: dict[str, str], share: float) -> str:
     if not histories.traces:
         return "No histories are at hand."
     text = (
@@ -182,7 +183,7 @@ def _said(sweep: Sweep, histories: Histories, chosen: dict, share: float) -> str
     return text
 
 
-def _axis(sweep: Sweep, axis: str) -> dict:
+def _axis(sweep: Sweep, axis: str) -> dict[str, Any]:
     levels = sweep.axes[axis]
     unit = axis_unit(axis)
     numbers = all(
@@ -194,7 +195,9 @@ def _axis(sweep: Sweep, axis: str) -> dict:
     }
 
 
-def _setting(sweep: Sweep, setting: Setting, single: bool, chosen: dict, names: list[str]) -> dict:
+def _setting(
+    sweep: Sweep, setting: Setting, single: bool, chosen: dict[str, str], names: list[str]
+) -> dict[str, Any]:
     runs = [setting.runs.get(motion) for motion in sweep.motions]
     return {
         "words": setting_text({axis: setting.values[axis] for axis in sweep.varied}),
@@ -213,7 +216,7 @@ def _setting(sweep: Sweep, setting: Setting, single: bool, chosen: dict, names: 
             )
             for run in runs
         ],
-        "histories": [None if run is None else chosen.get(run.get("case_id")) for run in runs],
+        "histories": [None if run is None else chosen.get(run.get("case_id", "")) for run in runs],
     }
 
 
@@ -248,7 +251,7 @@ def _names(sweep: Sweep) -> list[str]:
     ]
 
 
-def _dash(dash) -> str:
+def _dash(dash: str | tuple[int, tuple[int, ...]]) -> str:
     return (
         _DASHES[dash]
         if isinstance(dash, str)

@@ -76,7 +76,7 @@ def families(pairs: list[ComparedPair]) -> PageTable:
                 sum(pair.p_holm < 0.05 for pair in own),
                 max(pair.distance for pair in own),
                 min(pair.comparison.ks_p for pair in own),
-                min(pair.comparison.paired_p for pair in own),
+                min(p for pair in own if (p := pair.comparison.paired_p) is not None),
                 min(pair.p_holm for pair in own),
                 max(pair.bound for pair in own),
                 *_needed(own),

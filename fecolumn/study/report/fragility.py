@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
@@ -35,7 +38,7 @@ class FittedSetting:
     fragility (None where it has none).
     """
 
-    values: dict
+    values: dict[str, Any]
     runs: Runs
     fit: Fragility | None
 
@@ -155,7 +158,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageS
     )
 
 
-def curve_axis(sweep: Sweep, values: list[dict]) -> str | None:
+def curve_axis(sweep: Sweep, values: list[dict[str, Any]]) -> str | None:
     """The axis whose levels are the curves of one figure: of those that vary among settings, but
     the scale, the one of most levels that fit.
     """
@@ -166,7 +169,7 @@ def curve_axis(sweep: Sweep, values: list[dict]) -> str | None:
     return max(few, key=levels.__getitem__, default=None)
 
 
-def settings_curves(axis: str, own: dict, found: list[FittedSetting]) -> list[Curve]:
+def settings_curves(axis: str, own: dict[str, Any], found: list[FittedSetting]) -> list[Curve]:
     """A curve for each level of an axis, all else as in `own`."""
     line = [
         one
@@ -182,8 +185,10 @@ def settings_curves(axis: str, own: dict, found: list[FittedSetting]) -> list[Cu
     ]
 
 
-def _grid(samples) -> np.ndarray:
-    return np.linspace(min(pgv.min() for pgv in samples), max(pgv.max() for pgv in samples), 200)
+def _grid(samples: Sequence[NDArray[Any]]) -> NDArray[Any]:
+    return np.linspace(
+        min(float(pgv.min()) for pgv in samples), max(float(pgv.max()) for pgv in samples), 200
+    )
 
 
 def _more(p: float | None) -> str:
@@ -195,7 +200,7 @@ def _more(p: float | None) -> str:
     )
 
 
-def _speed(value) -> str:
+def _speed(value: float | None) -> str:
     return fixed(value, 3)
 
 
@@ -206,7 +211,7 @@ def _fit(runs: Runs) -> Fragility | None:
         return None
 
 
-def _row(one: FittedSetting) -> list:
+def _row(one: FittedSetting) -> list[float | None]:
     """Median, beta, their intervals, and p of PGA; None where there is no fragility."""
     if one.fit is None:
         return [None] * 7

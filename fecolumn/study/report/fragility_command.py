@@ -4,13 +4,22 @@ or of a user's own runs.
 
 from __future__ import annotations
 
+import argparse
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+if TYPE_CHECKING:
+    from fecolumn.statistics.fragility import Fragility, LogitFragility
+    from fecolumn.statistics.intensity_table import IntensityTable
+
+# What is asked of the summary of a run
+Happened = Callable[[dict[str, Any]], bool]
 _FEWEST = 5  # runs
 _BINS = 6
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn fragility`."""
     parser.add_argument(
         "source",
@@ -32,7 +41,7 @@ def add_arguments(parser) -> None:
     )
 
 
-def main(args) -> int:
+def main(args: argparse.Namespace) -> int:
     """Fit, print and draw; returns 0.
 
     Raises
@@ -58,7 +67,9 @@ def main(args) -> int:
     return 0
 
 
-def runs_by_setting(source: str, wanted, happened=None) -> dict:
+def runs_by_setting(
+    source: str, wanted: tuple[str, ...], happened: Happened | None = None
+) -> dict[str, IntensityTable]:
     """Runs with their intensities and outcomes, an `IntensityTable` by the name of each setting, of
     a study's folder or a table.
 
@@ -85,7 +96,7 @@ def runs_by_setting(source: str, wanted, happened=None) -> dict:
     return _of_file(source, wanted)
 
 
-def _of_file(source: str, wanted) -> dict:
+def _of_file(source: str, wanted: tuple[str, ...]) -> dict[str, IntensityTable]:
     from fecolumn.foundation.schema import InputError
     from fecolumn.statistics.intensity_table import read_intensity_table
 
@@ -95,7 +106,9 @@ def _of_file(source: str, wanted) -> dict:
     return {"": table}
 
 
-def _of_study(folder: str, wanted, happened=None) -> dict:
+def _of_study(
+    folder: str, wanted: tuple[str, ...], happened: Happened | None = None
+) -> dict[str, IntensityTable]:
     """Runs of every setting over all scales of its motions, by its name."""
     import numpy as np
 
@@ -105,11 +118,12 @@ def _of_study(folder: str, wanted, happened=None) -> dict:
     from fecolumn.study.report.intensity import NOT_FOUND, Intensities, across_scales
     from fecolumn.study.report.sweep import read_sweep
 
-    sweep, motions, known = read_sweep(folder), Intensities(Path(folder)), {}
+    sweep, motions = read_sweep(folder), Intensities(Path(folder))
+    known: dict[tuple[float, bytes], dict[str, float]] = {}
     if not sweep.done:
         raise InputError(folder, "", None, f"none of its {sweep.analyses} analyses is done")
 
-    def measures(run):
+    def measures(run: dict[str, Any]) -> dict[str, float]:
         motion = motions.motion(run)
         key = motion.dt, motion.acceleration.tobytes()
         if key not in known:
@@ -139,7 +153,7 @@ def _of_study(folder: str, wanted, happened=None) -> dict:
     return sets
 
 
-def _write(sets: dict, folder: Path, source: str) -> None:
+def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
     import numpy as np
 
     from fecolumn.foundation.atomic import write_csv
@@ -147,15 +161,16 @@ def _write(sets: dict, folder: Path, source: str) -> None:
     from fecolumn.statistics.fragility import DegenerateData, logit, lognormal
 
     names = list(next(iter(sets.values())).measures)
-    fits, refused = {}, {}
+    curves: dict[str, Fragility] = {}
+    surfaces: dict[str, LogitFragility] = {}
+    refused = {}
     for label, table in sets.items():
         im = np.column_stack(list(table.measures.values()))
         try:
-            fits[label] = (
-                lognormal(im[:, 0], table.overturned, table.records)
-                if len(names) == 1
-                else logit(im, table.overturned, table.records)
-            )
+            if len(names) == 1:
+                curves[label] = lognormal(im[:, 0], table.overturned, table.records)
+            else:
+                surfaces[label] = logit(im, table.overturned, table.records)
         except DegenerateData as error:
             refused[label] = str(error)
     for label, reason in refused.items():
@@ -163,33 +178,35 @@ def _write(sets: dict, folder: Path, source: str) -> None:
             f"{label + ': ' if label else ''}no fragility of "
             f"{sets[label].overturned.size} runs: {reason}"
         )
-    if not fits:
+    if not curves and not surfaces:
         raise InputError(
             source,
             "",
             None,
             "its runs bound no fragility: " + "; ".join(dict.fromkeys(refused.values())),
         )
-    rows = (_one if len(names) == 1 else _two)(names, sets, fits, folder)
+    rows = _one(names[0], sets, curves, folder) if curves else _two(names, sets, surfaces, folder)
     write_csv(folder / "fragility.csv", rows)
     for line in rows:
         print("  ".join(f"{value:>14}" for value in line))
 
 
-def _one(names, sets, fits, folder) -> list[list]:
+def _one(
+    name: str, sets: dict[str, IntensityTable], fits: dict[str, Fragility], folder: Path
+) -> list[list[Any]]:
     """Table and figure over one measure."""
     import numpy as np
 
     from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
     from fecolumn.statistics.bands import wilson
 
-    rows = [
+    rows: list[list[Any]] = [
         [
             "setting",
             "n",
             "records",
             "overturned",
-            f"median_{names[0]}",
+            f"median_{name}",
             "low",
             "high",
             "beta",
@@ -200,7 +217,7 @@ def _one(names, sets, fits, folder) -> list[list]:
     curves = []
     for label, fit in fits.items():
         table = sets[label]
-        im = table.measures[names[0]]
+        im = table.measures[name]
         rows.append(
             [
                 label or "all",
@@ -242,7 +259,7 @@ def _one(names, sets, fits, folder) -> list[list]:
     line_figure(
         [
             CurvePanel(
-                words(names[0]),
+                words(name),
                 r"$P$(overturn)",
                 curves[:7],
                 {"ylim": (0, 1), "xlim": (0, None)},
@@ -254,7 +271,12 @@ def _one(names, sets, fits, folder) -> list[list]:
     return rows
 
 
-def _two(names, sets, fits, folder) -> list[list]:
+def _two(
+    names: list[str],
+    sets: dict[str, IntensityTable],
+    fits: dict[str, LogitFragility],
+    folder: Path,
+) -> list[list[Any]]:
     """Table and a figure for each setting over two measures."""
     import numpy as np
     from scipy.stats import chi2
@@ -262,7 +284,7 @@ def _two(names, sets, fits, folder) -> list[list]:
     from fecolumn.pictures.figures.fragility_figure import contour_figure
     from fecolumn.statistics.fragility import logit
 
-    rows = [
+    rows: list[list[Any]] = [
         [
             "setting",
             "n",

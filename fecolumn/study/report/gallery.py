@@ -21,7 +21,9 @@ class Gallery:
     paper: bool
     files: tuple[str, ...] = ("pdf", "png")
 
-    def draw(self, name: str, caption: str, function: Callable, *args) -> Figure:
+    def draw(
+        self, name: str, caption: str, function: Callable[..., list[Path]], *args: object
+    ) -> Figure:
         """A figure of the page.
 
         Parameters

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.ending import OVERTURNED, SLID_OFF
@@ -35,9 +37,9 @@ class Trace:
         largest displacement [m] and tilt [rad], no more than at the critical displacement.
     """
 
-    time: np.ndarray
-    u_top: np.ndarray
-    tilt: np.ndarray
+    time: NDArray[Any]
+    u_top: NDArray[Any]
+    tilt: NDArray[Any]
     end: str
     scale: tuple[float, float]
 
@@ -114,7 +116,7 @@ def spread_out(sweep: Sweep, most: int) -> set[str]:
     return {ranked[place] for place in np.linspace(0, len(ranked) - 1, most).round().astype(int)}
 
 
-def _trace(folder: Path, run: dict) -> Trace | None:
+def _trace(folder: Path, run: dict[str, Any]) -> Trace | None:
     try:
         check_owner(folder / "analyses" / run["case_id"] / "history.h5")
         read = read_history(
@@ -142,7 +144,7 @@ def _trace(folder: Path, run: dict) -> Trace | None:
     return Trace(time, u, tilt, end, scale).thinner(FINEST)
 
 
-def _scale(values, critical) -> float:
+def _scale(values: NDArray[Any], critical: float | None) -> float:
     """Largest of the values; where the column fell, what it did before counts, and not how far it
     fell.
     """

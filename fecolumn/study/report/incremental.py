@@ -4,9 +4,12 @@ levels.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.incremental_figure import incremental_figure
@@ -14,12 +17,12 @@ from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.statistics.fragility import DegenerateData, Fragility
 from fecolumn.statistics.incremental import IncrementalCurve, first_overturning, incremental_curves
 from fecolumn.study.report.distributions import axis_columns
-from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
+from fecolumn.study.report.document import PageBlock, PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.fragility import LABEL, curve_axis
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.intensity import NOT_FOUND, SCALE, Intensities, across_scales
 from fecolumn.study.report.notation import axis_name, count, fixed, interval, millimetres
-from fecolumn.study.report.sweep import Sweep
+from fecolumn.study.report.sweep import Setting, Sweep
 
 _LEAST_SCALES, _LEAST_MOTIONS, _FOLD = 3, 3, 20
 
@@ -30,7 +33,7 @@ class ScaledSetting:
     overturning (None where there is none).
     """
 
-    values: dict
+    values: dict[str, Any]
     curves: list[IncrementalCurve]
     fit: Fragility | None
 
@@ -51,7 +54,8 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Pag
     here = next((one for one in found if one.values == own), found[0] if found else None)
     if here is None:
         return None
-    at, blocks = sweep.at(here.values), []
+    at = sweep.at(here.values)
+    blocks: list[PageBlock] = []
     again = sum(curve.stands_again for curve in here.curves)
     fallen = sum(np.isfinite(curve.first[1]) for curve in here.curves)
     levels = max(len(curve.im) for curve in here.curves)
@@ -96,14 +100,16 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Pag
         )
     )
     if here.fit:
-        panels, caption = _panels(sweep, here, found)
+        panels, caption = _panels(sweep, here, here.fit, found)
         blocks.append(gallery.draw("first_overturning", caption, line_figure, panels))
     return PageSection(
         "Incremental dynamic analysis", [*blocks, _table(sweep, found), _motions(sweep, found)]
     )
 
 
-def _scaled(values: dict, settings, intensities: Intensities) -> ScaledSetting | None:
+def _scaled(
+    values: dict[str, Any], settings: Sequence[Setting], intensities: Intensities
+) -> ScaledSetting | None:
     runs = intensities.of_runs(settings)
     curves = incremental_curves(runs.motion, runs.measures[:, 0], runs.u_max, runs.lost)
     if (
@@ -127,7 +133,7 @@ def _critical(sweep: Sweep) -> float | None:
 
 
 def _panels(
-    sweep: Sweep, here: ScaledSetting, found: list[ScaledSetting]
+    sweep: Sweep, here: ScaledSetting, fit: Fragility, found: list[ScaledSetting]
 ) -> tuple[list[CurvePanel], str]:
     """The law of one setting beside what is known of its motions, and the laws of several
     settings.
@@ -135,9 +141,9 @@ def _panels(
     lower, upper = np.transpose([curve.first for curve in here.curves])
     end = 1.05 * max(float(curve.im[-1]) for one in found for curve in one.curves)
     grid, share = np.linspace(1e-3 * end, end, 300), np.arange(lower.size + 1) / lower.size
-    p = here.fit.probability(grid)
+    p = fit.probability(grid)
 
-    def steps(name, bounds):
+    def steps(name: str, bounds: NDArray[Any]) -> Curve:
         known = np.sort(bounds[np.isfinite(bounds)])
         return Curve(
             name,
@@ -176,6 +182,7 @@ def _panels(
         curves = [
             Curve(axis_text(axis, one.values[axis]), grid, q.p, (q.lower, q.upper))
             for one in line
+            if one.fit
             for q in [one.fit.probability(grid)]
         ]
         panels.append(CurvePanel(LABEL, "", curves, settings, legend="upper left"))
@@ -272,5 +279,5 @@ def _motions(sweep: Sweep, found: list[ScaledSetting]) -> PageTable:
     )
 
 
-def _speed(value) -> str:
+def _speed(value: float | None) -> str:
     return fixed(value, 3)

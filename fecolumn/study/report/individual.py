@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from fecolumn.engines.ending import lost
@@ -9,7 +11,14 @@ from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.pair_figure import Variable, pair_figure
 from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.distributions import setting_words
-from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
+from fecolumn.study.report.document import (
+    Figure,
+    PageBlock,
+    PageColumn,
+    PageSection,
+    PageTable,
+    Paragraph,
+)
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.individual_claims import line_trends, setting_spread
 from fecolumn.study.report.notation import (
@@ -53,7 +62,7 @@ def individual(sweep: Sweep, gallery: Gallery) -> PageSection | None:
             if found.factor.size
             else "."
         )
-    blocks = [Paragraph(text), *matrices]
+    blocks: list[PageBlock] = [Paragraph(text), *matrices]
     rows = [
         row
         for axis in sweep.varied
@@ -92,7 +101,7 @@ def individual(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     return PageSection("One by one", blocks)
 
 
-def _matrix(sweep: Sweep, axis: str, gallery: Gallery):
+def _matrix(sweep: Sweep, axis: str, gallery: Gallery) -> Figure | None:
     """Scatter matrix of the levels of an axis, all else as in the reference setting where that line
     is there.
     """
@@ -134,7 +143,7 @@ def _times(factor: float) -> str:
     return f"more than {_MANY:g} times" if factor > _MANY else f"{fixed(factor)} times"
 
 
-def _trends(sweep: Sweep, axis: str) -> list[tuple]:
+def _trends(sweep: Sweep, axis: str) -> list[tuple[Any, ...]]:
     rows = []
     for one in line_trends(sweep, axis):
         it, at = (

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.statistics.holm import holm
 from fecolumn.statistics.trend import Trend, trend
@@ -19,7 +22,15 @@ from fecolumn.study.report.notation import (
     percent,
     setting_text,
 )
-from fecolumn.study.report.sweep import DT_KEY, FINE_DT_S, Line, Sweep, common_motions, common_peaks
+from fecolumn.study.report.sweep import (
+    DT_KEY,
+    FINE_DT_S,
+    Line,
+    Setting,
+    Sweep,
+    common_motions,
+    common_peaks,
+)
 
 _STRONG_SPREAD, _LITTLE_SPREAD = 1.25, 1.05
 _OFTEN = 0.05
@@ -44,13 +55,13 @@ class SettingSpread:
 
     settings: int
     motions: int
-    factor: np.ndarray
+    factor: NDArray[Any]
     flipped: int
     always: int
     never: int
 
 
-def setting_spread(settings) -> SettingSpread:
+def setting_spread(settings: Sequence[Setting]) -> SettingSpread:
     """Spread of the peaks over settings, motion by motion."""
     motions = common_motions(settings)
     u, over = common_peaks(settings, motions)
@@ -89,7 +100,7 @@ def line_trends(sweep: Sweep, axis: str) -> list[LineTrend]:
     ]
 
 
-def individual_claims(sweep: Sweep, axes) -> list[Claim]:
+def individual_claims(sweep: Sweep, axes: Iterable[str]) -> list[Claim]:
     """That peaks change with the setting, and that no trend is in it, for each of the axes."""
     return [_change(sweep), *(_trend(sweep, axis) for axis in axes)]
 

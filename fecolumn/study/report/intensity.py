@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.sections import Motion
 from fecolumn.foundation.schema import InputError, build
 from fecolumn.motions.record import GroundMotion
 from fecolumn.study.report.sweep import Setting, read_tables
@@ -37,12 +41,12 @@ class Runs:
         (n,) bool.
     """
 
-    measures: np.ndarray
-    motion: np.ndarray
-    record: np.ndarray
-    u_max: np.ndarray
-    lost: np.ndarray
-    overturned: np.ndarray
+    measures: NDArray[Any]
+    motion: NDArray[Any]
+    record: NDArray[Any]
+    u_max: NDArray[Any]
+    lost: NDArray[Any]
+    overturned: NDArray[Any]
 
 
 class Intensities:
@@ -56,9 +60,9 @@ class Intensities:
 
     def __init__(self, folder: Path):
         self._folder = folder
-        self._known: dict = {}
+        self._known: dict[Motion, tuple[float, float]] = {}
 
-    def motion(self, run: dict) -> GroundMotion:
+    def motion(self, run: dict[str, Any]) -> GroundMotion:
         """Ground motion of an analysis as applied, at its own step.
 
         Raises
@@ -69,7 +73,7 @@ class Intensities:
 
         return unsampled(*self._table(run))
 
-    def peaks(self, run: dict) -> tuple[float, float]:
+    def peaks(self, run: dict[str, Any]) -> tuple[float, float]:
         """PGV [m/s] and PGA [m/s2] of the motion of an analysis, RotD50.
 
         Raises
@@ -90,7 +94,7 @@ class Intensities:
         pgv, pga = self._known[unscaled]
         return scale * pgv, scale * pga
 
-    def of_runs(self, settings: list[Setting]) -> Runs:
+    def of_runs(self, settings: Sequence[Setting]) -> Runs:
         """All runs of settings.
 
         Raises
@@ -114,16 +118,14 @@ class Intensities:
             np.concatenate([setting.column("overturned").astype(bool) for setting in settings]),
         )
 
-    def _table(self, run: dict):
-        from fecolumn.case.sections import Motion
-
+    def _table(self, run: dict[str, Any]) -> tuple[Motion, Path]:
         folder = self._folder / "analyses" / run["case_id"]
         return build(Motion, read_tables(folder)["motion"], folder), folder
 
 
-def across_scales(settings) -> list[tuple[dict, list[Setting]]]:
+def across_scales(settings: Iterable[Setting]) -> list[tuple[dict[str, Any], list[Setting]]]:
     """Settings that differ in the scale of their motions alone, with what they have in common."""
-    groups: dict[str, tuple[dict, list[Setting]]] = {}
+    groups: dict[str, tuple[dict[str, Any], list[Setting]]] = {}
     for setting in settings:
         values = {key: value for key, value in setting.values.items() if key != SCALE}
         groups.setdefault(repr(values), (values, []))[1].append(setting)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
 
 from fecolumn.study.device_peaks import BOND_COLUMNS, LINK_COLUMNS, peaks_of_bonds, peaks_of_links
 from fecolumn.study.report.distributions import axis_columns
@@ -61,7 +62,7 @@ def bond_section(sweep: Sweep) -> PageSection | None:
 def _section(
     sweep: Sweep,
     title: str,
-    peaks: Callable,
+    peaks: Callable[[list[dict[str, Any]]], list[list[Any]]],
     columns: tuple[PageColumn, ...],
     words: tuple[str, str],
     caption: str,
@@ -95,8 +96,8 @@ def _threes(names: tuple[str, ...], shown: tuple[tuple[str, float], ...]) -> lis
     ]
 
 
-def _three(unit: float):
-    def written(*values) -> str:
+def _three(unit: float) -> Callable[..., str]:
+    def written(*values: float) -> str:
         return ", ".join(number(unit * value) for value in values)
 
     return written

@@ -7,8 +7,10 @@ that it has, and its number stands beside it.
 from __future__ import annotations
 
 import ast
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +22,7 @@ from fecolumn.statistics.ecdf import censored, ecdf, percentile, proportion_inte
 from fecolumn.statistics.equivalence import distance_bound
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.report.distributions import axis_columns
-from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
+from fecolumn.study.report.document import PageBlock, PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import count, interval, millimetres, number, p_value, percent
 from fecolumn.study.report.sweep import ENGINE_KEY, Setting, Sweep, common_motions
@@ -44,7 +46,7 @@ _PANELS, _MOST = 6, 12
 
 def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     """The section; None where the study has one engine, or no two of them on common motions."""
-    lines = [line for line in _lines(sweep) if line.reference] if ENGINE_KEY in sweep.varied else []
+    lines = _lines(sweep) if ENGINE_KEY in sweep.varied else []
     if not lines:
         return None
     others = [axis for axis in sweep.varied if axis != ENGINE_KEY]
@@ -85,7 +87,7 @@ def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
         "The share of motions with the same outcome says how far one may be taken for "
         "the other in a single motion."
     )
-    blocks = [Paragraph(text)]
+    blocks: list[PageBlock] = [Paragraph(text)]
     if found & set(MODEL_ENGINES):
         blocks.append(
             Paragraph(
@@ -182,14 +184,14 @@ class _Beside:
     settings
         with at least one such motion.
     reference
-        the engine nearest to the whole of those with most motions; None of models alone.
+        the engine nearest to the whole of those with most motions.
     fewer
         names of the engines that have not all of its motions.
     """
 
-    others: dict
+    others: dict[str, Any]
     settings: tuple[Setting, ...]
-    reference: Setting | None
+    reference: Setting
 
     def common(self, setting: Setting) -> list[str]:
         return common_motions((self.reference, setting))
@@ -207,14 +209,16 @@ def _lines(sweep: Sweep) -> list[_Beside]:
     found = []
     for others, settings in sweep.groups(ENGINE_KEY):
         known = [one for name in NEAREST for one in settings if one.values[ENGINE_KEY] == name]
-        reference = max(known, key=lambda one: len(one.runs), default=None)
-        there = tuple(one for one in settings if reference and common_motions((reference, one)))
+        if not known:  # models alone
+            continue
+        reference = max(known, key=lambda one: len(one.runs))
+        there = tuple(one for one in settings if common_motions((reference, one)))
         if len(there) > 1:
             found.append(_Beside(others, there, reference))
     return found
 
 
-def _span(numbers) -> str:
+def _span(numbers: Iterable[int]) -> str:
     found = sorted(set(numbers))
     return str(found[0]) if len(found) == 1 else f"{found[0]} to {found[-1]}"
 
@@ -228,15 +232,15 @@ def _exceptions(fewer: dict[str, list[int]]) -> str:
 
 
 def _label(line: _Beside, setting: Setting, motions: int) -> str:
-    name = setting.values[ENGINE_KEY]
+    name: str = setting.values[ENGINE_KEY]
     return _NAMES.get(name, name) + (f", n = {motions}" if name in line.fewer else "")
 
 
-def _ensembles(lines) -> dict[str, set | None]:
+def _ensembles(lines: list[_Beside]) -> dict[str, set[str] | None]:
     """Motions by the ensemble file that they are of, _ALL of them first; _ALL alone where the study
     has no two such files, or motions of none.
     """
-    found: dict[str, set] = {}
+    found: dict[str, set[str]] = {}
     for motion in (motion for line in lines for motion in line.reference.runs):
         member = next(
             (
@@ -249,15 +253,17 @@ def _ensembles(lines) -> dict[str, set | None]:
         if member is None:
             return {_ALL: None}
         found.setdefault(Path(member[0]).stem, set()).add(motion)
-    return {_ALL: None} | (found if 1 < len(found) <= _MOST else {})
+    return {_ALL: None, **(found if 1 < len(found) <= _MOST else {})}
 
 
-def _of(motions, some: set | None) -> list[str]:
+def _of(motions: Iterable[str], some: set[str] | None) -> list[str]:
     """The motions that are among some, all for None."""
     return [motion for motion in motions if some is None or motion in some]
 
 
-def _rows(line: _Beside, others, ensemble: str, some: set | None, any_fewer: bool):
+def _rows(
+    line: _Beside, others: list[str], ensemble: str, some: set[str] | None, any_fewer: bool
+) -> Iterator[tuple[Any, ...]]:
     for setting in line.settings:
         motions = _of(line.common(setting), some)
         if not motions:
@@ -266,7 +272,7 @@ def _rows(line: _Beside, others, ensemble: str, some: set | None, any_fewer: boo
         fallen, base_fallen = (
             one.column("overturned", motions).astype(bool) for one in (setting, line.reference)
         )
-        beside = [None] * (5 + any_fewer)
+        beside: list[float | None] = [None] * (5 + any_fewer)
         if setting is not line.reference:
             test = paired_kolmogorov_smirnov(censored(u, lost), censored(base, base_lost))
             medians = [percentile(*one, 0.5) for one in ((u, lost), (base, base_lost))]
@@ -292,7 +298,7 @@ def _rows(line: _Beside, others, ensemble: str, some: set | None, any_fewer: boo
         )
 
 
-def _cost(setting: Setting, motions) -> float | None:
+def _cost(setting: Setting, motions: list[str]) -> float | None:
     """Mean processor time [s]; wall time of a run that did not record it."""
     times = setting.column("cpu_s", motions)
     times = np.where(np.isnan(times), setting.column("wall_s", motions), times)

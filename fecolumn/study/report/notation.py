@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from fecolumn.pictures.figures.axis_text import axis_unit, axis_words, level_number
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
 
 ALL_ANALYSES = "all analyses"  # where nothing tells settings apart
 MINUS, DASH, THIN = "\N{MINUS SIGN}", "\N{EM DASH}", "\N{NARROW NO-BREAK SPACE}"
@@ -31,7 +36,7 @@ _PERCENT = re.compile(r"(\d) %")
 _SUPERSCRIPTS = str.maketrans("-0123456789", "\N{SUPERSCRIPT MINUS}⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def number(value, digits: int = 3) -> str:
+def number(value: float | None, digits: int = 3) -> str:
     """Number to significant digits, such as "0.0273", "1.2 × 10⁻⁷"; a dash where there is none."""
     if value is None or isinstance(value, float) and math.isnan(value):
         return DASH
@@ -45,7 +50,7 @@ def number(value, digits: int = 3) -> str:
     return text.replace("-", MINUS)
 
 
-def fixed(value, decimals: int = 2) -> str:
+def fixed(value: float | None, decimals: int = 2) -> str:
     """Number to a fixed count of decimals, so that a column lines up; a dash where there is
     none.
     """
@@ -55,39 +60,43 @@ def fixed(value, decimals: int = 2) -> str:
     return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)
 
 
-def percent(share) -> str:
+def percent(share: float | None) -> str:
     """0.435 as "43.5 %"."""
     return DASH if share is None or math.isnan(share) else f"{fixed(100 * share, 1)}{THIN}%"
 
 
-def millimetres(metres) -> str:
+def millimetres(metres: float | None) -> str:
     """Displacement [m] in mm; "overturn" where that share of the runs does not stand."""
     if metres is None or math.isnan(metres):
         return DASH
     return "overturn" if math.isinf(metres) else number(1e3 * metres)
 
 
-def p_value(p) -> str:
+def p_value(p: float | None) -> str:
     """Probability of a test."""
     return DASH if p is None or math.isnan(p) else f"<{THIN}0.001" if p < 0.001 else f"{p:.3f}"
 
 
-def p_clause(p) -> str:
+def p_clause(p: float) -> str:
     """A p-value in words, "p = 0.03" or "p < 0.001"."""
     return f"p{THIN}{p_value(p)}" if p < 0.001 else f"p{THIN}={THIN}{p_value(p)}"
 
 
-def interval(low, high, form=fixed) -> str:
+def interval(
+    low: float | None, high: float | None, form: Callable[[float | None], str] = fixed
+) -> str:
     """An interval as "[low, high]"."""
     return f"[{form(low)}, {form(high)}]"
 
 
-def percent_interval(low, high) -> str:
+def percent_interval(low: float | None, high: float | None) -> str:
     """Interval of two shares [-] in per cent, such as "[34.8, 52.6]"."""
-    return DASH if low is None else interval(100 * low, 100 * high, lambda value: fixed(value, 1))
+    if low is None or high is None:
+        return DASH
+    return interval(100 * low, 100 * high, lambda value: fixed(value, 1))
 
 
-def typeset(text: str):
+def typeset(text: str) -> Markup:
     """Plain text as HTML: escaped, symbols in italics, true apostrophes."""
     from markupsafe import Markup, escape
 
@@ -114,7 +123,7 @@ def axis_name(key: str) -> str:
     return _SYMBOLS.get(key) or axis_words(key)
 
 
-def level_text(key: str, value) -> str:
+def level_text(key: str, value: object) -> str:
     """Value of an axis with its unit, such as "0.001 s"."""
     if isinstance(value, dict):
         return ", ".join(setting_text({f"{key}.{inner}": item}) for inner, item in value.items())
@@ -123,7 +132,7 @@ def level_text(key: str, value) -> str:
     return plain_level(value) + (f"\N{NO-BREAK SPACE}{unit}" if plain and unit != "-" else "")
 
 
-def plain_level(value) -> str:
+def plain_level(value: object) -> str:
     """Value of an axis without its unit, powers of ten written as such."""
     text = level_number(value)
     if not isinstance(value, float) or "e" not in text:
@@ -138,7 +147,7 @@ def sentence(words: str) -> str:
     return words[:1].upper() + words[1:]
 
 
-def setting_text(values: dict) -> str:
+def setting_text(values: dict[str, Any]) -> str:
     """Values of all axes, such as "Δt = 0.001 s, α = −0.2"."""
     if not values:
         return ALL_ANALYSES

@@ -5,6 +5,7 @@ tables beside it.
 from __future__ import annotations
 
 import datetime
+from collections.abc import Iterable
 from pathlib import Path
 
 from fecolumn.foundation.atomic import write_bytes
@@ -47,7 +48,9 @@ from fecolumn.study.report.timing import timing
 from fecolumn.study.store import DONE, FAILED
 
 
-def write_report(folder, output=None, files=("pdf", "png")) -> Path:
+def write_report(
+    folder: Path | str, output: Path | str | None = None, files: Iterable[str] = ("pdf", "png")
+) -> Path:
     """Write index.html, its figures and its tables into `output`, or folder/report; returns the
     page.
 

@@ -8,6 +8,8 @@ import itertools
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from fecolumn.statistics.compare import Comparison, compare
 from fecolumn.statistics.equivalence import distance_bound
 from fecolumn.statistics.holm import holm
@@ -80,11 +82,14 @@ def read_pairs(sweep: Sweep) -> list[ComparedPair]:
     corrected: dict[int, float] = {}
     for family in dict.fromkeys(families):
         members = [place for place, name in enumerate(families) if name == family]
-        corrected |= dict(zip(members, holm([found[place][1].paired_p for place in members])))
+        corrected |= dict(
+            zip(members, holm(np.array([found[place][1].paired_p for place in members], float)))
+        )
     return [
         ComparedPair(
             line.axis,
-            *line.levels,
+            low,
+            high,
             line.others,
             result,
             distance,
@@ -95,6 +100,7 @@ def read_pairs(sweep: Sweep) -> list[ComparedPair]:
             sweep.p_lost,
         )
         for place, (line, result, distance, bound) in enumerate(found)
+        for low, high in [line.levels]
     ]
 
 

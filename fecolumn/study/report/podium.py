@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.model_sections import CAV, CRV
 from fecolumn.pictures.figures.podium_figure import podium_figure
 from fecolumn.study.report.claim import Claim, ClaimList
-from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
+from fecolumn.study.report.document import PageBlock, PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import count, fixed, p_value, percent
-from fecolumn.study.report.podium_claims import BuildingLaws, compared, podium_claims
+from fecolumn.study.report.podium_claims import (
+    BuildingLaws,
+    BuildingResponse,
+    compared,
+    podium_claims,
+)
 from fecolumn.study.report.sweep import Sweep, common_motions
 
 LAW, STOREYS, PROFILE = "podium.impact", "podium.storeys", "podium.profile"
@@ -39,7 +48,7 @@ def podium(sweep: Sweep, gallery: Gallery) -> PageSection | None:
         "distributions. What follows judges each finding by a rule stated beforehand; "
         "motions drawn again give the intervals."
     )
-    blocks = [
+    blocks: list[PageBlock] = [
         Paragraph(text),
         gallery.draw(
             "tilts",
@@ -66,7 +75,7 @@ def podium(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     return PageSection("Two laws of impact", blocks)
 
 
-def responses(sweep: Sweep) -> dict[tuple[str, int, str], dict[str, np.ndarray]]:
+def responses(sweep: Sweep) -> dict[tuple[str, int, str], dict[str, NDArray[Any]]]:
     """Tilt over alpha, inf where overturned, and shear over V_st, by (profile, storeys, law), of
     the motions that both laws and all buildings have.
     """
@@ -98,14 +107,14 @@ def responses(sweep: Sweep) -> dict[tuple[str, int, str], dict[str, np.ndarray]]
     )
 
 
-def _limits(found) -> tuple[float, float]:
+def _limits(found: Mapping[tuple[str, int, str], BuildingResponse]) -> tuple[float, float]:
     """Between which nearly all shears of motions lie that do not overturn, in halves."""
     shears = [one["shear"][np.isfinite(one["tilt"])] for one in found.values()]
     low, high = (np.percentile(np.concatenate(shears), share) for share in (1, 99))
     return float(np.floor(2 * low) / 2), float(np.floor(2 * high) / 2 + 0.5)
 
 
-def _thousandths(value) -> str:
+def _thousandths(value: float) -> str:
     return fixed(value, 3)
 
 
@@ -145,7 +154,7 @@ def _table(buildings: list[BuildingLaws]) -> PageTable:
     )
 
 
-def _verdicts(claims: list[Claim]) -> list:
+def _verdicts(claims: list[Claim]) -> list[PageBlock]:
     columns = (
         PageColumn("claim", "claim", text=True),
         PageColumn("paper", "the paper’s finding", text=True),

@@ -9,9 +9,12 @@ itself draws.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.model_sections import CAV, CRV
 from fecolumn.statistics.bands import greenwood, wilson
@@ -25,6 +28,8 @@ STILL = 1e-6
 FEWEST = 350
 _OUTSIDE = 0.05  # share of a curve's points outside a 95 % band that chance alone explains
 _RESAMPLES = 499
+# Arrays (motions,) by name, see `building_laws`
+BuildingResponse = Mapping[str, NDArray[Any]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,18 +74,20 @@ class BuildingLaws:
     median_ratio: float
     tilt_scatter: float
     shear_scatter: float
-    drawn: np.ndarray
+    drawn: NDArray[Any]
 
 
-def building_laws(profile: str, storeys: int, crv, cav, resamples: int = 1999) -> BuildingLaws:
+def building_laws(
+    profile: str, storeys: int, crv: BuildingResponse, cav: BuildingResponse, resamples: int = 1999
+) -> BuildingLaws:
     """Both laws compared; crv, cav: "tilt" over alpha, inf where overturned, and "shear" over V_st,
     (motions,) each.
     """
     a, b, shears = crv["tilt"], cav["tilt"], (crv["shear"], cav["shear"])
     both = np.isfinite(a) & np.isfinite(b)
     tilt, shear = (
-        paired_kolmogorov_smirnov(*pair, resamples=resamples)
-        for pair in ((a, b), (shears[0][both], shears[1][both]))
+        paired_kolmogorov_smirnov(one, two, resamples=resamples)
+        for one, two in ((a, b), (shears[0][both], shears[1][both]))
     )
     draws = np.random.default_rng(1).integers(len(a), size=(_RESAMPLES, len(a)))
     drawn = np.array(
@@ -101,7 +108,9 @@ def building_laws(profile: str, storeys: int, crv, cav, resamples: int = 1999) -
     )
 
 
-def _sizes(a, b, shear_a, shear_b) -> tuple[float, float, float, float]:
+def _sizes(
+    a: NDArray[Any], b: NDArray[Any], shear_a: NDArray[Any], shear_b: NDArray[Any]
+) -> tuple[float, float, float, float]:
     """Median of ratios, ratio of medians, and scatter of tilts and of shears between the laws."""
     both = np.isfinite(a) & np.isfinite(b)
     rocking = both & (a > STILL) & (b > STILL)
@@ -117,7 +126,7 @@ def _sizes(a, b, shear_a, shear_b) -> tuple[float, float, float, float]:
     )
 
 
-def _outside(a, b) -> float:
+def _outside(a: NDArray[Any], b: NDArray[Any]) -> float:
     """Share of a's values where the distribution of b is outside the band of a's."""
     x = np.unique(a[np.isfinite(a)])
     cdf, other = (np.searchsorted(np.sort(one), x, side="right") / len(one) for one in (a, b))
@@ -125,7 +134,9 @@ def _outside(a, b) -> float:
     return float(((other < low) | (other > high)).mean())
 
 
-def compared(found, resamples: int = 1999) -> list[BuildingLaws]:
+def compared(
+    found: Mapping[tuple[str, int, str], BuildingResponse], resamples: int = 1999
+) -> list[BuildingLaws]:
     """All buildings of what was found, by (profile, storeys, law)."""
     keys = dict.fromkeys((profile, n) for profile, n, _ in found)
     return [
@@ -134,7 +145,7 @@ def compared(found, resamples: int = 1999) -> list[BuildingLaws]:
     ]
 
 
-def podium_claims(buildings) -> list[Claim]:
+def podium_claims(buildings: Sequence[BuildingLaws]) -> list[Claim]:
     """Each claim that these buildings can be asked for."""
     one = {(each.profile, each.storeys): each for each in buildings}
     profiles, storeys = (
@@ -148,7 +159,10 @@ def podium_claims(buildings) -> list[Claim]:
     ]
     few = min(each.motions for each in buildings) < FEWEST
 
-    def row(get, form=lambda value: fixed(value, 3)):
+    def row(
+        get: Callable[[BuildingLaws], float],
+        form: Callable[[float], str] = lambda value: fixed(value, 3),
+    ) -> str:
         return "; ".join(
             f"{profile} "
             f"{', '.join(form(get(one[profile, n])) for n in storeys if (profile, n) in one)}"
@@ -266,7 +280,7 @@ def podium_claims(buildings) -> list[Claim]:
     return found
 
 
-def _shortfall(buildings) -> str:
+def _shortfall(buildings: Sequence[BuildingLaws]) -> str:
     motions = min(each.motions for each in buildings)
     fallen = max(max(each.overturned) for each in buildings)
     return f"{count(motions, 'motion')}; at most {percent(fallen)} overturn."
@@ -276,7 +290,7 @@ def _judged(holds: bool, few: bool) -> str:
     return UNDECIDED if few else SUPPORTED if holds else NOT_SUPPORTED
 
 
-def _sided(differences) -> str:
+def _sided(differences: Iterable[NDArray[Any]]) -> str:
     """Verdict on differences (resamples,) that are claimed to be positive."""
     return _of_intervals(
         [
@@ -286,7 +300,7 @@ def _sided(differences) -> str:
     )
 
 
-def _of_intervals(intervals) -> str:
+def _of_intervals(intervals: Sequence[tuple[float, float]]) -> str:
     if all(low > 0 for low, _ in intervals):
         return SUPPORTED
     return NOT_SUPPORTED if any(high < 0 for _, high in intervals) else UNDECIDED

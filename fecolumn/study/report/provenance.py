@@ -6,7 +6,9 @@ import datetime
 import importlib.metadata
 import platform
 import re
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 from fecolumn.foundation.files import Unreadable, read_json
 from fecolumn.study.mixture import codes, listed
@@ -131,13 +133,13 @@ def _short(source: str) -> str:
     return source.rsplit("/", 1)[-1] if source.startswith("/") else source
 
 
-def _natural(text: str):
+def _natural(text: str) -> list[tuple[int, int, str]]:
     return [
         (0, int(part), "") if part.isdigit() else (1, 0, part) for part in re.split(r"(\d+)", text)
     ]
 
 
-def _engines(sweep: Sweep):
+def _engines(sweep: Sweep) -> Iterator[tuple[str, str]]:
     runs = [run for setting in sweep.done for run in setting.runs.values()]
     for key, name in (
         ("engine", "Engine"),
@@ -150,7 +152,7 @@ def _engines(sweep: Sweep):
             yield name, ", ".join(str(one) for one in found)
 
 
-def _recorded(sweep: Sweep):
+def _recorded(sweep: Sweep) -> Iterator[tuple[str, str]]:
     """What else the ledger records of every analysis that is done: machine, hash of the motion."""
     done = [row for row in sweep.rows if row["state"] == DONE]
     for key in (key for key in (done[0] if done else {}) if key not in _KNOWN):
@@ -182,7 +184,7 @@ def _words(key: str) -> str:
     return key.replace("_", " ").capitalize()
 
 
-def _dates(sweep: Sweep):
+def _dates(sweep: Sweep) -> Iterator[tuple[str, str]]:
     started = [row["started"] for row in sweep.rows if row.get("started")]
     if started:
         first, last = (
@@ -194,7 +196,7 @@ def _dates(sweep: Sweep):
         )
 
 
-def _versions():
+def _versions() -> Iterator[tuple[str, str]]:
     for name in _PACKAGES:
         try:
             yield name, importlib.metadata.version(name)
@@ -202,7 +204,9 @@ def _versions():
             continue
 
 
-def _flat(sweep: Sweep, tables=None, prefix: str = ""):
+def _flat(
+    sweep: Sweep, tables: dict[str, Any] | None = None, prefix: str = ""
+) -> Iterator[tuple[str, str]]:
     for key, value in (sweep.case if tables is None else tables).items():
         if isinstance(value, dict):
             yield from _flat(sweep, value, f"{prefix}{key}.")

@@ -71,7 +71,9 @@ def _sampled(sweep: Sweep, axis: str) -> Rank | None:
     )
 
 
-def _effect(axis: str, low, high, at_low: list[Setting], at_high: list[Setting]) -> Rank | None:
+def _effect(
+    axis: str, low: object, high: object, at_low: list[Setting], at_high: list[Setting]
+) -> Rank | None:
     motions = common_motions(at_low + at_high) if at_low else []
     if len(motions) < _LEAST_MOTIONS:
         return None

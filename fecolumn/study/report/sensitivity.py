@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from fecolumn.pictures.figures.axis_text import axis_text, level_number
 from fecolumn.pictures.figures.interval_figure import IntervalRow, Scale, interval_figure
 from fecolumn.study.alpha import ALPHA_KEY
@@ -145,11 +147,11 @@ def sensitivity_section(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     )
 
 
-def _span(axis: str, low, high) -> str:
+def _span(axis: str, low: object, high: object) -> str:
     return f"{axis_name(axis)}: {level_text(axis, low)} to {level_text(axis, high)}"
 
 
-def _ends(rank: Rank) -> tuple:
+def _ends(rank: Rank) -> tuple[Any, Any]:
     """Levels compared; of a sampled parameter the least and the largest value."""
     low, high = rank.low, rank.high
     return low[0] if isinstance(low, tuple) else low, high[1] if isinstance(high, tuple) else high

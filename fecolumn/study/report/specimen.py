@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.motions.record import GroundMotion
 from fecolumn.pictures.figures.specimen_figure import specimen_figure
 from fecolumn.pictures.figures.specimen_outline import specimen_outline
 from fecolumn.study.report.document import PageSection, Paragraph
@@ -58,7 +59,7 @@ def specimen(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageSe
     )
 
 
-def _middle(sweep: Sweep, intensities: Intensities):
+def _middle(sweep: Sweep, intensities: Intensities) -> tuple[GroundMotion | None, str]:
     """The motion of median PGV of the reference setting, None where it is not to be found, and what
     is said of all.
     """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +38,6 @@ _OTHERS = {
 }
 
 
-def subject_of(case: dict) -> Subject:
+def subject_of(case: dict[str, Any]) -> Subject:
     """Of the tables of a study's case."""
     return next((subject for name, subject in _OTHERS.items() if case.get(name)), _COLUMN)

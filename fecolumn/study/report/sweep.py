@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.engines.ending import P_LOST, P_OVERTURN, cut_short
 from fecolumn.foundation.files import read_json
@@ -40,16 +42,16 @@ class Setting:
     values: dict[str, Any]
     planned: int
     failed: int
-    runs: dict[str, dict]
+    runs: dict[str, dict[str, Any]]
 
-    def column(self, name: str, motions=None) -> np.ndarray:
+    def column(self, name: str, motions: Sequence[str] | None = None) -> NDArray[Any]:
         """A number of the summaries, one a motion (nan where it is not stated)."""
         runs = self.runs if motions is None else {motion: self.runs[motion] for motion in motions}
         return np.array(
             [np.nan if run.get(name) is None else run[name] for run in runs.values()], float
         )
 
-    def peaks(self, motions=None) -> tuple[np.ndarray, np.ndarray]:
+    def peaks(self, motions: Sequence[str] | None = None) -> tuple[NDArray[Any], NDArray[Any]]:
         """u_max [m], nan where the column overturned or slid off its base, and whether it did, one
         a motion.
         """
@@ -73,12 +75,12 @@ class Line:
         """Motions done in every setting."""
         return common_motions(self.settings)
 
-    def peaks(self) -> tuple[np.ndarray, np.ndarray]:
+    def peaks(self) -> tuple[NDArray[Any], NDArray[Any]]:
         """u_max [m] and overturned, (levels, n) of the common motions."""
         return common_peaks(self.settings, self.motions())
 
     @property
-    def levels(self) -> list:
+    def levels(self) -> list[Any]:
         """Values of the axis, one for each setting."""
         return [setting.values[self.axis] for setting in self.settings]
 
@@ -111,12 +113,12 @@ class Sweep:
 
     folder: Path
     title: str
-    axes: dict[str, list]
+    axes: dict[str, list[Any]]
     settings: tuple[Setting, ...]
-    rows: list[dict]
+    rows: list[dict[str, Any]]
     analyses: int
     limit_m: float
-    case: dict = field(default_factory=dict)
+    case: dict[str, Any] = field(default_factory=dict)
 
     @cached_property
     def done(self) -> tuple[Setting, ...]:
@@ -181,12 +183,12 @@ class Sweep:
         equals = chosen or [s for s in self.done if len(s.runs) == most]
         return equals[0] if chosen else equals[len(equals) // 2]
 
-    def at(self, values: dict) -> str:
+    def at(self, values: dict[str, Any]) -> str:
         """Words such as "at Δt = 0.001 s"."""
         words = self.words(values)
         return f"in {ALL_ANALYSES}" if words == ALL_ANALYSES else f"at {words}"
 
-    def words(self, values: dict) -> str:
+    def words(self, values: dict[str, Any]) -> str:
         """Values of the axes that vary, such as "Δt = 0.001 s, α = −0.2"; those of one value alone
         are told once, at the top.
         """
@@ -209,7 +211,7 @@ class Sweep:
             for group in groups.values()
         ]
 
-    def pairs(self, axis: str, low, high) -> list[tuple[Setting, Setting]]:
+    def pairs(self, axis: str, low: object, high: object) -> list[tuple[Setting, Setting]]:
         """Settings at two levels of an axis of each of its lines that has both."""
         found = []
         for line in self.lines(axis):
@@ -224,13 +226,15 @@ class Sweep:
         return [line for line in lines if len(line.settings) > 1 and line.motions()]
 
 
-def common_peaks(settings, motions: list[str]) -> tuple[np.ndarray, np.ndarray]:
+def common_peaks(
+    settings: Iterable[Setting], motions: list[str]
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """u_max [m] and whether lost, (settings, motions) each."""
     pairs = [setting.peaks(motions) for setting in settings]
     return np.array([u for u, _ in pairs]), np.array([over for _, over in pairs])
 
 
-def common_motions(settings) -> list[str]:
+def common_motions(settings: Sequence[Setting]) -> list[str]:
     """Motions done in all of the settings, in the order of the first."""
     return [
         motion
@@ -239,7 +243,7 @@ def common_motions(settings) -> list[str]:
     ]
 
 
-def read_sweep(folder) -> Sweep:
+def read_sweep(folder: Path | str) -> Sweep:
     """The study in a folder, finished or not.
 
     Raises
@@ -248,13 +252,13 @@ def read_sweep(folder) -> Sweep:
         the folder holds no study.
     """
     folder, study = Path(folder), read_study(folder)
-    groups: dict[str, list[dict]] = {}
+    groups: dict[str, list[dict[str, Any]]] = {}
     for row in study.rows:
         groups.setdefault(
             repr([item for item in row["axes"].items() if item[0] not in ENSEMBLE_AXES]), []
         ).append(row)
     settings = tuple(_setting(rows) for rows in groups.values())
-    axes: dict[str, dict] = {}
+    axes: dict[str, dict[str, Any]] = {}
     for setting in settings:
         for key, value in setting.values.items():
             axes.setdefault(key, {})[repr(value)] = value
@@ -277,12 +281,12 @@ def read_sweep(folder) -> Sweep:
     )
 
 
-def _largest_peak(settings) -> float:
+def _largest_peak(settings: Iterable[Setting]) -> float:
     found = largest_peak(*(setting.peaks() for setting in settings if setting.runs))
     return found if found > 0 else 1.0
 
 
-def _setting(rows: list[dict]) -> Setting:
+def _setting(rows: list[dict[str, Any]]) -> Setting:
     runs = {
         repr([value for key, value in row["axes"].items() if key in ENSEMBLE_AXES]): row["summary"]
         for row in rows
@@ -292,19 +296,20 @@ def _setting(rows: list[dict]) -> Setting:
     return Setting(values, len(rows), sum(row["state"] == FAILED for row in rows), runs)
 
 
-def _ordered(levels: list) -> list:
+def _ordered(levels: list[Any]) -> list[Any]:
     numbers = all(
         isinstance(level, (int, float)) and not isinstance(level, bool) for level in levels
     )
     return sorted(levels) if numbers else levels
 
 
-def read_tables(folder: Path) -> dict:
+def read_tables(folder: Path) -> dict[str, Any]:
     """Tables of the case an analysis was run with."""
-    return read_json(folder / "case.json")["case"]
+    tables: dict[str, Any] = read_json(folder / "case.json")["case"]
+    return tables
 
 
-def _case(folder: Path) -> dict:
+def _case(folder: Path) -> dict[str, Any]:
     try:
         tables = read_tables(folder)
         float(tables.get("overturn", {}).get("displacement_m", 0.25))

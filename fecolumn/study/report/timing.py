@@ -9,7 +9,14 @@ from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.cost import second_cost
 from fecolumn.study.report.distributions import axis_columns
-from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
+from fecolumn.study.report.document import (
+    Figure,
+    PageBlock,
+    PageColumn,
+    PageSection,
+    PageTable,
+    Paragraph,
+)
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import axis_name, number, sentence
 from fecolumn.study.report.sweep import DT_KEY, Setting, Sweep
@@ -61,7 +68,7 @@ def timing(sweep: Sweep, gallery: Gallery) -> PageSection | None:
         [tuple(row[place] for place in stated) for row in rows],
     )
     total = np.nansum([row[-1] for row in rows])
-    blocks = [
+    blocks: list[PageBlock] = [
         Paragraph(
             f"{sentence(sweep.at(sweep.reference.values))} a second of analysed motion "
             f"takes {number(base)} s of one core in the "
@@ -100,12 +107,12 @@ def _mean(setting: Setting, name: str) -> float:
     return float(np.nanmean(setting.column(name)))
 
 
-def _per_step(setting: Setting, name: str):
+def _per_step(setting: Setting, name: str) -> float | None:
     shares = setting.column(name) / setting.column("steps")
     return float(np.nanmean(shares)) if np.isfinite(shares).any() else None
 
 
-def _figure(sweep: Sweep, gallery: Gallery):
+def _figure(sweep: Sweep, gallery: Gallery) -> Figure | None:
     """Cost along the time step where it was varied, a curve for each level of the next axis,
     medians with 16-84 % bands.
     """
