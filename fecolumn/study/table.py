@@ -14,6 +14,7 @@ from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
 from fecolumn.study.device_peaks import BOND_COLUMNS, LINK_COLUMNS, peaks_of_bonds, peaks_of_links
 from fecolumn.study.plan import Plan
+from fecolumn.study.planned import PlannedStudy
 from fecolumn.study.store import DONE
 
 # The axis told apart by lines where it is varied, all others by panels; where it is not, the axis
@@ -47,7 +48,7 @@ _ANALYSES = (
 
 
 def combinations(
-    plan: Plan, rows: list[dict[str, Any]]
+    plan: PlannedStudy, rows: list[dict[str, Any]]
 ) -> list[tuple[dict[str, Any], list[dict[str, Any]], int]]:
     """The ensembles of a study in the order of its file: axis values, summaries of what is done,
     number planned.
@@ -147,7 +148,7 @@ def _analysis_row(row: dict[str, Any]) -> list[Any]:
     ]
 
 
-def table_text(plan: Plan, rows: list[dict[str, Any]]) -> str:
+def table_text(plan: PlannedStudy, rows: list[dict[str, Any]]) -> str:
     """The table for a reader: a line for each combination, axes of one value left out; columns that
     slid off their base are counted where there are any.
     """
@@ -197,7 +198,7 @@ def table_text(plan: Plan, rows: list[dict[str, Any]]) -> str:
     )
 
 
-def write_figure(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> list[Path]:
+def write_figure(plan: PlannedStudy, rows: list[dict[str, Any]], folder: Path | str) -> list[Path]:
     """Write cdf.png and cdf.pdf: a line for each level of one axis, a panel for each setting of the
     others; axes of one value are left out.
     """
@@ -227,7 +228,7 @@ def write_figure(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
     )
 
 
-def varied(plan: Plan) -> dict[str, int]:
+def varied(plan: PlannedStudy) -> dict[str, int]:
     """Number of levels of each axis that tells ensembles apart and has more than one."""
     levels = {
         key: len({repr(analysis.combination[key]) for analysis in plan.analyses})

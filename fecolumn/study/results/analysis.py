@@ -5,10 +5,12 @@ from __future__ import annotations
 import functools
 import html
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.case import Case
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS, read_history
 from fecolumn.foundation.files import is_file
@@ -48,7 +50,7 @@ class AnalysisResult:
         self.folder = Path(folder)
 
     @functools.cached_property
-    def history(self) -> dict[str, np.ndarray]:
+    def history(self) -> dict[str, NDArray[Any]]:
         """Arrays by name: time, u_top, tilt, ..., "energy/kinetic", ...
 
         Raises
@@ -71,7 +73,7 @@ class AnalysisResult:
             ) from None
 
     @functools.cached_property
-    def summary(self) -> dict:
+    def summary(self) -> dict[str, Any]:
         """What summary.json says; empty while the analysis has not ended.
 
         Raises
@@ -84,13 +86,13 @@ class AnalysisResult:
         return summary_of_folder(self.folder) if is_file(self.folder / SUMMARY_FILE) else {}
 
     @functools.cached_property
-    def case(self):
+    def case(self) -> Case:
         """The Case that was analysed."""
         from fecolumn.simulation import read_folder_case
 
         return read_folder_case(self.folder)[0]
 
-    def __getitem__(self, name: str) -> np.ndarray:
+    def __getitem__(self, name: str) -> NDArray[Any]:
         try:
             return self.history[name]
         except KeyError:
@@ -99,7 +101,7 @@ class AnalysisResult:
             ) from None
 
     @property
-    def time(self) -> np.ndarray:
+    def time(self) -> NDArray[Any]:
         """Times (n,) [s] of the samples."""
         return self["time"]
 
@@ -112,7 +114,7 @@ class AnalysisResult:
         }
 
     @property
-    def energy(self) -> dict[str, np.ndarray]:
+    def energy(self) -> dict[str, NDArray[Any]]:
         """Terms of the energy ledger (n,) [J] by name, as of `dynamics.energy.TERMS`; zero where an
         earlier version did not write one.
         """
@@ -130,7 +132,7 @@ class AnalysisResult:
         """The history as an xarray.Dataset, as of `to_xarray`: `result.data["tilt"].plot()`."""
         return self.to_xarray()
 
-    def columns(self) -> dict[str, np.ndarray]:
+    def columns(self) -> dict[str, NDArray[Any]]:
         """One array (n,) a component, named with its unit: "time [s]", "u_top_x [m]", ..."""
         named = {}
         for name, values in self.history.items():
@@ -176,7 +178,7 @@ class AnalysisResult:
         """
         return AnalysisPlots(self.folder)
 
-    def render(self, **options) -> list[Path]:
+    def render(self, **options: Any) -> list[Path]:
         """Movie, stills and sequence as of `fecolumn render`; the files.
 
         Parameters
@@ -314,6 +316,6 @@ def _chosen(names: tuple[str, ...], known: list[str], what: str) -> list[str]:
     return list(names) or known
 
 
-def _cell(value, factor, unit: str) -> str:
+def _cell(value: Any, factor: float | None, unit: str) -> str:
     text = f"{factor * value:.4g} {unit}" if factor is not None else str(value)
     return html.escape(text.strip())

@@ -4,18 +4,27 @@ went.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.study.results.analysis import AnalysisResult
-from fecolumn.study.results.parting import QUANTITIES, TOLERANCE, Parting, parting, quantity_of
+from fecolumn.study.results.parting import (
+    QUANTITIES,
+    TOLERANCE,
+    Parting,
+    QuantityPair,
+    parting,
+    quantity_of,
+)
 
 FIGURE = "comparison"
 
 
-def compare_analyses(folders: tuple[str, str], tolerance: float | None, output) -> None:
+def compare_analyses(folders: tuple[str, str], tolerance: float | None, output: str | None) -> None:
     """Print the comparison of two folders of `fecolumn run`, and write it where a folder is given.
 
     Raises
@@ -36,7 +45,7 @@ def compare_analyses(folders: tuple[str, str], tolerance: float | None, output) 
             print(f"wrote {Path(output) / file.name}")
 
 
-def _text(a: AnalysisResult, b: AnalysisResult, found: Parting):
+def _text(a: AnalysisResult, b: AnalysisResult, found: Parting) -> Iterator[str]:
     """Lines for a reader."""
     for letter, one in (("A", a), ("B", b)):
         yield f"{letter}  {one.folder}: {_told(one)}"
@@ -123,7 +132,7 @@ def _told(one: AnalysisResult) -> str:
     return f"{title}{plan.engine}, dt {plan.dt_s:g} s; {ending}"
 
 
-def _parted(found: Parting, pair) -> str:
+def _parted(found: Parting, pair: QuantityPair) -> str:
     return (
         "not judged"
         if not pair.judged
@@ -133,7 +142,7 @@ def _parted(found: Parting, pair) -> str:
     )
 
 
-def _share(pair) -> str:
+def _share(pair: QuantityPair) -> str:
     return f"{pair.difference.max() / pair.peak:.3g}" if pair.peak else "-"
 
 
@@ -144,7 +153,7 @@ def _unit(key: str) -> str:
     return "" if unit == "-" else unit
 
 
-def _shown(value) -> str:
+def _shown(value: object) -> str:
     if value is None:
         return "-"
     if isinstance(value, bool):
@@ -154,7 +163,7 @@ def _shown(value) -> str:
     return ", ".join(map(_shown, value)) if isinstance(value, (list, tuple)) else str(value) or '""'
 
 
-def _columns(rows) -> str:
+def _columns(rows: list[list[str]]) -> str:
     """The first column to the left, the others to the right."""
     widths = [max(map(len, column)) for column in zip(*rows)]
     return "\n".join(
@@ -192,10 +201,10 @@ def _write(folder: Path, a: AnalysisResult, b: AnalysisResult, found: Parting) -
     return files + parting_figure(found, quantities, symbols, _labels(a, b, found), folder / FIGURE)
 
 
-def _summary(a: AnalysisResult, b: AnalysisResult, found: Parting) -> dict:
+def _summary(a: AnalysisResult, b: AnalysisResult, found: Parting) -> dict[str, Any]:
     """What comparison.json holds, in SI units."""
 
-    def told(pair, unit):
+    def told(pair: QuantityPair, unit: str) -> dict[str, Any]:
         time = None if pair.parted is None else float(found.time[pair.parted])
         return dict(
             unit=unit,

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.foundation.atomic import write_hdf5
 from fecolumn.foundation.files import is_file
@@ -151,7 +152,7 @@ def write_outcomes(
     write_hdf5(path, fill)
 
 
-def _array(values: list[Any], column: TableColumn) -> np.ndarray:
+def _array(values: list[Any], column: TableColumn) -> NDArray[Any]:
     if column.words:
         places = {word: place for place, word in enumerate(column.words)}
         return np.array([places.get(value, value) for value in values], np.int8)
@@ -163,7 +164,7 @@ def _array(values: list[Any], column: TableColumn) -> np.ndarray:
     return _short(numbers)
 
 
-def _short(numbers: np.ndarray) -> np.ndarray:
+def _short(numbers: NDArray[Any]) -> NDArray[Any]:
     """Floats (n,) rounded to _BITS of their mantissa, which compress better."""
     spare = 23 - _BITS
     bits = numbers.view(np.uint32)

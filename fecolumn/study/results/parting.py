@@ -5,10 +5,12 @@ cases differs.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
 from fecolumn.engines.dynamics.energy import TERMS
@@ -36,7 +38,7 @@ class Analysed(Protocol):
         """What was analysed."""
 
     @property
-    def history(self) -> dict[str, np.ndarray]:
+    def history(self) -> dict[str, NDArray[Any]]:
         """As of `history.h5`."""
 
 
@@ -59,16 +61,16 @@ class QuantityPair:
         whether the quantity is more than the elastic deformation of a column that stands.
     """
 
-    a: np.ndarray
-    b: np.ndarray
+    a: NDArray[Any]
+    b: NDArray[Any]
     peak: float
-    difference: np.ndarray
+    difference: NDArray[Any]
     parted: int | None
     judged: bool = True
 
     @classmethod
     def of(
-        cls, a: np.ndarray, b: np.ndarray, tolerance: float, judged: bool = True
+        cls, a: NDArray[Any], b: NDArray[Any], tolerance: float, judged: bool = True
     ) -> QuantityPair:
         """The pair of (n, k) arrays, or (n,) as such of one column."""
         a, b = (values.reshape(len(values), -1) for values in (a, b))
@@ -105,7 +107,7 @@ class Parting:
         (key, value of A, value of B) of the case that differ; None of a section that is absent.
     """
 
-    time: np.ndarray
+    time: NDArray[Any]
     tolerance: float
     quantities: dict[str, QuantityPair]
     energy: dict[str, QuantityPair]
@@ -151,7 +153,7 @@ def parting(a: Analysed, b: Analysed, tolerance: float = TOLERANCE) -> Parting:
     heights, lifted = zip(*(_uplift(case, history) for case, history in zip(cases, histories)))
     lifts = any(lifted)
 
-    def pair(values, judged=True) -> QuantityPair:
+    def pair(values: Iterable[NDArray[Any]], judged: bool = True) -> QuantityPair:
         first, second = (_at(time, history["time"], one) for history, one in zip(histories, values))
         return QuantityPair.of(first, second, tolerance, judged)
 
@@ -169,14 +171,14 @@ def parting(a: Analysed, b: Analysed, tolerance: float = TOLERANCE) -> Parting:
     return Parting(time, tolerance, quantities, energy, differing_keys(*cases))
 
 
-def _at(time: np.ndarray, known: np.ndarray, values: np.ndarray) -> np.ndarray:
+def _at(time: NDArray[Any], known: NDArray[Any], values: NDArray[Any]) -> NDArray[Any]:
     """Values (n, k) at `time` along straight lines between those at `known` times."""
     return np.column_stack(
         [np.interp(time, known, column) for column in values.reshape(len(values), -1).T]
     )
 
 
-def _uplift(case, history) -> tuple[np.ndarray, bool]:
+def _uplift(case: Case, history: dict[str, NDArray[Any]]) -> tuple[NDArray[Any], bool]:
     """Uplift (n,) [m], and whether anything lifts off at all: of a structure the largest of its
     interfaces; 0 of a model whose history has none.
     """
@@ -199,7 +201,7 @@ def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:
     """Keys of two cases that differ, and their values; files of the same content are the same."""
     alike = a.short and b.short
     tables = [_flat(case.as_stated() if alike else case.tables()) for case in (a, b)]
-    found = []
+    found: list[tuple[str, object, object]] = []
     for key in dict.fromkeys([*tables[0], *tables[1]]):
         values = [table.get(key) for table in tables]
         if (
@@ -210,11 +212,9 @@ def differing_keys(a: Case, b: Case) -> list[tuple[str, object, object]]:
                 and content(str(values[0])) == content(str(values[1]))
             )
         ):
-            found.append((key, *values))
-    absent = {
-        key.partition(".")[0] for key in dict.fromkeys([*tables[0], *tables[1]])
-    } - set.intersection(*({key.partition(".")[0] for key in table} for table in tables))
-    defaults = {f"{section}.{name}" for section in absent for name in _at_default(a, b, section)}
+            found.append((key, values[0], values[1]))
+    of_a, of_b = ({key.partition(".")[0] for key in table} for table in tables)
+    defaults = {f"{name}.{key}" for name in of_a ^ of_b for key in _at_default(a, b, name)}
     return [row for row in found if row[0] not in defaults]
 
 
@@ -232,9 +232,9 @@ def _at_default(a: Case, b: Case, section: str) -> list[str]:
     )
 
 
-def _flat(tables: dict, before: str = "") -> dict:
+def _flat(tables: dict[str, Any], before: str = "") -> dict[str, Any]:
     """Tables as one, by dotted key."""
-    flat: dict = {}
+    flat: dict[str, Any] = {}
     for key, value in tables.items():
         flat.update(
             _flat(value, f"{before}{key}.")

@@ -8,7 +8,7 @@ import functools
 import html
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from fecolumn.study.plan import setting_of
 from fecolumn.study.results.analysis import AnalysisResult
 from fecolumn.study.results.picture import Picture
 from fecolumn.study.sample import same_value
-from fecolumn.study.store import DONE, read_study
+from fecolumn.study.store import DONE, Study, read_study
 
 if TYPE_CHECKING:
     import pandas
@@ -32,7 +32,7 @@ class Member:
     """
 
     id: str
-    combination: dict
+    combination: dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +58,7 @@ class StudyResult:
         self.folder = Path(folder)
 
     @functools.cached_property
-    def _study(self):
+    def _study(self) -> Study:
         return read_study(self.folder)
 
     @property
@@ -67,12 +67,12 @@ class StudyResult:
         return self._study.title
 
     @property
-    def axes(self) -> dict[str, list]:
+    def axes(self) -> dict[str, list[Any]]:
         """Values of each axis by its dotted key."""
         return self._study.axes
 
     @property
-    def rows(self) -> list[dict]:
+    def rows(self) -> list[dict[str, Any]]:
         """One dict an analysis in the order of the study file, as of `study.store.Study`."""
         return self._study.rows
 
@@ -81,7 +81,7 @@ class StudyResult:
         """Number of analyses that are done, of len(rows)."""
         return sum(row["state"] == DONE for row in self.rows)
 
-    def chosen(self, choice: dict | None = None) -> list[dict]:
+    def chosen(self, choice: dict[str, Any] | None = None) -> list[dict[str, Any]]:
         """Rows that are done and have the values of `choice`, such as {"integration.dt_s": 1e-3}.
 
         Raises
@@ -108,7 +108,7 @@ class StudyResult:
             rows = [row for row in rows if same_value(row["axes"][key], value)]
         return rows
 
-    def ecdf(self, choice: dict | None = None) -> Ecdf:
+    def ecdf(self, choice: dict[str, Any] | None = None) -> Ecdf:
         """Empirical distribution of the largest displacement of the top [m]; what was lost counts
         as larger than all.
 
@@ -124,7 +124,7 @@ class StudyResult:
             [summary["u_max_m"] for summary in summaries], [lost(summary) for summary in summaries]
         )
 
-    def analyses(self, choice: dict | None = None) -> list[AnalysisResult]:
+    def analyses(self, choice: dict[str, Any] | None = None) -> list[AnalysisResult]:
         """The results of single analyses, where the study has kept their folders."""
         folders = (self.folder / "analyses" / row["id"] for row in self.chosen(choice))
         return [AnalysisResult(folder) for folder in folders if folder.is_dir()]
@@ -134,7 +134,7 @@ class StudyResult:
         """The analyses as a pandas.DataFrame, as of `to_pandas`: `study.data.groupby(...)`."""
         return self.to_pandas()
 
-    def columns(self) -> dict[str, list]:
+    def columns(self) -> dict[str, list[Any]]:
         """One list an axis, then state, outcome and peak; the peak of what was lost is nan, its
         displacement is where the analysis stopped.
         """
@@ -162,7 +162,7 @@ class StudyResult:
         """Figures: `plot.cdf()`."""
         return StudyPlots(self)
 
-    def report(self, output=None) -> Path:
+    def report(self, output: str | Path | None = None) -> Path:
         """Write the report as of `fecolumn report`; its page."""
         from fecolumn.study.report.page import write_report
 
