@@ -6,7 +6,7 @@ import argparse
 import sys
 import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fecolumn.case.case import Case
@@ -127,7 +127,9 @@ def _duration(case: Case, file: str) -> float:
     return ground.duration + case.motion.longest_free_vibration_s
 
 
-def _changed(case: Case, file: str, changes: dict, own: FirstSteps, seconds: float) -> FirstSteps:
+def _changed(
+    case: Case, file: str, changes: dict[str, Any], own: FirstSteps, seconds: float
+) -> FirstSteps:
     """The same time of motion with other values."""
     span = {"integration.duration_s": own.span}
     return first_steps(case.replace({**changes, **span}), file, _LONGER * seconds)

@@ -4,15 +4,21 @@ range and default, as the schema declares them.
 
 from __future__ import annotations
 
+import argparse
 import dataclasses
 import difflib
 import re
 import textwrap
 import types
 import typing
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
-from fecolumn.foundation.schema import InputError, allowed_range
+from fecolumn.foundation.schema import InputError, Section, allowed_range
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 _WIDTH = 118
 _TABLES = {dict: "table", list: "list of tables"}
@@ -48,7 +54,7 @@ class Table:
         return f"[{self.name}]" if self.name else f"top of a {self.of} file"
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn keys`."""
     parser.add_argument(
         "section",
@@ -60,7 +66,7 @@ def add_arguments(parser) -> None:
     parser.add_argument("--markdown", action="store_true", help="as tables in Markdown")
 
 
-def main(args) -> int:
+def main(args: argparse.Namespace) -> int:
     """Print the keys; returns 0.
 
     Raises
@@ -90,7 +96,7 @@ def tables() -> list[Table]:
         name: inner
         for name, kind in typing.get_type_hints(ShortForm).items()
         for inner in (kind, *typing.get_args(kind))
-        if dataclasses.is_dataclass(inner)
+        if isinstance(inner, type) and dataclasses.is_dataclass(inner)
     }
     found = [Table("", _sentence(ShortForm), (extends, *_keys(ShortForm, skip=sections)), "case")]
     for field in dataclasses.fields(ShortForm):
@@ -129,7 +135,7 @@ def _of_structures() -> list[Table]:
     from fecolumn.case.mesh_limits import MeshLimits
     from fecolumn.case.sections import Cap, Flange, Initial, Material, Motion
 
-    def own(kind):
+    def own(kind: type[Section]) -> Table:
         return Table(
             "bodies.NAME",
             _sentence(kind),
@@ -268,11 +274,15 @@ def markdown(found: list[Table]) -> str:
     return "\n".join(parts).rstrip()
 
 
-def _sentence(section) -> str:
-    return " ".join(section.__doc__.split("\n\n")[0].split())
+def _sentence(section: type) -> str:
+    return " ".join(str(section.__doc__).split("\n\n")[0].split())
 
 
-def _keys(section, of_study=None, skip=()) -> tuple[Key, ...]:
+def _keys(
+    section: type[DataclassInstance],
+    of_study: Mapping[str, Any] | None = None,
+    skip: Container[str] = (),
+) -> tuple[Key, ...]:
     hints = typing.get_type_hints(section)
     return tuple(
         _key(field, hints[field.name], (of_study or {}).get(field.name))
@@ -281,7 +291,7 @@ def _keys(section, of_study=None, skip=()) -> tuple[Key, ...]:
     )
 
 
-def _key(field, kind, of_study) -> Key:
+def _key(field: dataclasses.Field[Any], kind: object, of_study: object) -> Key:
     default = _shown(field.default) + (
         f" (in a study {_shown(of_study)})" if of_study is not None else ""
     )
@@ -295,7 +305,7 @@ def _key(field, kind, of_study) -> Key:
     )
 
 
-def _allowed(metadata, kind) -> str:
+def _allowed(metadata: types.MappingProxyType[str, Any], kind: object) -> str:
     """The allowed values, with the kind of value where they have no bounds."""
     kinds = [
         inner
@@ -319,7 +329,7 @@ def _allowed(metadata, kind) -> str:
     return f"whole number, {words}" if kinds == [int] else words
 
 
-def _shown(value) -> str:
+def _shown(value: object) -> str:
     if value is dataclasses.MISSING:
         return "required"
     if value is None:

@@ -24,6 +24,7 @@ from typing import Any
 
 from fecolumn.case.case import Case, case_from_tables
 from fecolumn.case.check_step import check_stated
+from fecolumn.case.sections import Motion
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.paths import taken_over
@@ -109,7 +110,9 @@ class PlannedAnalysis:
         steps between them.
         """
         plan = self.case.integration
-        return self.duration_s * (1 / plan.dt_s + 1000) * _COST.get(plan.engine, _COST_OF_MODEL)
+        return (
+            self.duration_s * (1 / plan.shortest_s + 1000) * _COST.get(plan.engine, _COST_OF_MODEL)
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,7 +135,7 @@ class Plan:
         ]
 
 
-def read_plan(path) -> Plan:
+def read_plan(path: Path | str) -> Plan:
     """Plan of a study file.
 
     Raises
@@ -184,7 +187,7 @@ def plan_of(tables: dict[str, Any], path: Path) -> Plan:
     return Plan(path, tables.get("title", "") or path.stem, axes, analyses, common)
 
 
-def _case_tables(case, path: Path) -> dict[str, Any]:
+def _case_tables(case: object, path: Path) -> dict[str, Any]:
     """Tables of the case all analyses share."""
     if case is None:
         raise InputError(
@@ -241,21 +244,21 @@ class _Maker:
             self._refuse_missing(case.motion)
         return case
 
-    def _tables(self, places) -> dict[str, Any]:
+    def _tables(self, places: tuple[int, ...]) -> dict[str, Any]:
         tables = self.common
         for factor, place in zip(self.factors, places):
             for key, value in zip(factor.keys, factor.levels[place]):
                 tables = merge(tables, nested(key, value))
         return tables
 
-    def _refuse_missing(self, motion) -> None:
+    def _refuse_missing(self, motion: Motion) -> None:
         for key in ("source", "source_y", "source_z"):
             source = getattr(motion, key)
             file = (file_and_number(source) or (source,))[0]
             if source and ":" not in source and not is_file(file):
                 raise InputError(self.path, f"motion.{key}", source, "no such file")
 
-    def _refuse(self, error: InputError, levels) -> typing.NoReturn:
+    def _refuse(self, error: InputError, levels: tuple[Any, ...]) -> typing.NoReturn:
         where = ", ".join(f"{key} = {shown(value)}" for key, value in zip(self.keys, levels))
         told = []
         for one in error.all:
@@ -279,8 +282,8 @@ class _Maker:
         raise InputError.of_several(told) from None
 
 
-def _refuse_duplicates(analyses, path: Path) -> None:
-    first = {}
+def _refuse_duplicates(analyses: tuple[PlannedAnalysis, ...], path: Path) -> None:
+    first: dict[str, PlannedAnalysis] = {}
     for analysis in analyses:
         other = first.setdefault(analysis.id, analysis)
         if other is not analysis:

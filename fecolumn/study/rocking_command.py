@@ -4,16 +4,25 @@ block.
 
 from __future__ import annotations
 
+import argparse
 import math
 import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from fecolumn.case.model_names import TABLES
+
+if TYPE_CHECKING:
+    from fecolumn.engines.rocking.case import ModelCase
+    from fecolumn.engines.rocking.model import ModelResponse
+    from fecolumn.engines.rocking.overturning import Band
+    from fecolumn.motions.record import GroundMotion
 
 _SPECTRUM = "spectrum"
 _MEASURES = ("pga_m_s2", "pgv_m_s", "pgd_m")  # of motions.intensity.peak_values
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn rocking`."""
     parser.add_argument(
         "model",
@@ -38,7 +47,7 @@ def add_arguments(parser) -> None:
     )
 
 
-def main(args) -> int:
+def main(args: argparse.Namespace) -> int:
     """Run the model; returns 0.
 
     Raises
@@ -57,7 +66,8 @@ def main(args) -> int:
     return 0
 
 
-def _spectrum(args, folder) -> None:
+def _spectrum(args: argparse.Namespace, folder: Path) -> None:
+    from fecolumn.engines.rocking.block import RockingBlock
     from fecolumn.engines.rocking.case import read_model_case
     from fecolumn.engines.rocking.spectra_table import FREQUENCIES, PULSE_SHAPES, spectra_table
     from fecolumn.engines.rocking.swing import FASTEST
@@ -66,6 +76,7 @@ def _spectrum(args, folder) -> None:
     from fecolumn.pictures.figures.overturning_figure import overturning_figure, slenderness_figure
 
     case = read_model_case("housner", args.case)
+    assert isinstance(case.model, RockingBlock)  # what "housner" names
     plane = case.model.planes[0]
     if (
         plane.row[FASTEST] ** 2 > plane.p2[0] * (1 + 1e-12)
@@ -108,7 +119,7 @@ def _spectrum(args, folder) -> None:
     )
     overturning_figure(rows, plane.alpha[0], folder / "overturning")
     slenderness_figure(folder / "slenderness")
-    lowest: dict = {}
+    lowest: dict[tuple[str, float], Band] = {}
     for shape, frequency, band in rows:
         lowest.setdefault((shape, frequency), band)
     p = plane.p2[0] ** 0.5
@@ -124,7 +135,7 @@ def _spectrum(args, folder) -> None:
             )
 
 
-def _parameters(case, folder) -> None:
+def _parameters(case: ModelCase, folder: Path) -> None:
     from fecolumn.foundation.atomic import write_csv
 
     found = case.model.describe()
@@ -139,7 +150,7 @@ def _parameters(case, folder) -> None:
     )
 
 
-def _run(args, folder) -> None:
+def _run(args: argparse.Namespace, folder: Path) -> None:
     import time
 
     from fecolumn.engines.rocking.case import read_model_case
@@ -199,7 +210,7 @@ def _run(args, folder) -> None:
         ensemble_figure(responses, case.model, args.model, folder / "cdf")
 
 
-def _table(responses, folder, spent: float) -> None:
+def _table(responses: list[tuple[GroundMotion, ModelResponse]], folder: Path, spent: float) -> None:
     import numpy as np
 
     from fecolumn.foundation.atomic import write_csv
@@ -207,7 +218,7 @@ def _table(responses, folder, spent: float) -> None:
     from fecolumn.statistics.ecdf import percentile, proportion_interval
 
     peaks = list(dict.fromkeys(name for _, response in responses for name in response.peaks))
-    lines = [
+    lines: list[list[Any]] = [
         [
             "motion",
             "outcome",

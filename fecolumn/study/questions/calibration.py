@@ -121,7 +121,7 @@ class RockingCalibration:
 
     def residuals(self, u: NDArray[Any]) -> NDArray[Any]:
         """Measured less computed tilt (n,) [rad]."""
-        return self.test.tilt - self.tilt(u)
+        return np.asarray(self.test.tilt - self.tilt(u))
 
     def sentences(self, fit: ProfiledFit) -> list[str]:
         """One sentence a key, one of each two that trade, and one on the fit as a whole."""
