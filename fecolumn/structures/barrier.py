@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY, Initial
 from fecolumn.contact import overturning
@@ -48,7 +50,11 @@ def is_level(standing: list[Standing], joint) -> bool:
 
 
 def _stance_of(
-    places: list[int], joints: list, standing: list[Standing], inertia: np.ndarray, friction: float
+    places: list[int],
+    joints: list,
+    standing: list[Standing],
+    inertia: NDArray[Any],
+    friction: float,
 ) -> Stance | None:
     """Stance of parts that move as one rigid body on `joints`; None where what is below them is not
     level, or no area.
@@ -65,7 +71,7 @@ def _stance_of(
     return stance(arms, inertia, masses.sum() * GRAVITY, friction, 0.0)
 
 
-def _footing(standing: list[Standing], joint) -> np.ndarray:
+def _footing(standing: list[Standing], joint) -> NDArray[Any]:
     """Points (n, 3) [m] where the bodies of a joint touch, over which the upper one tips; of a dome
     on its edge.
     """

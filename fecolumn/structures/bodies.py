@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.bodies import Matrices, Storeys
 from fecolumn.case.check_bodies import material_of
@@ -56,7 +58,7 @@ class Drawing:
         return 1 if self.shape is None or self.is_rigid else self.shape.order
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> NDArray[Any]:
         """Points (n, 3) [m] that it consists of."""
         return self.system.coordinates if self.shape is None else self.shape.mesh.points
 
@@ -172,7 +174,7 @@ def _edges(mesh) -> tuple[float, float]:
     return float(lengths.min()), float(lengths.max())
 
 
-def _turned(points: np.ndarray, angle: float) -> np.ndarray:
+def _turned(points: NDArray[Any], angle: float) -> NDArray[Any]:
     """Points (n, 3) [m] turned about the z axis by an angle [deg], those of quarters exactly."""
     cosine, sine = (
         round(value, 15) for value in (np.cos(np.radians(angle)), np.sin(np.radians(angle)))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Any
 
-import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.check_bond import cohesion_of, shear_stiffness_of
 from fecolumn.contact.points import GROUND
@@ -68,7 +69,7 @@ def _glued(joint: Joint, standing, keys) -> Joint:
     return dataclasses.replace(joint, bond=bond)
 
 
-def pulls_of_bonds(standing, joint: Joint) -> list[tuple[np.ndarray, np.ndarray, float, float]]:
+def pulls_of_bonds(standing, joint: Joint) -> list[tuple[NDArray[Any], NDArray[Any], float, float]]:
     """Forces [N] that the points of a glued joint may have on the slave at most: place (3,) [m],
     direction (3,), least and most of it.
     """

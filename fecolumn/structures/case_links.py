@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.link import PULLING, PUSHING
 from fecolumn.contact.points import GROUND
@@ -61,7 +63,7 @@ def links_at_copies(case, name: str, places, standing: list[Standing]):
 def with_shapes(link: Link, copies, standing: list[Standing], keys: dict) -> Link:
     """A link with the shapes of the modes at its ends; keys: of the bodies in `store`."""
 
-    def shape(place: int, arm: np.ndarray):
+    def shape(place: int, arm: NDArray[Any]):
         if place == GROUND or not len(standing[place].model.frequencies):
             return None
         key = keys.get(copies[place][0])

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 import warnings
 from collections import Counter
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import linprog
 from scipy.spatial import cKDTree
 
@@ -161,7 +163,7 @@ def deepest(one, other, shift) -> float:
     return deepest
 
 
-def _places_in(drawing) -> np.ndarray:
+def _places_in(drawing) -> NDArray[Any]:
     """Points (n, 3) [m] of a drawing: its own, and of its elements the middles and five places on
     each face, for coarse bodies may cross without a node of one in the other.
     """

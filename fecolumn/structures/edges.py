@@ -10,8 +10,10 @@ region at every step (`contact.two_sided`). Holes of faces are left out.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from fecolumn.contact.tolerances import EDGE_REACH, ROUND_NODES
@@ -37,7 +39,7 @@ class Edge:
     lower_face: int
     upper: tuple[str, int]
     upper_face: int
-    points: np.ndarray
+    points: NDArray[Any]
     zones: list[tuple[float, ...]]
     outlines: tuple[list, list]
 
@@ -59,7 +61,7 @@ def edges_of(case, drawings, meetings: list[Meeting]) -> list[Edge]:
     return [edge for edge in (_edge(case, drawings, meeting) for meeting in wanted) if edge]
 
 
-def edge_patch(face: Face, order: int, points: np.ndarray) -> Patch:
+def edge_patch(face: Face, order: int, points: NDArray[Any]) -> Patch:
     """Contact points of a face at nodes (k, 3) [m] of its outlines."""
     whole = whole_face(face, order)
     return node_patch(whole, np.unique(cKDTree(whole.positions).query(points)[1]))
@@ -109,6 +111,6 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
     )
 
 
-def _distance(points: np.ndarray, sides: np.ndarray) -> np.ndarray:
+def _distance(points: NDArray[Any], sides: NDArray[Any]) -> NDArray[Any]:
     """Distance (n,) [m] of points (n, 2) from the nearest of sides (m, 2, 2)."""
     return apart(points[:, None], sides).min(axis=1)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.ground import Ground
 from fecolumn.contact.points import GROUND
@@ -27,14 +29,14 @@ class Sized:
     z of the nodes, falling from 0; fine size of the elements; allowance of sliding.
     """
 
-    x: np.ndarray
-    y: np.ndarray
-    z: np.ndarray
+    x: NDArray[Any]
+    y: NDArray[Any]
+    z: NDArray[Any]
     fine: float
     allowance: float
 
 
-def bases_of(case, standing, joints, reach: np.ndarray, file, say=lambda text: None) -> tuple:
+def bases_of(case, standing, joints, reach: NDArray[Any], file, say=lambda text: None) -> tuple:
     """What each ground of a case is to those that stand on it: a `contact.base_plate.BasePlate` or
     what answers as it does.
 
@@ -53,7 +55,7 @@ def bases_of(case, standing, joints, reach: np.ndarray, file, say=lambda text: N
     )
 
 
-def feet_on(standing, joints, ground: int) -> list[np.ndarray]:
+def feet_on(standing, joints, ground: int) -> list[NDArray[Any]]:
     """Places (n, 3) [m] of the nodes of each foot on a ground."""
     return [
         standing[joint.slave].center
@@ -86,7 +88,7 @@ def _base(case, name: str, feet, reach, file, say):
     return _plate(case, name, ground, sized, feet, file, say)
 
 
-def sized_ground(name: str, ground: Ground, feet: list[np.ndarray], file) -> Sized:
+def sized_ground(name: str, ground: Ground, feet: list[NDArray[Any]], file) -> Sized:
     """A ground with the sizes that it leaves open, from the feet (n, 3) [m] on it.
 
     Raises

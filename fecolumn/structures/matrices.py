@@ -7,9 +7,11 @@ from __future__ import annotations
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sparse
+from numpy.typing import NDArray
 from scipy.linalg import eigh, qr
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from scipy.spatial import ConvexHull, Delaunay, QhullError
@@ -36,9 +38,9 @@ class SystemMatrices:
 
     mass: sparse.csc_matrix
     stiffness: sparse.csc_matrix
-    dofs: np.ndarray
-    coordinates: np.ndarray
-    triangles: np.ndarray
+    dofs: NDArray[Any]
+    coordinates: NDArray[Any]
+    triangles: NDArray[Any]
 
     def faces(self) -> list[Face]:
         """Plane faces in which the contact nodes lie."""
@@ -147,7 +149,7 @@ def _nodes(path: str, refuse):
         refuse(f"cannot be read as nodes: {error}")
 
 
-def _hull(coordinates: np.ndarray, refuse) -> np.ndarray:
+def _hull(coordinates: NDArray[Any], refuse) -> NDArray[Any]:
     """Triangles (t, 3) of nodes: every plane face of their convex hull, with the nodes that lie
     inside it.
     """
@@ -266,7 +268,7 @@ def matrices_model(
     )
 
 
-def _modes(mass, stiffness, response, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _modes(mass, stiffness, response, count: int) -> tuple[NDArray[Any], NDArray[Any]]:
     """Squares (m,) [1/s2] of the lowest elastic frequencies and shapes (N, m) of unit modal
     mass.
     """
@@ -284,7 +286,7 @@ def _modes(mass, stiffness, response, count: int) -> tuple[np.ndarray, np.ndarra
     return squares[order], shapes[:, order]
 
 
-def _rigid(arms: np.ndarray) -> np.ndarray:
+def _rigid(arms: NDArray[Any]) -> NDArray[Any]:
     """Rigid motions (3 n, 6) of points with arms (n, 3): translations, and rotations about the
     origin.
     """
@@ -297,14 +299,14 @@ def _rigid(arms: np.ndarray) -> np.ndarray:
     )
 
 
-def _cross(center: np.ndarray) -> np.ndarray:
+def _cross(center: NDArray[Any]) -> NDArray[Any]:
     """Translations by which rotations about the origin become rotations about `center`: -e_j x
     center in column j.
     """
     return -np.stack([np.cross(axis, center) for axis in np.eye(3)], axis=1)
 
 
-def _rows(coordinates: np.ndarray, positions: np.ndarray) -> np.ndarray:
+def _rows(coordinates: NDArray[Any], positions: NDArray[Any]) -> NDArray[Any]:
     """Nodes (k,) at positions (k, 3)."""
     from scipy.spatial import cKDTree
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import SAME_PLANE, Face, over, triangles_of
@@ -266,7 +268,7 @@ def _copies(case, name: str) -> list[tuple[str, int]]:
     return list(case.copies_of(name))
 
 
-def place_of(case, copy: tuple[str, int]) -> np.ndarray:
+def place_of(case, copy: tuple[str, int]) -> NDArray[Any]:
     """Place (3,) [m] of a copy: where the origin of its drawing is at the start."""
     return np.array(case.bodies[copy[0]].places[copy[1]])
 
@@ -281,7 +283,7 @@ def allowance_of(case, meeting: Meeting, face: Face) -> float:
 
 
 def zones_of(
-    case, meeting: Meeting, slave: Face, points: np.ndarray, master: Face
+    case, meeting: Meeting, slave: Face, points: NDArray[Any], master: Face
 ) -> list[tuple[float, ...]]:
     """Zones (start 1, start 2, end 1, end 2, way) [m] of the master's face, along its tangents in
     its drawing, in which points of the slave stand and may come: as far as it may slide around each
@@ -368,7 +370,7 @@ def _is_upper(face: Face, slave, master) -> bool:
     return face.normal[2] < -_OPPOSITE or abs(face.normal[2]) <= _OPPOSITE and slave < master
 
 
-def _overlap(face: Face, corners: np.ndarray, other: Face) -> bool:
+def _overlap(face: Face, corners: NDArray[Any], other: Face) -> bool:
     """Whether a face, its corners (n, 4 or 3, 2) [m] in the plane of another, lies over part of
     that, more than an edge.
     """

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.pad import pad_below
@@ -73,7 +75,7 @@ def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces, f
     return found
 
 
-def _areas(standing, joint: Joint) -> np.ndarray:
+def _areas(standing, joint: Joint) -> NDArray[Any]:
     """Areas (n,) [m2] tributary to the points of a joint."""
     return standing[joint.slave].model.surfaces[joint.slave_surface].areas
 
@@ -87,7 +89,7 @@ def _area_below(standing, joints, joint: Joint) -> float:
     )
 
 
-def _own_mass(standing, joint: Joint, areas: np.ndarray) -> float:
+def _own_mass(standing, joint: Joint, areas: NDArray[Any]) -> float:
     """Mass over area [kg/m2] of the bodies of a joint that carries nothing at rest."""
     masses = [standing[joint.slave].model.mass]
     masses += [standing[joint.master].model.mass] if joint.master != GROUND else []

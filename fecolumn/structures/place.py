@@ -6,8 +6,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.ball import from_center
@@ -37,7 +39,7 @@ class Standing:
 
     name: str
     model: BodyModel
-    center: np.ndarray
+    center: NDArray[Any]
     start: object
     held: int = -1
 
@@ -55,13 +57,13 @@ class Placement:
     spin (3,) [rad/s].
     """
 
-    center: np.ndarray
-    rotation: np.ndarray
-    velocity: np.ndarray
-    spin: np.ndarray
+    center: NDArray[Any]
+    rotation: NDArray[Any]
+    velocity: NDArray[Any]
+    spin: NDArray[Any]
 
 
-def touching(standing: list[Standing], joint: Joint) -> np.ndarray:
+def touching(standing: list[Standing], joint: Joint) -> NDArray[Any]:
     """Rows among the nodes of a joint's slave surface (k,) that have the master below them as the
     bodies stand.
     """
@@ -117,7 +119,7 @@ def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placemen
     return [found[place] for place in range(len(standing))]
 
 
-def _turn(start) -> np.ndarray:
+def _turn(start) -> NDArray[Any]:
     """Rotation (3, 3) of a part that leans."""
     if start is None or not start.tilt_rad:
         return np.eye(3)
@@ -178,7 +180,7 @@ def _from_below(supports) -> list[int]:
 
 def _on(
     standing, joints: list[Joint], upper: int, below: int, turns, found
-) -> tuple[np.ndarray, np.ndarray]:
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Point (3,) [m] about which a part is turned on what is below it, and where its centre (3,) of
     mass comes.
     """
@@ -197,8 +199,8 @@ def _on(
 
 
 def _rolled(
-    standing, joint: Joint, pivot: np.ndarray, turn: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+    standing, joint: Joint, pivot: NDArray[Any], turn: NDArray[Any]
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Where a slave that is turned by (3, 3) touches (3,) [m], and its way (3,) there from the
     pivot, in its own frame: a ball about the pivot has rolled there.
     """
@@ -222,7 +224,7 @@ def _rolled(
     return pivot - joint.ball.radius * normal + way, offset
 
 
-def _pivot(standing, joints: list[Joint], ahead: np.ndarray) -> tuple[np.ndarray, Joint]:
+def _pivot(standing, joints: list[Joint], ahead: NDArray[Any]) -> tuple[NDArray[Any], Joint]:
     """Point (3,) [m] of joints farthest in the direction `ahead`, as the bodies stand, and its
     joint; of a round rim on its circle, of an edge its middle.
 
@@ -246,7 +248,7 @@ def _pivot(standing, joints: list[Joint], ahead: np.ndarray) -> tuple[np.ndarray
     return farthest[first], joints[first]
 
 
-def _farthest(standing, joint: Joint, ahead: np.ndarray, leans: bool) -> np.ndarray:
+def _farthest(standing, joint: Joint, ahead: NDArray[Any], leans: bool) -> NDArray[Any]:
     """As `_pivot`, of one joint; ahead: unit vector (3,) where it leans."""
     slave = standing[joint.slave]
     surface = slave.model.surfaces[joint.slave_surface]
@@ -280,7 +282,7 @@ def _region(standing, joint: Joint):
     return circles, outlines, height, corners_of_overlap(*outlines, slack)
 
 
-def footing(standing: list[Standing], joint: Joint) -> np.ndarray:
+def footing(standing: list[Standing], joint: Joint) -> NDArray[Any]:
     """Places (n, 3) [m] where the bodies of a joint touch at the start: nodes of the slave on the
     master, and of a joint with two sides corners of the region in which both faces overlap.
     """
@@ -296,7 +298,7 @@ def footing(standing: list[Standing], joint: Joint) -> np.ndarray:
     return np.concatenate([nodes, corners[apart > _AGREE * np.ptp(outlines[0], axis=(0, 1)).max()]])
 
 
-def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
+def _end_of_region(standing, joint: Joint, ahead: NDArray[Any]) -> NDArray[Any]:
     """Point (3,) [m] farthest in the direction `ahead` of the region in which the faces of a joint
     with two sides overlap, of an edge its middle; joint: with the roles exchanged.
 
@@ -329,7 +331,7 @@ def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
 
 def _moving(
     part: Standing, center, pivot, turn, supports, joints, standing
-) -> tuple[np.ndarray, np.ndarray]:
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Velocity (3,) of the centre of mass and spin (3,) of a part: a spin tips it over the point
     that it stands on, and turns it about its foot.
     """

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import warnings
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 # Speed at which two grounds go on to move apart after their motions, over their largest one, that
 # is told
@@ -28,7 +30,7 @@ def motions_of(case, first, file) -> list:
     return found
 
 
-def accelerations(motions: list, step: int) -> np.ndarray:
+def accelerations(motions: list, step: int) -> NDArray[Any]:
     """Accelerations (3 G,) of grounds at a step [m/s2]."""
     found = np.zeros((len(motions), 3))
     for own, motion in zip(found, motions):

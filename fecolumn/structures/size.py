@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.bodies import Block, Matrices, Meshed, Plate, Prism, Storeys, half_sides
 from fecolumn.foundation.schema import InputError
@@ -108,7 +110,7 @@ def made_of(case, models: dict, scene) -> Estimate:
     return Estimate(bricks, dofs, tuple(loads), case.integration.engine)
 
 
-def _feet(case, ground: str) -> list[np.ndarray]:
+def _feet(case, ground: str) -> list[NDArray[Any]]:
     """Corners (4, 3) [m] of the rectangles around the feet on a ground, by the keys of bodies."""
     found = []
     for one in case.joints.values():
@@ -124,7 +126,7 @@ def _feet(case, ground: str) -> list[np.ndarray]:
     return found
 
 
-def extent_in_plan(body) -> tuple[np.ndarray, np.ndarray]:
+def extent_in_plan(body) -> tuple[NDArray[Any], NDArray[Any]]:
     """Lowest and highest corner (2,) [m] of the foot of a body that is not of matrices."""
     if isinstance(body, Meshed):
         own = own_mesh(body.drawn)

@@ -19,8 +19,10 @@ import shutil
 import tempfile
 from dataclasses import fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.foundation._compiled import cache_folder
 from fecolumn.foundation.atomic import write_json
@@ -101,7 +103,7 @@ def keep_body(key: str, make) -> None:
             shutil.rmtree(partial, ignore_errors=True)
 
 
-def shape_at(key: str, arm: np.ndarray) -> np.ndarray | None:
+def shape_at(key: str, arm: NDArray[Any]) -> NDArray[Any] | None:
     """Shape (3, m) [1/sqrt(kg)] of a kept body's modes at a point (3,) [m] from its centre of mass;
     None of a body without finite elements.
 
@@ -147,7 +149,7 @@ def kept_body(key: str) -> BodyModel:
     )
 
 
-def _arrays(model: BodyModel) -> dict[str, np.ndarray]:
+def _arrays(model: BodyModel) -> dict[str, NDArray[Any]]:
     """A model as arrays by names such as "surfaces/foot/areas"."""
     arrays = {
         field.name: getattr(model, field.name)
