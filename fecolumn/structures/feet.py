@@ -26,9 +26,9 @@ from fecolumn.structures.model import Ball, BodyModel
 
 def lifted(body: Tube | Cylinder | Block, points: NDArray[Any]) -> NDArray[Any]:
     """Points (..., 3) [m] of the drawing of a body with a flat foot where they are in that of one
-    with a dome.
+    with a dome, if its foot is one.
     """
-    if isinstance(body, Tube) or body.foot_radius_m is None:
+    if isinstance(body, Tube) or not body.foot_radius_m:
         return points
     radius = np.minimum(np.linalg.norm(points[..., :2], axis=-1), body.foot_radius_m)
     fading = np.clip(1 - points[..., 2] / body.height_m, 0.0, 1.0)
