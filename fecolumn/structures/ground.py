@@ -242,7 +242,7 @@ def plate_of(sized: Sized, ground: Ground) -> BasePlate:
     from fecolumn.contact.base_plate import BasePlate
     from fecolumn.fem.body import Body
 
-    def held(body: Body) -> tuple[dict[int, Any], NDArray[Any]]:
+    def held(body: Body) -> tuple[dict[int, tuple[NDArray[Any], NDArray[Any]]], NDArray[Any]]:
         bottom = body.all_X[:, 2].min()
         return {}, np.flatnonzero(body.all_X[:, 2] < bottom - 1e-9 * sized.z[-1])
 

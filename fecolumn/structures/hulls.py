@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from fecolumn.case.case import Case
 from fecolumn.contact.convex import Hulls, hull_of, is_convex_body, no_hull
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.bodies import Drawing
-from fecolumn.structures.model import FoundContact
+from fecolumn.structures.model import FoundContact, HullOutline
 from fecolumn.structures.patches import Patch
 
 #: Name of the surface of a body that has the corners of its hull.
@@ -36,7 +35,7 @@ def hull_patch(drawing: Drawing) -> Patch:
     )
 
 
-def hulls_of_parts(outlines: Iterable[dict[str, Any] | None]) -> list[Hulls]:
+def hulls_of_parts(outlines: Iterable[HullOutline | None]) -> list[Hulls]:
     """Hull of each of `StructureModel.outlines`, none of a part that has no outline or is not
     convex.
     """
@@ -53,7 +52,7 @@ def hulls_of_parts(outlines: Iterable[dict[str, Any] | None]) -> list[Hulls]:
 def found_contact(
     case: Case,
     places: dict[tuple[str, int], int],
-    outlines: dict[str, dict[str, Any] | None],
+    outlines: dict[str, HullOutline | None],
     file: Path | str,
 ) -> FoundContact | None:
     """Contact of a case that is found; None where there is none.

@@ -21,10 +21,12 @@ from fecolumn.structures.check import (
     check_points,
 )
 from fecolumn.structures.layout import Layout, layout_of
+from fecolumn.structures.model import HullOutline
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.size import size_of
 from fecolumn.structures.store import (
     KEPT_MODES,
+    KeptLayout,
     Made,
     keep_body,
     keep_layout,
@@ -38,7 +40,7 @@ _LOOSE = ("at_m", "copies_m", "modes", "damping_ratio", "material")
 
 def layout_on_disk(
     case: Case, file: Path | str, say: Callable[[str], None], fields: bool = False
-) -> dict[str, Any]:
+) -> KeptLayout:
     """The layout as `store.keep_layout` keeps it, made if it is not on disk; fields as of
     `store.kept_layout`.
     """
@@ -53,8 +55,7 @@ def layout_on_disk(
 
 def kept_keys(case: Case, file: Path | str = "case") -> dict[str, str]:
     """Key of each body's reduced model in `store`, on disk with the modes all over it."""
-    keys: dict[str, str] = layout_on_disk(case, file, lambda text: None, fields=True)["models"]
-    return keys
+    return layout_on_disk(case, file, lambda text: None, fields=True)["models"]
 
 
 def _geometry(case: Case) -> dict[str, Any]:
@@ -94,7 +95,7 @@ def _made_of(case: Case, name: str) -> dict[str, Any]:
 
 def keep_models(
     case: Case, layout: Layout, file: Path | str, say: Callable[[str], None]
-) -> dict[str, Any]:
+) -> KeptLayout:
     """Check a layout and have its bodies on disk; what `store.keep_layout` keeps of it."""
     check_drawings(case, layout, file)
     keys = {}
@@ -117,7 +118,7 @@ def keep_models(
             return one.model(patches, count)
 
         keep_body(keys[name], make)
-    return {"models": keys} | said_of(layout)
+    return {"models": keys, **said_of(layout)}
 
 
 def check_drawings(case: Case, layout: Layout, file: Path | str) -> None:
@@ -130,7 +131,7 @@ def check_drawings(case: Case, layout: Layout, file: Path | str) -> None:
         check_points(name, layout.patches[name], file)
 
 
-def said_of(layout: Layout) -> dict[str, Any]:
+def said_of(layout: Layout) -> KeptLayout:
     """What `assembled` takes of a layout."""
     sizes = {name: one.shape.size for name, one in layout.drawings.items() if one.shape}
     return {
@@ -141,7 +142,7 @@ def said_of(layout: Layout) -> dict[str, Any]:
     }
 
 
-def _outline(drawing: Drawing) -> dict[str, Any] | None:
+def _outline(drawing: Drawing) -> HullOutline | None:
     """Corners (n, 3) [m] of the convex hull of a drawing, and its volume [m3]."""
     if drawing.shape is None:
         return None

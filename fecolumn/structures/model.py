@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -289,6 +289,15 @@ class Link:
     shape_b: NDArray[Any] | None = None
 
 
+class HullOutline(TypedDict):
+    """Corners (n, 3) [m] of the convex hull of a body, arrays or as JSON has them, from the middle
+    of its drawing or from its centre of mass; its volume [m3].
+    """
+
+    points: NDArray[Any] | list[list[float]]
+    volume: float
+
+
 @dataclass(frozen=True)
 class FoundContact:
     """Contact that is found while bodies move, with one another and with the grounds.
@@ -310,10 +319,9 @@ class StructureModel:
     parts, joints, links: in the order of the case; joints and links name parts by their places.
     base: what the ground is to those that stand on it, as `structures.ground.bases_of` makes it;
     more: those of further grounds; levels: heights of all grounds [m].
-    outlines: of each part the corners `points` of its convex hull from its centre of mass [m] and
-    its `volume` [m3], None of one without elements. found: contact that is found, None where bodies
-    meet at their joints alone. observed: place of the part and name of its mark whose horizontal
-    displacement is u_top.
+    outlines: of each part, from its centre of mass, None of one without elements. found: contact
+    that is found, None where bodies meet at their joints alone. observed: place of the part and
+    name of its mark whose horizontal displacement is u_top.
     """
 
     parts: tuple[Part, ...]
@@ -323,7 +331,7 @@ class StructureModel:
     observed: tuple[int, str]
     more: tuple[BasePlate | KnownBase | UnboundedBase, ...] = ()
     levels: tuple[float, ...] = (0.0,)
-    outlines: tuple[dict[str, Any] | None, ...] = ()
+    outlines: tuple[HullOutline | None, ...] = ()
     found: FoundContact | None = None
 
     @property

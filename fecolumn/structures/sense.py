@@ -18,7 +18,7 @@ from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.model import BodyModel, StructureModel
+from fecolumn.structures.model import BodyModel, HullOutline, StructureModel
 from fecolumn.structures.place import Standing, loads
 from fecolumn.structures.size import LARGE, largest_side
 
@@ -83,7 +83,7 @@ def tell_of_lengths(case: Case, file: Path | str) -> None:
 def tell_of_densities(
     case: Case,
     bodies: dict[str, BodyModel],
-    outlines: dict[str, dict[str, Any] | None],
+    outlines: dict[str, HullOutline | None],
     file: Path | str,
 ) -> None:
     """Warn of stiff bodies whose density, mass over volume, is that of no stone or metal.

@@ -20,17 +20,17 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import Any, NotRequired, TypedDict
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.foundation._compiled import cache_folder
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.digests import digest_of_json, intact, note, remove_damaged
 from fecolumn.foundation.lock import alone
 from fecolumn.foundation.sources import digest_of, files_of
-from fecolumn.structures.model import BodyModel, StoreyDrifts, Surface
+from fecolumn.structures.model import BodyModel, HullOutline, StoreyDrifts, Surface
 
 #: Sources that bodies, layouts and grounds are made from, whole folders where most of them are.
 SOURCES = (
@@ -157,8 +157,8 @@ def kept_body(key: str) -> BodyModel:
     )
 
 
-def _arrays(model: BodyModel) -> dict[str, NDArray[Any]]:
-    """A model as arrays by names such as "surfaces/foot/areas"."""
+def _arrays(model: BodyModel) -> dict[str, ArrayLike]:
+    """A model as arrays and numbers by names such as "surfaces/foot/areas"."""
     arrays = {
         field.name: getattr(model, field.name)
         for field in fields(model)
@@ -180,25 +180,39 @@ def _arrays(model: BodyModel) -> dict[str, NDArray[Any]]:
     return arrays
 
 
+class KeptLayout(TypedDict):
+    """What is kept of a `layout.Layout`, as JSON has it.
+
+    By the names of bodies: element sizes [m]; lowest and highest place (3,) [m] and outlines, as
+    drawn; keys of the reduced models, where these are kept. contacts: each `layout.ContactPair`.
+    """
+
+    sizes: dict[str, float]
+    extents: dict[str, list[list[float]]]
+    outlines: dict[str, HullOutline | None]
+    contacts: list[dict[str, Any]]
+    models: NotRequired[dict[str, str]]
+
+
 def layout_file(key: str) -> Path:
     """Where a layout is kept."""
     return cache_folder() / "layouts" / f"{key}.json"
 
 
-def keep_layout(key: str, what: dict[str, Any]) -> None:
+def keep_layout(key: str, what: KeptLayout) -> None:
     """Write a layout."""
     layout_file(key).parent.mkdir(parents=True, exist_ok=True)
     write_json(layout_file(key), {"digest": digest_of_json(what), "layout": what})
 
 
-def kept_layout(key: str, fields: bool = False) -> dict[str, Any] | None:
+def kept_layout(key: str, fields: bool = False) -> KeptLayout | None:
     """The layout of a key, whose bodies are all on disk; None where it has to be made.
 
     fields: whether the modes all over the bodies are needed, too.
     """
     try:
         kept = json.loads(layout_file(key).read_text())
-        found = kept["layout"]
+        found: KeptLayout = kept["layout"]
         fits = kept["digest"] == digest_of_json(found)
     except FileNotFoundError:
         return None

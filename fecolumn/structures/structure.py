@@ -32,9 +32,7 @@ from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureMod
 from fecolumn.structures.pads import with_pads
 from fecolumn.structures.place import Standing, placed
 from fecolumn.structures.sense import check_sense, tell_of_densities, tell_of_lengths
-from fecolumn.structures.store import (
-    kept_body,
-)
+from fecolumn.structures.store import KeptLayout, kept_body
 
 
 def structure_model(
@@ -64,7 +62,7 @@ def structure_model(
 def assembled(
     case: Case,
     bodies: dict[str, BodyModel],
-    layout: dict[str, Any],
+    layout: KeptLayout,
     file: Path | str,
     say: Callable[[str], None] = lambda text: None,
 ) -> StructureModel:
