@@ -27,7 +27,7 @@ from fecolumn.structures.size import size_of
 from fecolumn.structures.store import (
     KEPT_MODES,
     KeptLayout,
-    Made,
+    MadeBody,
     keep_body,
     keep_layout,
     kept_layout,
@@ -113,7 +113,7 @@ def keep_models(
             one: Drawing = one,
             patches: dict[str, Patch] = patches,
             count: int = count,
-        ) -> Made:
+        ) -> MadeBody:
             say(f'making the reduced model of "{name}" (once)')
             return one.model(patches, count)
 

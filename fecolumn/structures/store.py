@@ -53,7 +53,7 @@ SOURCES = (
 #: Modes that a body keeps at least, so that analyses with fewer share it.
 KEPT_MODES = 30
 #: A reduced body; and nodes (n_nodes, 3) [m] and modes (m, n_nodes, 3) of one of finite elements.
-Made = tuple[BodyModel, tuple[NDArray[Any], NDArray[Any]] | None]
+MadeBody = tuple[BodyModel, tuple[NDArray[Any], NDArray[Any]] | None]
 # Nodes by which the shape at a point between them is found, and how near a node a point is it, over
 # the body's size
 _NEAREST, _AT_NODE = 12, 1e-9
@@ -80,7 +80,7 @@ def body_folder(key: str) -> Path:
     return cache_folder() / f"body-{key}"
 
 
-def keep_body(key: str, make: Callable[[], Made]) -> None:
+def keep_body(key: str, make: Callable[[], MadeBody]) -> None:
     """Have a reduced body on disk; `make` returns the model and its fields, or None for these,
     where there is none yet, or it is damaged.
     """
