@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, overload
 
 from fecolumn.foundation.content import content
 from fecolumn.foundation.paths import OF_SECTIONS as FILES
@@ -401,6 +401,14 @@ class Output(Section):
 # keys of [integration] that the full-order engine alone has, and their defaults
 FULL_ORDER_KEYS = "tolerance", "max_iterations"
 DEFAULT = {field.name: field.default for field in dataclasses.fields(Integration)}
+
+
+@overload
+def section_table(name: str, section: Section) -> dict[str, Any]: ...
+
+
+@overload
+def section_table(name: str, section: Section | None) -> dict[str, Any] | None: ...
 
 
 def section_table(name: str, section: Section | None) -> dict[str, Any] | None:
