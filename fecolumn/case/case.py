@@ -194,7 +194,9 @@ class Case:
             for name in NAMED
         }
         tables |= {
-            name: section_table(name, getattr(self, name)) for name in COMMON if name not in _IDLE
+            name: section and section_table(name, section)  # None of a ground at rest
+            for name, section in ((name, getattr(self, name)) for name in COMMON)
+            if name not in _IDLE
         }
         if self.grounds == {GROUND_NAME: Ground()}:
             # as of cases that are older than grounds
