@@ -13,11 +13,16 @@ import os
 import sys
 import traceback
 import warnings
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import cast
+from types import ModuleType
+from typing import TYPE_CHECKING, TextIO, cast
+
+if TYPE_CHECKING:
+    from fecolumn.case.case import Case
 
 
-def main(argv=None) -> int:
+def main(argv: Sequence[str] | None = None) -> int:
     """Run a command; returns 0, 1 where an analysis failed, 2 where the input is refused, 130 after
     Ctrl-C.
     """
@@ -39,7 +44,7 @@ def main(argv=None) -> int:
     # Python hides what is told of older names, which is for those who write files
     warnings.filterwarnings("default", f".*{TOLD}", DeprecationWarning)
     try:
-        code = args.command(args)
+        code: int = args.command(args)
         sys.stdout.flush()
         return code
     except BrokenPipeError:  # the reader, such as head, has seen enough
@@ -79,12 +84,19 @@ def _abandon_other_ranks(code: int) -> None:
         MPI.COMM_WORLD.Abort(code)
 
 
-def _show_warning(message, category, filename, lineno, file=None, line=None) -> None:
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
     """One line, from one rank."""
     _refuse(f"warning: {message}", 0)
 
 
-def _refuse(message, code: int) -> int:
+def _refuse(message: object, code: int) -> int:
     from mpi4py import MPI
 
     if MPI.COMM_WORLD.rank == 0:
@@ -121,14 +133,19 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"fecolumn {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
 
-    def add(name, words, module=None, main=None):
+    def add(
+        name: str,
+        words: str,
+        module: ModuleType | None = None,
+        main: Callable[[argparse.Namespace], int] | None = None,
+    ) -> argparse.ArgumentParser:
         command = commands.add_parser(
             name, help=words, description=f"{words[0].upper()}{words[1:]}."
         )
         if module:
             module.add_arguments(command)
-        if main or hasattr(module, "main"):
-            command.set_defaults(command=main or module.main)
+        if main := main or getattr(module, "main", None):
+            command.set_defaults(command=main)
         return command
 
     add("new", "write a commented case and a study of it to start from", templates)
@@ -190,14 +207,14 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _completion(args) -> int:
+def _completion(args: argparse.Namespace) -> int:
     from fecolumn.case import completion
 
     print(completion.script(_parser(), args.shell))
     return 0
 
 
-def _mesh(args) -> int:
+def _mesh(args: argparse.Namespace) -> int:
     from fecolumn.case.case import read_case
     from fecolumn.foundation.folder import written
     from fecolumn.pictures.mesh_report import FILES, mesh_report
@@ -220,7 +237,7 @@ def _mesh(args) -> int:
     return 0
 
 
-def _warn_of_motion(case, file) -> None:
+def _warn_of_motion(case: Case, file: Path | str) -> None:
     """Tell of a motion that an analysis of the case would cut short, or could not use; its mesh may
     be looked at all the same.
     """
@@ -239,27 +256,27 @@ def _warn_of_motion(case, file) -> None:
         warnings.warn(cut_text(file, end_s, motion_s), stacklevel=2)
 
 
-def _prepare(args) -> int:
+def _prepare(args: argparse.Namespace) -> int:
     from fecolumn.prepare import prepare
 
     prepare(print)
     return 0
 
 
-def _run(args) -> int:
+def _run(args: argparse.Namespace) -> int:
     from fecolumn.case.case import read_case
 
     return _analyse(read_case(args.case), args.output, args.case, args.quiet, args.profile)
 
 
-def _resume(args) -> int:
+def _resume(args: argparse.Namespace) -> int:
     from fecolumn.simulation import read_folder_case
 
     case, file = read_folder_case(args.output)
     return _analyse(case, args.output, file, args.quiet)
 
 
-def _analyse(case, folder, file, quiet, profile=False) -> int:
+def _analyse(case: Case, folder: str, file: str, quiet: bool, profile: bool = False) -> int:
     from mpi4py import MPI
 
     from fecolumn.engines.ending import ending_text, peak_text

@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import sys
 import warnings
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fecolumn.case.case import Case, read_case
 from fecolumn.case.check_case import check, check_duration
@@ -18,6 +19,9 @@ from fecolumn.foundation.files import Unreadable, is_file, read_json
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.sources import code, code_text
 
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
 __all__ = ["AnalysisFailed", "read_folder_case", "run"]
 
 
@@ -25,11 +29,11 @@ def run(
     case: Case | str | Path,
     folder: str | Path,
     *,
-    comm=None,
+    comm: MPI.Intracomm | None = None,
     file: str = "",
     quiet: bool = False,
     profile: bool = False,
-    stop=lambda: False,
+    stop: Callable[[], bool] = lambda: False,
 ) -> dict[str, Any]:
     """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
 
@@ -82,7 +86,10 @@ def run(
             with held(folder, case, comm, file):
                 case, chosen = chosen_step(case, file, comm, stop, _speaker(quiet))
     with held(folder, case, comm, file, chosen) as claim:
-        summary, damage = comm.bcast(_earlier_summary(folder, case.id) if comm.rank == 0 else None)
+        earlier: tuple[dict[str, Any] | None, str] = comm.bcast(
+            _earlier_summary(folder, case.id) if comm.rank == 0 else None
+        )
+        summary, damage = earlier
         if summary:
             found, present = (
                 code_text(summary.get("version"), summary.get("sources")),
@@ -107,12 +114,14 @@ def run(
         return analysis.run(stop)
 
 
-def _speaker(quiet: bool):
+def _speaker(quiet: bool) -> Callable[[str], None]:
     """Function that tells a line on stderr, or nothing where `quiet`."""
     return lambda words: None if quiet else print(words, file=sys.stderr, flush=True)
 
 
-def started_analysis(case: Case, folder: Path, comm, file: str, quiet: bool) -> Analysis:
+def started_analysis(
+    case: Case, folder: Path, comm: MPI.Intracomm, file: str, quiet: bool
+) -> Analysis:
     """The analysis of a case at its start, or where an earlier one in the same folder stopped.
 
     Raises
@@ -131,7 +140,13 @@ def started_analysis(case: Case, folder: Path, comm, file: str, quiet: bool) -> 
         raise AnalysisFailed(f"{file}: {no_rest(case, error)}") from None
 
 
-def chosen_step(case: Case, file: str, comm=None, stop=lambda: False, say=print):
+def chosen_step(
+    case: Case,
+    file: str,
+    comm: MPI.Intracomm | None = None,
+    stop: Callable[[], bool] = lambda: False,
+    say: Callable[[str], None] = print,
+) -> tuple[Case, dict[str, Any]]:
     """The case with the step that trials of its first impacts choose, in place of "auto"; and how
     it was chosen, of the summary.
 
@@ -155,7 +170,7 @@ def chosen_step(case: Case, file: str, comm=None, stop=lambda: False, say=print)
     return case.replace({"integration.dt_s": chosen["dt_s"]}), chosen
 
 
-def check_analysis(case: Case, file) -> None:
+def check_analysis(case: Case, file: Path | str) -> None:
     """Refuse a case that can be looked at and not analysed.
 
     Raises
@@ -172,7 +187,7 @@ def check_analysis(case: Case, file) -> None:
     check_duration(case, file)
 
 
-def _analysis_class(case, comm, file) -> type[Analysis]:
+def _analysis_class(case: Case, comm: MPI.Intracomm, file: str) -> type[Analysis]:
     check_analysis(case, file)
     if case.integration.engine == "full":
         from fecolumn.engines.full_analysis import FullAnalysis
@@ -194,7 +209,7 @@ def _analysis_class(case, comm, file) -> type[Analysis]:
     return ReducedAnalysis
 
 
-def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:
+def _earlier_summary(folder: Path, case_id: str) -> tuple[dict[str, Any] | None, str]:
     """The summary of a run that has ended, or None and what is wrong with the file that is
     there.
     """
@@ -206,7 +221,7 @@ def _earlier_summary(folder: Path, case_id: str) -> tuple[dict | None, str]:
         return None, str(error)
 
 
-def read_folder_case(folder) -> tuple[Case, str]:
+def read_folder_case(folder: Path | str) -> tuple[Case, str]:
     """The case of a result folder, and its file's name."""
     from fecolumn.case.case import case_from_tables
 

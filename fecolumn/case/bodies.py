@@ -365,7 +365,7 @@ class Matrices(Placed):
 
 
 #: Class of the keys by kind of body.
-BODY_KINDS = {
+BODY_KINDS: dict[str, type[Placed]] = {
     "tube": Tube,
     "cylinder": Cylinder,
     "block": Block,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fecolumn.foundation.schema import Section, parameter
 from fecolumn.foundation.section_class import section_class
 
@@ -38,6 +40,12 @@ class Placed(Section):
         low=0,
         high=0.5,
     )
+
+    if TYPE_CHECKING:  # a key of each kind of body
+
+        @property
+        def kind(self) -> str:
+            """What the body is."""
 
     @property
     def places(self) -> tuple[tuple[float, ...], ...]:

@@ -10,9 +10,10 @@ import dataclasses
 import hashlib
 import html
 import json
-import typing
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
 from fecolumn.case.arch import own_keys, voussoirs
 from fecolumn.case.bodies import Arch
@@ -112,7 +113,7 @@ class Case:
     short: ShortForm | None = field(default=None, compare=False)
     arches: Mapping[str, Arch] = field(default_factory=dict, compare=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         """Bring sections that a script gives into the form of those of a file, and check all.
 
         A section that is not that of the short form makes a case of the full one.
@@ -188,12 +189,14 @@ class Case:
         """Twelve hexadecimal digits that name everything but title and output cadence; motions and
         meshes count by content.
         """
-        tables = {
+        tables: dict[str, Any] = {
             name: {key: identity(section) for key, section in getattr(self, name).items()}
             for name in NAMED
         }
         tables |= {
-            name: section_table(name, getattr(self, name)) for name in COMMON if name not in _IDLE
+            name: section and section_table(name, section)  # None of a ground at rest
+            for name, section in ((name, getattr(self, name)) for name in COMMON)
+            if name not in _IDLE
         }
         if self.grounds == {GROUND_NAME: Ground()}:
             # as of cases that are older than grounds
@@ -271,7 +274,7 @@ class Case:
         meant = (self.meant_by(body) for body in bodies)
         return tuple((body, number) for body, numbers in meant for number in numbers)
 
-    def replace(self, changes: dict | None = None, **sections) -> Case:
+    def replace(self, changes: dict[str, Any] | None = None, **sections: Any) -> Case:
         """The case with other values, checked as a file's would be; sizes that followed a column
         follow the new one.
 
@@ -291,8 +294,8 @@ class Case:
         changes = {
             of_this_version(key): one for key, one in {**(changes or {}), **sections}.items()
         }
-        full = self.short is None or any(_is_full(key, value) for key, value in changes.items())
-        tables = self.tables() if full else self.short.tables(opened=True)
+        full = any(_is_full(key, value) for key, value in changes.items())
+        tables = self.short.tables(opened=True) if self.short and not full else self.tables()
         for key, value in changes.items():
             if value is None:
                 tables.pop(key, None)
@@ -300,13 +303,13 @@ class Case:
                 tables = merge(tables, nested(key, value))
         return case_from_tables(stated(tables), "case")
 
-    def tables(self, defaults: bool = True, arches: bool = True) -> dict:
+    def tables(self, defaults: bool = True, arches: bool = True) -> dict[str, Any]:
         """The case as the tables of its file, in the full form, with keys at their `defaults` or
         without; with `arches` as they were stated, or voussoir by voussoir.
         """
         if self.own:
             return self._tables_of_model(defaults)
-        found = {}
+        found: dict[str, Any] = {}
         for one in dataclasses.fields(self):
             value = getattr(self, one.name)
             if one.name == "bodies" and arches:
@@ -322,11 +325,11 @@ class Case:
                 found[one.name] = value
         return found
 
-    def _with_arches(self) -> dict[str, typing.Any]:
+    def _with_arches(self) -> dict[str, Any]:
         """Bodies with an arch in the place of its voussoirs, where they are still those of it, and
         after it the keys of voussoirs that have some of their own.
         """
-        found: dict[str, typing.Any] = dict(self.bodies)
+        found: dict[str, Any] = dict(self.bodies)
         for name, arch in self.arches.items():
             made = voussoirs(name, arch)
             own = {key: own_keys(found.get(key), body) for key, body in made.items()}
@@ -340,17 +343,17 @@ class Case:
                         found[key] = body
         return found
 
-    def _tables_of_model(self, defaults: bool) -> dict:
+    def _tables_of_model(self, defaults: bool) -> dict[str, Any]:
         """As `tables`, of a case with a rocking model's own table."""
         ((name, section),) = self.own.items()
         start = self.initial[name]
-        found = {
+        sections = {
             name: section,
             "integration": self.integration,
             "overturn": self.overturn,
             "output": self.output,
         } | ({"motion": self.motion} if self.motion else {})
-        found = {key: table_of(one, defaults) for key, one in found.items()}
+        found = {key: table_of(one, defaults) for key, one in sections.items()}
         tilt = {"tilt_rad": start.tilt_rad, "direction_deg": start.direction_deg}
         found["initial"] = {key: value for key, value in tilt.items() if value or defaults}
         return found | ({"title": self.title} if self.title else {})
@@ -367,12 +370,12 @@ class Case:
         """
         return toml_of(self, full, defaults)
 
-    def as_stated(self) -> dict:
+    def as_stated(self) -> dict[str, Any]:
         """The case as the tables of its file, in the form that it was stated in."""
         return self.short.tables() if self.short else self.tables()
 
 
-def _is_full(key: str, value) -> bool:
+def _is_full(key: str, value: object) -> bool:
     """Whether a dotted key, or a table of this name, is of the full form alone."""
     first, _, rest = key.partition(".")
     if first == "initial":
@@ -384,7 +387,7 @@ def _is_full(key: str, value) -> bool:
     return first in NAMED or first == "observed"
 
 
-def case_from_tables(tables: dict, file="case") -> Case:
+def case_from_tables(tables: dict[str, Any], file: Path | str = "case") -> Case:
     """Case from TOML tables; relative paths are taken from the folder of `file`, which messages
     name, or from the current one.
 
@@ -406,7 +409,7 @@ def case_from_tables(tables: dict, file="case") -> Case:
     return told_of(file, lambda: Case(**found), named)
 
 
-def case_of_table(tables: dict, file, engine: str | None = None) -> Case:
+def case_of_table(tables: dict[str, Any], file: Path | str, engine: str | None = None) -> Case:
     """Case of the rocking model of a table of its own, such as [podium]; engine: its name, unless
     the table says it.
 
@@ -420,7 +423,7 @@ def case_of_table(tables: dict, file, engine: str | None = None) -> Case:
     return Case(**fields_of_table(tables, file, engine))
 
 
-def read_case(path) -> Case:
+def read_case(path: Path | str) -> Case:
     """Case of a TOML file.
 
     Raises
@@ -431,7 +434,7 @@ def read_case(path) -> Case:
     return case_from_tables(read_toml(path), path)
 
 
-def identity(section) -> dict:
+def identity(section: Section) -> dict[str, Any]:
     """What of a section tells one analysis from another, files by content."""
     table = section_table("", section)
     for key in FILES.get(table.get("kind", ""), ()):

@@ -21,9 +21,10 @@ from fecolumn.case.sections import (
     Overturn,
 )
 from fecolumn.foundation.deprecated import warn_of_older_name
+from fecolumn.foundation.schema import Section
 
 #: Tables of tables by name, and the class of each.
-NAMED = {
+NAMED: dict[str, type[Section]] = {
     "bodies": Placed,
     "materials": Material,
     "grounds": Ground,
@@ -32,7 +33,7 @@ NAMED = {
     "initial": Initial,
 }
 #: Sections that a structure's case has in common with a column's.
-COMMON = {
+COMMON: dict[str, type[Section]] = {
     "contact": Contact,
     "integration": Integration,
     "motion": Motion,

@@ -3,14 +3,36 @@
 from __future__ import annotations
 
 import collections
+from typing import Any, Protocol
 
+from fecolumn.case.checked import CheckedCase
+from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.schema import table_of
 
 # Names of a table of tables that a line shows
 _SHOWN = 6
 
 
-def case_text(case) -> str:
+class ShownCase(CheckedCase, Protocol):
+    """Attributes of a Case that its text tells; a Case imports its text, and not it a Case."""
+
+    @property
+    def title(self) -> str:
+        """Of figures."""
+
+    @property
+    def id(self) -> str:
+        """As of Case."""
+
+    @property
+    def short(self) -> ShortForm | None:
+        """None of a case that was stated in the full form."""
+
+    def tables(self, defaults: bool = True, arches: bool = True, /) -> dict[str, Any]:
+        """As of Case."""
+
+
+def case_text(case: ShownCase) -> str:
     """A few lines: title, what stands there, engine, step, motion."""
     plan, motion = case.integration, case.motion
     step = f"dt {plan.dt_s:g} s" if isinstance(plan.dt_s, float) else f"dt {plan.dt_s}"
@@ -51,7 +73,7 @@ def _listed(named: dict[str, str]) -> str:
     return f"{len(named)}: " + ", ".join(f"{count} {kind}" for kind, count in kinds.items())
 
 
-def toml_of(case, full: bool, defaults: bool) -> str:
+def toml_of(case: ShownCase, full: bool, defaults: bool) -> str:
     """Text of the TOML file of a case, as of `Case.to_toml`."""
     import tomli_w
 
@@ -66,7 +88,7 @@ def toml_of(case, full: bool, defaults: bool) -> str:
     return tomli_w.dumps({name: table for name, table in tables.items() if table != {}})
 
 
-def full_form(case, defaults: bool = False, arches: bool = False) -> dict:
+def full_form(case: ShownCase, defaults: bool = False, arches: bool = False) -> dict[str, Any]:
     """Tables of the full form of a case, as its file would have them.
 
     Parameters
@@ -82,7 +104,7 @@ def full_form(case, defaults: bool = False, arches: bool = False) -> dict:
     return {name: table for name, table in tables.items() if table != {}}
 
 
-def _joint(table: dict) -> dict:
+def _joint(table: dict[str, Any]) -> dict[str, Any]:
     """A joint by the two that touch, whichever of them is called the slave."""
     others = {key: value for key, value in table.items() if key not in ("slave", "on", "between")}
     return {"between": [table["slave"], table["on"]], **others}

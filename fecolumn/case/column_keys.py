@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from fecolumn.case.mesh_file_keys import cut_key, size_key, unit_key
+from fecolumn.case.sections import Cap, Flange
 from fecolumn.foundation.schema import Section, parameter
 from fecolumn.foundation.section_class import section_class
 from fecolumn.mesh.mesh_file import MeshFile
+from fecolumn.mesh.upright import Upright
 
 
 @section_class()
@@ -194,3 +196,14 @@ class Mesh(Section):
         high=10**9,
         counts=False,
     )
+
+
+class ColumnSections(Section, Upright):
+    """Sections of the short form that say how a column and its base are meshed."""
+
+    __slots__ = ()
+    column: Column
+    base: Base
+    mesh: Mesh
+    flange: Flange | None
+    cap: Cap | None

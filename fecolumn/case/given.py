@@ -4,17 +4,26 @@ from __future__ import annotations
 
 import dataclasses
 import re
+from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
+from typing import Any, TypeVar
 
 from fecolumn.case.arch import with_voussoirs
 from fecolumn.case.bodies import Arch
+from fecolumn.case.body_keys import Placed
+from fecolumn.case.checked import CheckedCase
+from fecolumn.case.ground import Ground
 from fecolumn.case.joint import Interface
 from fecolumn.case.link import LinkKeys
 from fecolumn.case.sections import located
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.paths import OF_BODIES
-from fecolumn.foundation.schema import InputError, a_section
+from fecolumn.foundation.schema import InputError, Section, a_section
+
+_Body = TypeVar("_Body", bound=Section)
+# Of a voussoir a table of keys
+_Given = Section | dict[str, Any]
 
 # Characters of a name that stand for something else in dotted keys, and in names of copies and
 # marks
@@ -24,7 +33,7 @@ NUMBERED = re.compile(r"(\S+) [1-9][0-9]*")
 _HERE = "case"
 
 
-def as_of_file(case, named: dict[str, type]) -> dict[str, dict]:
+def as_of_file(case: CheckedCase, named: Mapping[str, type[Section]]) -> Mapping[str, object]:
     """The tables of tables of a case as those of a file: joints by slave and on, arches by their
     voussoirs, files by their absolute paths.
 
@@ -57,15 +66,18 @@ def as_of_file(case, named: dict[str, type]) -> dict[str, dict]:
     if errors:
         raise InputError.of_several(errors)
     own = {key: one for key, one in found["bodies"].items() if isinstance(one, dict)}
-    bodies = {key: one for key, one in found["bodies"].items() if key not in own}
+    bodies = {key: one for key, one in found["bodies"].items() if isinstance(one, Placed)}
+    made: dict[str, object] = dict(found)
     if own or any(isinstance(body, Arch) for body in bodies.values()):
-        found["bodies"], found["arches"] = with_voussoirs(bodies, own, _HERE)
+        made["bodies"], made["arches"] = with_voussoirs(bodies, own, _HERE)
     if case.motion:
-        found["motion"] = located("motion", case.motion, _HERE)
-    return found
+        made["motion"] = located("motion", case.motion, _HERE)
+    return made
 
 
-def _sections(case, name: str, kind: type, errors: list) -> dict:
+def _sections(
+    case: CheckedCase, name: str, kind: type[Section], errors: list[InputError]
+) -> dict[str, _Given]:
     """Sections by name, each of its class."""
     given = getattr(case, name)
     if not hasattr(given, "items"):
@@ -81,24 +93,24 @@ def _sections(case, name: str, kind: type, errors: list) -> dict:
     return dict(given)
 
 
-def _is_of_arch(key, section, bodies) -> bool:
+def _is_of_arch(key: object, section: object, bodies: Mapping[str, object]) -> bool:
     """Whether it is a table of keys of a voussoir "NAME 3" beside an arch "NAME"."""
     return isinstance(section, dict) and isinstance(bodies.get(str(key).rpartition(" ")[0]), Arch)
 
 
-def _as_of_file(name: str, key: str, section, grounds: set):
-    if name == "joints":
-        return by_two_bodies(section, grounds, _HERE, f"joints.{key}.")
-    if name == "grounds" and section.motion:
+def _as_of_file(name: str, key: str, section: _Given, grounds: set[str]) -> _Given:
+    if isinstance(section, Interface):
+        return by_two_bodies(section, grounds, _HERE, f"{name}.{key}.")
+    if isinstance(section, Ground) and section.motion:
         return dataclasses.replace(section, motion=located("motion", section.motion, _HERE))
-    if name == "links" and type(section) is not LinkKeys:  # a Tendon, say
+    if isinstance(section, LinkKeys) and type(section) is not LinkKeys:  # a Tendon, say
         return LinkKeys(**{one.name: getattr(section, one.name) for one in fields(LinkKeys)})
-    if name != "bodies" or isinstance(section, dict):
+    if not isinstance(section, Placed):
         return section
-    return with_files(section, _HERE, f"bodies.{key}.")
+    return with_files(section, _HERE, f"{name}.{key}.")
 
 
-def with_files(body, file, prefix: str):
+def with_files(body: _Body, file: Path | str, prefix: str) -> _Body:
     """A body with its relative paths taken from the folder of `file`.
 
     Raises
@@ -117,7 +129,9 @@ def with_files(body, file, prefix: str):
     return body if same else dataclasses.replace(body, **found)
 
 
-def check_name(name: str, key: str, tables, grounds: set, file) -> None:
+def check_name(
+    name: str, key: object, tables: Mapping[str, object], grounds: set[str], file: Path | str
+) -> None:
     """Refuse a name that stands for something else.
 
     Parameters
@@ -129,9 +143,9 @@ def check_name(name: str, key: str, tables, grounds: set, file) -> None:
     grounds
         names that no body can have.
     """
-    word = key
     if not isinstance(key, str):
         raise InputError(file, name, key, "names must be text in quotes")
+    word = key
     beside = tables.get(key.rpartition(" ")[0])
     if name == "bodies" and (own := NUMBERED.fullmatch(key)):
         word = own[1]
@@ -155,7 +169,9 @@ def check_name(name: str, key: str, tables, grounds: set, file) -> None:
         )
 
 
-def by_two_bodies(interface: Interface, grounds: set, file, prefix: str) -> Interface:
+def by_two_bodies(
+    interface: Interface, grounds: set[str], file: Path | str, prefix: str
+) -> Interface:
     """The interface with its two bodies as slave and on."""
     if interface.between:
         if interface.slave or interface.on:

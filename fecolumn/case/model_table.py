@@ -11,9 +11,11 @@ both is analysed: the name of a model, or an engine of bodies.
 
 from __future__ import annotations
 
-import functools
+from pathlib import Path
+from typing import Any
 
 from fecolumn.case.check_step import check_step
+from fecolumn.case.checked import refuse_in
 from fecolumn.case.model_names import TABLES, model_engine_of
 from fecolumn.case.model_sections import SECTIONS
 from fecolumn.case.sections import Contact, Initial, Integration, Motion, Output, Overturn, located
@@ -49,7 +51,7 @@ _COMMON = {
 }
 
 
-def check_others(tables: dict, file, but: str = "") -> None:
+def check_others(tables: dict[str, Any], file: Path | str, but: str = "") -> None:
     """Check tables of models that a case passes over: all but the one that it is of.
 
     Raises
@@ -62,7 +64,9 @@ def check_others(tables: dict, file, but: str = "") -> None:
             build(SECTIONS[name], tables[name], file, f"{name}.")
 
 
-def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
+def fields_of_table(
+    tables: dict[str, Any], file: Path | str, engine: str | None = None
+) -> dict[str, Any]:
     """Fields of the Case of TOML tables that have a model's own; relative paths are taken from
     the folder of `file`.
 
@@ -111,7 +115,7 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
         for name, kind in _COMMON.items()
         if name != "motion" or "motion" in tables
     }
-    check_step(found["integration"], functools.partial(_refuse, file))
+    check_step(found["integration"], refuse_in(file))
     if found["output"].fields_every_s:
         raise InputError(
             file,
@@ -134,7 +138,9 @@ def fields_of_table(tables: dict, file, engine: str | None = None) -> dict:
     )
 
 
-def tables_of_model(model: Section, sections: dict[str, Section | None], title: str) -> dict:
+def tables_of_model(
+    model: Section, sections: dict[str, Section | None], title: str
+) -> dict[str, Any]:
     """Tables of the file of a rocking model's case.
 
     Parameters
@@ -169,11 +175,7 @@ def tables_of_model(model: Section, sections: dict[str, Section | None], title: 
     return found | ({"title": title} if title else {})
 
 
-def _refuse(file, key: str, value, allowed: str) -> None:
-    raise InputError(file, key, value, allowed)
-
-
-def model_key_type(key: str):
+def model_key_type(key: str) -> Any:
     """Type of a dotted key of a model's table, such as podium.storeys, or None."""
     import typing
 

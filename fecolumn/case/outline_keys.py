@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar
 
 from fecolumn.foundation.schema import InputError, Section, parameter
@@ -52,7 +53,7 @@ class OutlineKeys(Section):
         high=1000,
     )
 
-    def half_and_height(self, table: str, file) -> tuple[float, float]:
+    def half_and_height(self, table: str, file: Path | str) -> tuple[float, float]:
         """Half the size across and the height [m].
 
         Raises
@@ -156,7 +157,7 @@ class RollingKeys(RestraintKeys, OutlineKeys):
         high=1,
     )
 
-    def bore(self, radius: float, table: str, file) -> float:
+    def bore(self, radius: float, table: str, file: Path | str) -> float:
         """Inner radius [m] of a column of this outer radius [m].
 
         Raises

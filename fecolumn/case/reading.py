@@ -5,24 +5,29 @@ from __future__ import annotations
 import dataclasses
 import typing
 from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 from fecolumn.case.arch import with_voussoirs, without_voussoirs
 from fecolumn.case.bodies import BODY_KINDS
 from fecolumn.case.case_tables import COMMON, NAMED
 from fecolumn.case.given import by_two_bodies, check_name, with_files
 from fecolumn.case.ground import GROUND_NAME, Ground
+from fecolumn.case.joint import Interface
 from fecolumn.case.sections import (
     located,
 )
 from fecolumn.case.short_form import full_tables, in_short_form, short_form
 from fecolumn.foundation.deprecated import warn_of_older_name
-from fecolumn.foundation.schema import InputError, build, meant
+from fecolumn.foundation.schema import InputError, Section, build, meant
 from fecolumn.foundation.toml_file import stated
 
 _Made = typing.TypeVar("_Made")
+# Fields of a Case, and how messages call its keys and ranges
+_Read = tuple[dict[str, Any], Callable[[str], str]]
 
 
-def fields_of_tables(tables: dict, file) -> tuple[dict, Callable[[str], str]]:
+def fields_of_tables(tables: dict[str, Any], file: Path | str) -> _Read:
     """Fields of the Case of TOML tables, and how messages call its keys and ranges; relative paths
     are taken from the folder of `file`.
 
@@ -43,7 +48,9 @@ def fields_of_tables(tables: dict, file) -> tuple[dict, Callable[[str], str]]:
         return _of_short_form(tables, file)
     if "interfaces" in tables:
         return _of_interfaces(tables, file)
-    tables, errors, found = stated(tables), [], {}
+    tables = stated(tables)
+    errors: list[InputError] = []
+    found: dict[str, Any] = {}
     if not tables.get("grounds"):
         tables = tables | {"grounds": {GROUND_NAME: {}}}
     grounds = set(tables["grounds"]) if isinstance(tables["grounds"], dict) else {GROUND_NAME}
@@ -84,14 +91,14 @@ def fields_of_tables(tables: dict, file) -> tuple[dict, Callable[[str], str]]:
     return found, str
 
 
-def _of_short_form(tables: dict, file):
+def _of_short_form(tables: dict[str, Any], file: Path | str) -> _Read:
     """As `fields_of_tables`, of tables with [column]; messages name the keys of the short form."""
     form = short_form(tables, file)
     found, _ = told_of(file, lambda: fields_of_tables(full_tables(form), file), in_short_form)
     return found | {"short": form}, in_short_form
 
 
-def _of_interfaces(tables: dict, file):
+def _of_interfaces(tables: dict[str, Any], file: Path | str) -> _Read:
     """As `fields_of_tables`, of tables with [interfaces], the name of [joints] in earlier versions,
     by which messages call them.
     """
@@ -115,7 +122,7 @@ def _of_interfaces(tables: dict, file):
     return found, named
 
 
-def told_of(file, made: Callable[[], _Made], named: Callable[[str], str]) -> _Made:
+def told_of(file: Path | str, made: Callable[[], _Made], named: Callable[[str], str]) -> _Made:
     """What `made` returns; its errors are told of `file`, with keys and ranges as `named` says."""
     try:
         return made()
@@ -125,14 +132,21 @@ def told_of(file, made: Callable[[], _Made], named: Callable[[str], str]) -> _Ma
         ) from None
 
 
-def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
+def _named(
+    name: str,
+    kind: type[Section],
+    tables: object,
+    grounds: set[str],
+    file: Path | str,
+    errors: list[InputError],
+) -> dict[str, Section]:
     """Sections by name of one table of tables; grounds: names that no body can have."""
     if not isinstance(tables, dict):
         errors.append(
             InputError(file, name, tables, f"must hold tables by name, such as [{name}.NAME]")
         )
         return {}
-    found = {}
+    found: dict[str, Section] = {}
     for key, table in tables.items():
         if table is False:
             continue
@@ -142,17 +156,18 @@ def _named(name: str, kind, tables, grounds: set, file, errors: list) -> dict:
                     file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys"
                 )
             check_name(name, key, tables, grounds, file)
-            found[key] = _built(
-                _kind_of(name, key, table, kind, file), table, file, f"{name}.{key}."
-            )
-            if name == "joints":
-                found[key] = by_two_bodies(found[key], grounds, file, f"{name}.{key}.")
+            section = _built(_kind_of(name, key, table, kind, file), table, file, f"{name}.{key}.")
+            if isinstance(section, Interface):
+                section = by_two_bodies(section, grounds, file, f"{name}.{key}.")
+            found[key] = section
         except InputError as error:
             errors.append(error)
     return found
 
 
-def _kind_of(name: str, key: str, table: dict, kind, file):
+def _kind_of(
+    name: str, key: str, table: dict[str, Any], kind: type[Section], file: Path | str
+) -> type[Section]:
     """Class of a section: of a body that of its kind."""
     if name != "bodies":
         return kind
@@ -167,9 +182,9 @@ def _kind_of(name: str, key: str, table: dict, kind, file):
     return BODY_KINDS[word]
 
 
-def _built(kind, table, file, prefix):
+def _built(kind: type[Section], table: dict[str, Any], file: Path | str, prefix: str) -> Section:
     """A section with its relative paths taken from the folder of `file`."""
-    section = build(kind, table, file, prefix)
-    if kind is Ground and section.motion:
+    section: Section = build(kind, table, file, prefix)
+    if isinstance(section, Ground) and section.motion:
         return dataclasses.replace(section, motion=located("motion", section.motion, file))
     return with_files(section, file, prefix)

@@ -403,15 +403,13 @@ FULL_ORDER_KEYS = "tolerance", "max_iterations"
 DEFAULT = {field.name: field.default for field in dataclasses.fields(Integration)}
 
 
-def section_table(name: str, section: Section | None) -> dict[str, Any] | None:
+def section_table(name: str, section: Section) -> dict[str, Any]:
     """What of a section of a case tells one analysis from another: files by content; keys that only
     guard or tell are left out.
 
     So is a younger key (`since`) at its default: cases older than it keep their names, and their
     results.
     """
-    if section is None:
-        return None
     table: dict[str, Any] = dataclasses.asdict(section)
     for field in dataclasses.fields(section):
         if (

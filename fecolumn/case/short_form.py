@@ -11,10 +11,13 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
+from typing import Any
 
 from fecolumn.case import sizes
 from fecolumn.case.check_grounds import OF_KINDS
-from fecolumn.case.column_keys import Base, Column, Mesh
+from fecolumn.case.checked import Refuse, refuse_in
+from fecolumn.case.column_keys import Base, Column, ColumnSections, Mesh
 from fecolumn.case.model_keys import check_model, check_substeps
 from fecolumn.case.sections import (
     MODEL_ENGINES,
@@ -30,15 +33,14 @@ from fecolumn.case.sections import (
     located,
 )
 from fecolumn.foundation.paths import OF_SECTIONS as FILES
-from fecolumn.foundation.schema import InputError, Section, build, parameter
+from fecolumn.foundation.schema import InputError, build, parameter
 from fecolumn.foundation.section_class import section_class
 from fecolumn.foundation.toml_file import merge, nested, stated
 from fecolumn.mesh.outline import is_solid
-from fecolumn.mesh.upright import Upright
 
 
 @section_class()
-class ShortForm(Section, Upright):
+class ShortForm(ColumnSections):
     """A case of one column on its base, as a file with [column] states it.
 
     fecolumn.Case.of_column(
@@ -68,14 +70,14 @@ class ShortForm(Section, Upright):
         """Empty: messages name the sections in it."""
         return ""
 
-    def tables(self, opened: bool = False) -> dict:
+    def tables(self, opened: bool = False) -> dict[str, Any]:
         """The tables of its file; `opened`: without those sizes that it would be given anyway, so
         that another column gets its own.
         """
         return stated(dataclasses.asdict(sizes.opened(self) if opened else self))
 
 
-def short_form(tables: dict, file) -> ShortForm:
+def short_form(tables: dict[str, Any], file: Path | str) -> ShortForm:
     """The short form of TOML tables with [column], all sizes known; relative paths are taken from
     the folder of `file`.
 
@@ -88,7 +90,7 @@ def short_form(tables: dict, file) -> ShortForm:
         if tables.get(name, False) is not False:
             told = "is of the full form, in which fecolumn show writes this case: state it there"
             raise InputError(file, name, None, told)
-    form = build(ShortForm, tables, file)
+    form: ShortForm = build(ShortForm, tables, file)
     return finished(
         dataclasses.replace(
             form, **{name: located(name, getattr(form, name), file) for name in FILES}
@@ -103,7 +105,7 @@ _OF_FULL_FORM = "materials", "grounds", "joints", "links"
 PAD_KEYS = "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"
 
 
-def finished(case: ShortForm, file) -> ShortForm:
+def finished(case: ShortForm, file: Path | str) -> ShortForm:
     """The case with the sizes that it leaves open, checked as a whole.
 
     Raises
@@ -118,14 +120,11 @@ def finished(case: ShortForm, file) -> ShortForm:
     return case
 
 
-def check_short_form(case: ShortForm, file) -> None:
+def check_short_form(case: ShortForm, file: Path | str) -> None:
     """What keys of the short form alone say together, but for sizes (`fecolumn.case.sizes`); the
     full form has the rest.
     """
-
-    def refuse(key, value, allowed):
-        raise InputError(file, key, value, allowed)
-
+    refuse = refuse_in(file)
     check_base(case, refuse)
     if (
         case.contact.rolling_resistance
@@ -151,7 +150,7 @@ def check_short_form(case: ShortForm, file) -> None:
     check_substeps(case, MODEL_ENGINES, refuse)
 
 
-def check_base(case: ShortForm, refuse) -> None:
+def check_base(case: ShortForm, refuse: Refuse) -> None:
     """Keys of a pad, where there is one and where there is none."""
     base = case.base
     if base.kind != "pad":
@@ -208,7 +207,7 @@ PLACES = {
 SECTIONS_ALIKE = ("contact", "integration", "overturn", "output", "motion", "title")
 
 
-def full_tables(form: ShortForm) -> dict:
+def full_tables(form: ShortForm) -> dict[str, Any]:
     """Tables of the full form of a short one: a body, a material, a ground and a joint."""
     short = form.tables()
     column = short["column"]

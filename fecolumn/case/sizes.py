@@ -17,11 +17,19 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
+from pathlib import Path
+from typing import TypeVar
 
+from fecolumn.case.checked import refuse_in
+from fecolumn.case.column_keys import Base, Column, ColumnSections, Mesh
+from fecolumn.case.sections import Cap, Flange
 from fecolumn.foundation.content import content
 from fecolumn.foundation.files import is_file
-from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.schema import Section
 from fecolumn.mesh.outline import foot_of_column, foot_sides, is_solid, outline_sides, own_of
+
+_Case = TypeVar("_Case", bound=ColumnSections)
+_Filled = TypeVar("_Filled", bound=Section)
 
 # keys that each shape needs, and those that say nothing of it
 NEEDED = {
@@ -38,15 +46,11 @@ _IDLE = {
 _COARSE = {"tube": 3, "solid": 2, "block": 2}
 
 
-def check_shape(case, file) -> None:
+def check_shape(case: ColumnSections, file: Path | str) -> None:
     """Refuse a column whose shape misses dimensions, all of them told at once, or has some that say
     nothing of it.
     """
-    column = case.column
-
-    def refuse(key, value, allowed):
-        raise InputError(file, key, value, allowed)
-
+    column, refuse = case.column, refuse_in(file)
     if column.mesh_file:
         if not is_file(column.mesh_file):
             refuse("column.mesh_file", column.mesh_file, "no such file")
@@ -105,7 +109,7 @@ def check_shape(case, file) -> None:
         )
 
 
-def with_sizes(case, file):
+def with_sizes(case: _Case, file: Path | str) -> _Case:
     """The case with every size that it leaves open.
 
     Raises
@@ -120,7 +124,7 @@ def with_sizes(case, file):
     return dataclasses.replace(case, column=column, base=base, mesh=sizes)
 
 
-def opened(case):
+def opened(case: _Case) -> _Case:
     """A finished case with those sizes left open that it would be given anyway, so that another
     column gets its own.
     """
@@ -144,7 +148,14 @@ def opened(case):
 
 
 @functools.lru_cache(maxsize=256)
-def sized(column, flange, cap, base, mesh, mesh_content):
+def sized(
+    column: Column,
+    flange: Flange | None,
+    cap: Cap | None,
+    base: Base,
+    mesh: Mesh,
+    mesh_content: str,
+) -> tuple[Column, Base, Mesh]:
     """Column, base and mesh sections without open sizes, those of the short form; `mesh_content`
     tells that a file is still the one read before.
     """
@@ -161,7 +172,7 @@ def sized(column, flange, cap, base, mesh, mesh_content):
     else:
         if column.shape == "solid" and column.wall_m is None:
             column = dataclasses.replace(
-                column, wall_m=column.outer_diameter_m / 2
+                column, wall_m=_known(column.outer_diameter_m) / 2
             )  # to the last digit: a finished case is finished again
         fine, times = (
             _fine(column),
@@ -171,22 +182,20 @@ def sized(column, flange, cap, base, mesh, mesh_content):
         if flange:
             fine = min(math.pi * flange.outer_diameter_m / 40, 3 * fine)
         if column.fine_height_m is None:
-            half = min(outline_sides(column)) / 2
-            column = _filled(
-                column, fine_height_m=half if half < column.height_m else column.height_m
-            )
+            half, height = min(outline_sides(column)) / 2, _known(column.height_m)
+            column = _filled(column, fine_height_m=half if half < height else height)
     mesh = _filled(mesh, fine_size_m=fine, **filled)
     # what is stated goes before: other bricks follow a stated fine one, none smaller than it
+    fine = _known(mesh.fine_size_m)
     mesh = _filled(
         mesh,
-        coarse_size_m=max(min(coarse, times * mesh.fine_size_m), mesh.fine_size_m),
-        base_size_m=6 * mesh.fine_size_m,
+        coarse_size_m=max(min(coarse, times * fine), fine),
+        base_size_m=6 * fine,
     )
+    coarse = _known(mesh.coarse_size_m)
     mesh = _filled(
         mesh,
-        cap_size_m=max(mesh.coarse_size_m, max(cap.length_m, cap.width_m) / 16)
-        if cap
-        else mesh.coarse_size_m,
+        cap_size_m=max(coarse, max(cap.length_m, cap.width_m) / 16) if cap else coarse,
     )
     room = [
         (stated - side) / 2
@@ -198,21 +207,29 @@ def sized(column, flange, cap, base, mesh, mesh_content):
         slide_allowance_m=max(0.0, min(shorter / 4, *room, shorter / 4)),
         thickness_m=shorter / 4,
     )
-    sides = [side + max(3 * longer, 2 * base.slide_allowance_m) for side in foot]
+    allowance = _known(base.slide_allowance_m)
+    sides = [side + max(3 * longer, 2 * allowance) for side in foot]
     return column, _filled(base, length_m=sides[0], width_m=sides[1]), mesh
 
 
-def _fine(column) -> float:
+def _fine(column: Column) -> float:
     """Size [m] of fine bricks of a built column."""
     if column.shape == "block":
-        sides = column.length_m, column.width_m
+        sides = outline_sides(column)
         return min(math.sqrt(sides[0] * sides[1]) / 12, min(sides) / 4)
+    outer = _known(column.outer_diameter_m)
     if is_solid(column):
-        return math.pi * column.outer_diameter_m / 32
-    return math.pi * (column.outer_diameter_m - column.wall_m) / 48
+        return math.pi * outer / 32
+    return math.pi * (outer - _known(column.wall_m)) / 48
 
 
-def _filled(section, **values):
+def _known(size: float | None) -> float:
+    """A size [m] that the shape needs, or that is filled."""
+    assert size is not None
+    return size
+
+
+def _filled(section: _Filled, **values: float) -> _Filled:
     """A section with values for the keys that it leaves open, rounded down to four digits."""
     found = {
         key: value if isinstance(value, int) else _rounded(value)
@@ -227,66 +244,66 @@ def _rounded(value: float) -> float:
     return float(f"{math.floor(value / unit * (1 + 1e-12)) * unit:.4g}")
 
 
-def check_sizes(case, file) -> None:
+def check_sizes(case: ColumnSections, file: Path | str) -> None:
     """Refuse parts that do not fit, and a mesh above `mesh.limit_dofs`."""
     column, base, mesh, cap, flange = case.column, case.base, case.mesh, case.cap, case.flange
     outline = foot_sides(case) if column.mesh_file else outline_sides(column)
-
-    def refuse(key, value, allowed):
-        raise InputError(file, key, value, allowed)
-
+    refuse = refuse_in(file)
+    fine, coarse = _known(mesh.fine_size_m), _known(mesh.coarse_size_m)
     if column.mesh_file:
         from fecolumn.mesh.imported import imported_column
 
         imported_column(case)
     else:
-        if column.shape == "tube" and column.wall_m > column.outer_diameter_m / 2 * (1 + 1e-9):
+        if column.shape == "tube" and _known(column.wall_m) > (
+            (radius := _known(column.outer_diameter_m) / 2) * (1 + 1e-9)
+        ):
             refuse(
                 "column.wall_m",
                 column.wall_m,
-                f"must be at most the outer radius, {column.outer_diameter_m / 2:g} m",
+                f"must be at most the outer radius, {radius:g} m",
             )
-        if column.fine_height_m > column.height_m:
+        if _known(column.fine_height_m) > (height := _known(column.height_m)):
             refuse(
                 "column.fine_height_m",
                 column.fine_height_m,
-                f"must lie in [0, height_m = {column.height_m:g}] m",
+                f"must lie in [0, height_m = {height:g}] m",
             )
         if (
             column.shape == "tube"
             and not flange
-            and mesh.fine_size_m > max(column.wall_m, _fine(column)) * (1 + 1e-9)
+            and fine > max(wall := _known(column.wall_m), _fine(column)) * (1 + 1e-9)
         ):
             refuse(
                 "mesh.fine_size_m",
-                mesh.fine_size_m,
-                f"must be at most the wall, column.wall_m = {column.wall_m:g} m, or a "
+                fine,
+                f"must be at most the wall, column.wall_m = {wall:g} m, or a "
                 f"48th of the circumference, {_fine(column):.4g} m",
             )
         if column.shape == "block":
-            if mesh.coarse_size_m > min(outline_sides(column)) * (1 + 1e-9):
+            if coarse > min(outline_sides(column)) * (1 + 1e-9):
                 refuse(
                     "mesh.coarse_size_m",
-                    mesh.coarse_size_m,
+                    coarse,
                     f"must be at most the block's shorter side, {min(outline_sides(column)):g} m",
                 )
         else:
             around = math.pi * (
-                column.outer_diameter_m if is_solid(column) else 2 * case.mean_radius_m
+                _known(column.outer_diameter_m) if is_solid(column) else 2 * case.mean_radius_m
             )
-            if around / mesh.coarse_size_m < 8:
+            if around / coarse < 8:
                 refuse(
                     "mesh.coarse_size_m",
-                    mesh.coarse_size_m,
+                    coarse,
                     f"must be at most {around / 8:.4g} m: fewer than 8 bricks around do "
                     "not make a round column",
                 )
     for key in ("coarse_size_m", "base_size_m"):
-        if getattr(mesh, key) < mesh.fine_size_m * (1 - 1e-9):
+        if getattr(mesh, key) < fine * (1 - 1e-9):
             refuse(
                 f"mesh.{key}",
                 getattr(mesh, key),
-                f"must be at least mesh.fine_size_m = {mesh.fine_size_m:g} m",
+                f"must be at least mesh.fine_size_m = {fine:g} m",
             )
     if flange:
         across = math.hypot(*outline) if column.shape == "block" else outline[0]
@@ -297,7 +314,7 @@ def check_sizes(case, file) -> None:
                 f"must be at least the column's own {across:g} m",
             )
         hole = (
-            min(outline) - 2 * column.wall_m
+            min(outline) - 2 * _known(column.wall_m)
             if column.shape == "tube" and not is_solid(column)
             else min(outline)
         )
@@ -321,7 +338,7 @@ def check_sizes(case, file) -> None:
                     f"cap.{key}", getattr(cap, key), f"must be at least column.{named} = {side:g} m"
                 )
     for key, side in zip(("length_m", "width_m"), foot_sides(case)) if base.kind == "plate" else ():
-        least = side + 2 * base.slide_allowance_m
+        least = side + 2 * _known(base.slide_allowance_m)
         if getattr(base, key) < least * (1 - 1e-9):
             refuse(
                 f"base.{key}",

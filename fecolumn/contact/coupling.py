@@ -205,7 +205,7 @@ def times(coupling, forces):
     return result
 
 
-@njit
+@njit(fastmath={"reassoc", "contract"})
 def motion_by(coupling, forces):
     """Motion (nb, w) of the bodies, V^T r, by forces (n, 3) of points that have levers."""
     levers, bodies, width = coupling.levers, coupling.bodies, coupling.levers.shape[2] // 2
@@ -221,7 +221,7 @@ def motion_by(coupling, forces):
     return motion
 
 
-@njit
+@njit(fastmath={"reassoc", "contract"})
 def moved_by(coupling, motion):
     """How far (n, 3) a motion (nb, w) of the bodies moves the points, V x."""
     levers, bodies, width = coupling.levers, coupling.bodies, coupling.levers.shape[2] // 2

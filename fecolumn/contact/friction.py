@@ -19,7 +19,7 @@ from fecolumn.contact.coupling import (
     stiffnesses,
     whole_of,
 )
-from fecolumn.contact.frozen_slips import halve_way, solve_frozen
+from fecolumn.contact.frozen_slips import follow_slips, halve_way, solve_frozen
 from fecolumn.contact.interior_point import approach, in_cones
 from fecolumn.contact.newton import NewtonLimits, newton_steps, solve_in_place
 from fecolumn.foundation._compiled import njit
@@ -276,6 +276,7 @@ def by_frozen_slips(coupling, q, friction, start, tolerance, rho, turns):
             iterations += made
             if turn >= tolerances.FROZEN_HALVED:
                 halve_way(before, slips)
+            follow_slips(coupling, before, slips, motion, forces, slopes)
         else:
             forces, inside = approach(
                 A, Q, friction, np.zeros((n, 3)), np.zeros((n, 3)), tolerances.FROZEN_INSIDE, slips

@@ -51,7 +51,7 @@ def find_impulses(coupling, q, friction, start, near, exact, allowed, usable):
         velocities [m/s] to which a convex problem is solved at most, by which the law may be
         missed, and by which after FROZEN_ROUNDS.
     """
-    n, made, missed, tolerance = len(q), 0, np.inf, exact
+    n, made, missed, tolerance = len(q), 0, largest(q), exact
     slips, impulses, slopes = np.zeros(n), np.empty((n, 3)), np.empty((n, 3, 3))
     motion, change = motion_by(coupling, start), np.zeros(n)
     if near:
@@ -59,12 +59,12 @@ def find_impulses(coupling, q, friction, start, near, exact, allowed, usable):
         for i in range(n):
             slips[i] = friction[i] * np.hypot(relative[i, 0], relative[i, 1])
     for turn in range(FROZEN_ROUNDS + (FROZEN_MORE if n > MANY_POINTS else 0)):
-        before, tolerance = slips.copy(), max(exact, FROZEN_SHARE * min(missed, allowed))
+        before, tolerance = slips.copy(), max(exact, FROZEN_SHARE * missed)
         more, missed = solve_frozen(
             coupling, q, friction, slips, motion, impulses, slopes, tolerance
         )
         made += more
-        if missed <= (allowed if turn + 1 < FROZEN_ROUNDS else usable):
+        if max(missed, tolerance) <= (allowed if turn + 1 < FROZEN_ROUNDS else usable):
             break
         if turn >= FROZEN_ROUNDS:
             halve_way(before, slips)
@@ -73,6 +73,7 @@ def find_impulses(coupling, q, friction, start, near, exact, allowed, usable):
         else:
             for i in range(n):
                 change[i] = slips[i] - before[i]
+        follow_slips(coupling, before, slips, motion, impulses, slopes)
     return impulses, max(missed, tolerance), made
 
 
@@ -93,6 +94,26 @@ def solve_frozen(coupling, q, friction, slips, motion, impulses, slopes, toleran
         wrong = abs(slip - slips[i]) if impulses[i, 2] > 0 else -relative[i, 2]
         missed, slips[i] = max(missed, wrong), slip
     return made, missed
+
+
+@njit
+def follow_slips(coupling, before, slips, motion, impulses, slopes):
+    """Let the motion (nb, w) of a solution for slips `before` (n,) follow other slips, while the
+    same points carry, stick and slide (Fiacco 1983, Introduction to Sensitivity and Stability
+    Analysis in Nonlinear Programming, chapter 3); impulses, slopes: of the solution.
+
+    Points give so little that Newton, from the motion as it was, would first find others to carry.
+    """
+    pushes = np.zeros((len(slips), 3))
+    for i in range(len(slips)):
+        if impulses[i, 2] > 0:
+            for a in range(3):
+                pushes[i, a] = slopes[i, a, 2] * (slips[i] - before[i])
+    solved, step = _newton_step(coupling, motion_by(coupling, pushes), impulses, slopes)
+    if solved:
+        for b in range(len(motion)):
+            for c in range(motion.shape[1]):
+                motion[b, c] += step[b, c]
 
 
 @njit
@@ -129,27 +150,34 @@ def _least(coupling, q, friction, slips, motion, impulses, slopes, tolerance):
     """Put the solution for frozen slips (n,) into motion (nb, w) and impulses (n, 3): Newton steps
     made. slopes: (n, 3, 3) room.
     """
-    blocks, width = coupling.blocks, coupling.levers.shape[2] // 2
-    rows, made = blocks.first[-1], 0
-    rest = _gradient(coupling, q, friction, slips, motion, impulses, slopes)
+    made, rest = 0, _gradient(coupling, q, friction, slips, motion, impulses, slopes)
     while made < FROZEN_STEPS and largest(moved_by(coupling, rest)) > tolerance:
-        matrix, right = _curvature(coupling, impulses, slopes), np.empty(rows)
-        for b in range(len(motion)):
-            if blocks.of[b] >= 0:
-                for c in range(width):
-                    right[blocks.first[blocks.of[b]] + c] = -rest[b, c]
-        if not eliminate(matrix, right, blocks.first, blocks.coupled):
+        solved, step = _newton_step(coupling, rest, impulses, slopes)
+        if not solved:
             break
-        step = np.zeros_like(motion)
-        for b in range(len(motion)):
-            if blocks.of[b] >= 0:
-                for c in range(width):
-                    step[b, c] = right[blocks.first[blocks.of[b]] + c]
         made += 1
         rest, descends = _search(coupling, q, friction, slips, motion, rest, step, impulses, slopes)
         if not descends:
             break
     return made
+
+
+@njit
+def _newton_step(coupling, rest, impulses, slopes):
+    """Whether Newton's equations at a gradient `rest` (nb, w) are regular, and its step (nb, w)."""
+    blocks, width, step = coupling.blocks, coupling.levers.shape[2] // 2, np.zeros_like(rest)
+    matrix, right = _curvature(coupling, impulses, slopes), np.empty(blocks.first[-1])
+    for b in range(len(rest)):
+        if blocks.of[b] >= 0:
+            for c in range(width):
+                right[blocks.first[blocks.of[b]] + c] = -rest[b, c]
+    if not eliminate(matrix, right, blocks.first, blocks.coupled):
+        return False, step
+    for b in range(len(rest)):
+        if blocks.of[b] >= 0:
+            for c in range(width):
+                step[b, c] = right[blocks.first[blocks.of[b]] + c]
+    return True, step
 
 
 @njit

@@ -147,10 +147,10 @@ IMPACT_GIVES, IMPACT_LEFT = (1e-4, 1e-4, 1e-5, 1e-5, 1e-5), 1e-4
 #: at its third impact; so it is 2e-7.
 IMPACT_MISSED, FROZEN_ENDS = 1e-3, 1e-2
 #: Of impacts by frozen slips (`contact.frozen_slips`): rounds, Newton steps in one, searches along
-#: a step. An impact of shaken drums that Newton alone does not solve takes seven rounds in the
-#: mean; a round from the slips of the one before takes ten to twenty
-#: steps. Share of what is still missed to which a round is solved; slope along a step, over that
-#: at its start, at which a search ends.
+#: a step. An impact of shaken drums that Newton alone does not solve takes ten rounds in the mean,
+#: of 30 steps the first one, of one to ten the others. Share of what is still missed, of the
+#: largest velocity at first, to which a round is solved; slope along a step, over that at its
+#: start, at which a search ends.
 FROZEN_ROUNDS, FROZEN_STEPS, FROZEN_SEARCHES = 12, 60, 30
 #: Rounds more where slips go to and fro, in which they go half the way: of six made-up impacts
 #: of 289 points of a wall five came to a thousandth with half ways from the fourth round on, one to

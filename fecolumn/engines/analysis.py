@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import time
 import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from fecolumn.case.case import Case
 from fecolumn.case.sections import GRAVITY, MODEL_ENGINES, UNTIL_REST
 from fecolumn.engines.ending import (
     AT_REST,
@@ -22,6 +26,10 @@ from fecolumn.engines.summary import write_sealed
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.sources import code, code_text
+from fecolumn.motions.record import GroundMotion
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
 
 CHECKPOINT = "checkpoint.npz"
 
@@ -52,7 +60,9 @@ class Analysis:
         nothing moves [J]; the engine sets these three.
     """
 
-    def __init__(self, case, folder, comm, file, quiet):
+    def __init__(
+        self, case: Case, folder: Path, comm: MPI.Intracomm, file: str, quiet: bool
+    ) -> None:
         from fecolumn.contact.overturning import steepest_to_come
         from fecolumn.engines.dynamics.history import History
 
@@ -77,7 +87,7 @@ class Analysis:
         grounds = self.motion.acceleration[: self.steps + 1] if self.motion else np.zeros((0, 3))
         self._steepest = steepest_to_come(np.array([0.0, 0.0, -GRAVITY]), grounds)
 
-    def run(self, stop) -> dict:
+    def run(self, stop: Callable[[], bool]) -> dict[str, Any]:
         """Step to the end, or until `stop` says so; the summary."""
         raise NotImplementedError
 
@@ -106,7 +116,7 @@ class Analysis:
         """What meshes and analysis will take, in words."""
         raise NotImplementedError
 
-    def _load_motion(self, file):
+    def _load_motion(self, file: str) -> GroundMotion | None:
         if self.case.motion is None:
             return None
         from fecolumn.motions.load import load_motion

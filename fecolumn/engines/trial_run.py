@@ -45,7 +45,8 @@ def trial(
         warnings.simplefilter("ignore")
         analysis = begin(Path(folder))
         if until_s < float("inf"):
-            analysis.steps = min(analysis.steps, round(until_s / analysis.case.integration.dt_s))
+            dt = float(analysis.case.integration.dt_s)
+            analysis.steps = min(analysis.steps, round(until_s / dt))
         try:
             return analysis, analysis.run(over)["outcome"]
         except KeyboardInterrupt:

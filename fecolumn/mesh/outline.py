@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 from fecolumn.mesh.upright import Upright
+
+if TYPE_CHECKING:
+    from fecolumn.mesh.imported import OwnMesh
 
 
 def foot_sides(case: Upright) -> tuple[float, float]:
@@ -28,7 +33,7 @@ def outline_sides(column) -> tuple[float, float]:
     )
 
 
-def own_of(column):
+def own_of(column: Any) -> OwnMesh:
     """The user's own mesh of a [column]."""
     from fecolumn.mesh.imported import own_mesh  # which brings numba
 

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY, Initial
 from fecolumn.contact import overturning
@@ -13,7 +16,7 @@ from fecolumn.contact.overturning import Stance, stance
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import edge_points
-from fecolumn.structures.model import StructureModel
+from fecolumn.structures.model import Joint, StructureModel
 from fecolumn.structures.place import Standing, footing, placed, supports_of
 
 # Directions [deg] in which a body is leaned; the least energy is in that of its weakest edge
@@ -42,13 +45,18 @@ def stances(structure: StructureModel, standing: list[Standing]) -> dict[int, St
     return found
 
 
-def is_level(standing: list[Standing], joint) -> bool:
+def is_level(standing: Sequence[Standing], joint: Joint) -> bool:
     """Whether a body stands on the faces of a joint, rather than beside them."""
-    return abs(standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]) > math.sqrt(0.5)
+    normal = standing[joint.slave].model.surfaces[joint.slave_surface].normal
+    return bool(abs(normal[2]) > math.sqrt(0.5))
 
 
 def _stance_of(
-    places: list[int], joints: list, standing: list[Standing], inertia: np.ndarray, friction: float
+    places: list[int],
+    joints: list[Joint],
+    standing: list[Standing],
+    inertia: NDArray[Any],
+    friction: float,
 ) -> Stance | None:
     """Stance of parts that move as one rigid body on `joints`; None where what is below them is not
     level, or no area.
@@ -65,14 +73,15 @@ def _stance_of(
     return stance(arms, inertia, masses.sum() * GRAVITY, friction, 0.0)
 
 
-def _footing(standing: list[Standing], joint) -> np.ndarray:
+def _footing(standing: list[Standing], joint: Joint) -> NDArray[Any]:
     """Points (n, 3) [m] where the bodies of a joint touch, over which the upper one tips; of a dome
     on its edge.
     """
     if joint.ball and joint.ball.is_dome:
         slave = standing[joint.slave]
         arms = slave.model.arms[slave.model.surfaces[joint.slave_surface].nodes]
-        return slave.center + arms[0] + edge_points(joint.ball)
+        edge: NDArray[Any] = slave.center + arms[0] + edge_points(joint.ball)
+        return edge
     return footing(standing, joint)
 
 
@@ -111,7 +120,7 @@ def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
     return float(min((lift for lift in lifts if lift > 0), default=0.0))
 
 
-def _together(standing: list[Standing], joints: list) -> list[Stance]:
+def _together(standing: list[Standing], joints: list[Joint]) -> list[Stance]:
     """Stances of each part as one rigid body with all that stands on it, wherever these can stand
     together.
     """

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NoReturn
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.case.bodies import Block, Cylinder, Matrices, Meshed, Storeys, Tube
+from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import Material
 from fecolumn.foundation.schema import InputError
+from fecolumn.mesh.bricks import BrickMesh
 from fecolumn.mesh.imported import own_mesh
 from fecolumn.mesh.mass import mass_properties
 from fecolumn.structures.faces import Face, plane_faces
@@ -19,7 +25,7 @@ from fecolumn.structures.matrices import SystemMatrices, matrices_model, read_sy
 from fecolumn.structures.model import BodyModel
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.reduction import elastic_model, rigid_model
-from fecolumn.structures.shapes import Shape, shape_of
+from fecolumn.structures.shapes import Meshable, Shape, Spot, shape_of
 from fecolumn.structures.storeys import storeys_model
 from fecolumn.structures.weighed import weighed_shares
 
@@ -38,12 +44,12 @@ class Drawing:
     """
 
     key: str
-    body: object
+    body: Meshable | Matrices
     shape: Shape | None
     system: SystemMatrices | None
     faces: list[Face]
     material: Material | None
-    file: object
+    file: Path | str
 
     @property
     def is_rigid(self) -> bool:
@@ -56,11 +62,16 @@ class Drawing:
         return 1 if self.shape is None or self.is_rigid else self.shape.order
 
     @property
-    def points(self) -> np.ndarray:
+    def points(self) -> NDArray[Any]:
         """Points (n, 3) [m] that it consists of."""
-        return self.system.coordinates if self.shape is None else self.shape.mesh.points
+        if self.shape is not None:
+            return self.shape.mesh.points
+        assert self.system is not None
+        return self.system.coordinates
 
-    def model(self, patches: dict[str, Patch], n_modes: int) -> tuple[BodyModel, tuple | None]:
+    def model(
+        self, patches: dict[str, Patch], n_modes: int
+    ) -> tuple[BodyModel, tuple[NDArray[Any], NDArray[Any]] | None]:
         """The body reduced to its patches; with its nodes (n_nodes, 3) [m] and the modes (m,
         n_nodes, 3) all over it where it is of finite elements.
         """
@@ -69,31 +80,35 @@ class Drawing:
 
     def _flat_model(
         self, patches: dict[str, Patch], n_modes: int
-    ) -> tuple[BodyModel, tuple | None]:
-        if isinstance(self.body, Matrices):
+    ) -> tuple[BodyModel, tuple[NDArray[Any], NDArray[Any]] | None]:
+        body, shape, material = self.body, self.shape, self.material
+        if isinstance(body, Matrices):
+            file = body.stiffness_file
 
-            def refuse(allowed):
-                raise InputError(
-                    self.file, f"{self.key}.stiffness_file", self.body.stiffness_file, allowed
-                )
+            def refuse(allowed: str) -> NoReturn:
+                raise InputError(self.file, f"{self.key}.stiffness_file", file, allowed)
 
+            assert self.system is not None
             return matrices_model(self.system, self.faces, patches, n_modes, refuse), None
-        if isinstance(self.body, Storeys):
-            mass = mass_properties(self.shape.mesh, self.material.density_kg_m3).mass
-            return storeys_model(self.body, mass, patches, self.material), None
-        if not self.body.deforms:
+        assert shape is not None and material is not None
+        if isinstance(body, Storeys):
+            mass = mass_properties(shape.mesh, material.density_kg_m3).mass
+            return storeys_model(body, mass, patches, material), None
+        if not body.deforms:
             return rigid_model(
-                self.shape, self.faces, patches, self.material, self.body.contact_stiffness_n_m3
+                shape, self.faces, patches, material, body.contact_stiffness_n_m3
             ), None
-        return self._elastic_model(patches, n_modes)
+        return self._elastic_model(shape, material, patches, n_modes)
 
-    def _elastic_model(self, patches: dict[str, Patch], n_modes: int):
+    def _elastic_model(
+        self, shape: Shape, material: Material, patches: dict[str, Patch], n_modes: int
+    ) -> tuple[BodyModel, tuple[NDArray[Any], NDArray[Any]]]:
         from petsc4py import PETSc
 
         try:
-            return elastic_model(self.shape, self.faces, patches, self.material, n_modes)
+            return elastic_model(shape, self.faces, patches, material, n_modes)
         except (PETSc.Error, RuntimeError, np.linalg.LinAlgError):
-            thinnest, longest = _edges(self.shape.mesh)
+            thinnest, longest = _edges(shape.mesh)
             raise InputError(
                 self.file,
                 self.key,
@@ -105,7 +120,7 @@ class Drawing:
             ) from None
 
 
-def drawing(case, name: str, file, spots=()) -> Drawing:
+def drawing(case: Case, name: str, file: Path | str, spots: Sequence[Spot] = ()) -> Drawing:
     """Drawing of a body of a case; spots as of `shapes.shape_of`.
 
     Raises
@@ -117,9 +132,10 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
     if isinstance(body, Matrices):
         system = read_system(key, body, file)
         return Drawing(key, body, None, system, system.faces(), None, file)
+    assert isinstance(body, Meshable)
     shape = shape_of(key, body, file, spots)
     material, weighed_as = material_of(body, case.materials), shape.mesh
-    if getattr(body, "foot_radius_m", None):
+    if isinstance(body, (Tube, Cylinder, Block)) and body.foot_radius_m:
         domed_points = lifted(body, shape.mesh.points)
         weighed_as = dataclasses.replace(shape.mesh, points=domed_points)
     if body.mass_kg is not None:
@@ -148,23 +164,22 @@ def drawing(case, name: str, file, spots=()) -> Drawing:
         shape = dataclasses.replace(
             shape, mesh=dataclasses.replace(shape.mesh, relative_density=shares)
         )
-    if getattr(body, "turned_deg", 0.0):
+    if angle := getattr(body, "turned_deg", 0.0):
         shape = dataclasses.replace(
             shape,
-            mesh=dataclasses.replace(
-                shape.mesh, points=_turned(shape.mesh.points, body.turned_deg)
-            ),
+            mesh=dataclasses.replace(shape.mesh, points=_turned(shape.mesh.points, angle)),
         )
-    if body.as_drawn:
+    if isinstance(body, Meshed) and body.as_drawn:
         moved = shape.mesh.points + own_mesh(body.drawn).drawn_at
         shape = dataclasses.replace(shape, mesh=dataclasses.replace(shape.mesh, points=moved))
     faces = plane_faces(shape.mesh)
-    if getattr(body, "foot_radius_m", None):
-        shape, faces = domed(body, shape, faces)
+    if isinstance(body, (Tube, Cylinder, Block)) and body.foot_radius_m:
+        mesh, faces = domed(body, shape.mesh, faces)
+        shape = dataclasses.replace(shape, mesh=mesh)
     return Drawing(key, body, shape, None, faces, material, file)
 
 
-def _edges(mesh) -> tuple[float, float]:
+def _edges(mesh: BrickMesh) -> tuple[float, float]:
     """Shortest and longest distance [m] between corners of one element."""
     corners = mesh.points[mesh.cells]
     first, second = np.triu_indices(corners.shape[1], 1)
@@ -172,9 +187,11 @@ def _edges(mesh) -> tuple[float, float]:
     return float(lengths.min()), float(lengths.max())
 
 
-def _turned(points: np.ndarray, angle: float) -> np.ndarray:
+def _turned(points: NDArray[Any], angle: float) -> NDArray[Any]:
     """Points (n, 3) [m] turned about the z axis by an angle [deg], those of quarters exactly."""
     cosine, sine = (
         round(value, 15) for value in (np.cos(np.radians(angle)), np.sin(np.radians(angle)))
     )
-    return points @ np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    turn = np.array([[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+    turned: NDArray[Any] = points @ turn
+    return turned

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
+from typing import Any
 
-import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.case import Case
 from fecolumn.case.check_bond import cohesion_of, shear_stiffness_of
+from fecolumn.case.joint import Interface
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import Bond, Joint
@@ -14,7 +18,11 @@ from fecolumn.structures.place import Standing, touching
 
 
 def with_bonds(
-    case, joints: list[Joint], standing: list[Standing], interfaces, file
+    case: Case,
+    joints: list[Joint],
+    standing: list[Standing],
+    interfaces: list[str],
+    file: Path | str,
 ) -> list[Joint]:
     """The joints, those that are glued with their Bond; interfaces: names of theirs.
 
@@ -36,7 +44,8 @@ def with_bonds(
             told = "must be left out where the faces are apart at the start: they are not glued"
             raise InputError(file, f"joints.{name}.tension_pa", keys.tension_pa, told)
         for k in closed:
-            if joints[k].ball and joints[k].ball.is_dome:
+            ball = joints[k].ball
+            if ball and ball.is_dome:
                 told = (
                     f'must be left out below the dome of "{standing[joints[k].slave].name}", which '
                     "touches in a point"
@@ -50,13 +59,14 @@ def with_bonds(
     return found
 
 
-def _share(standing, joint: Joint) -> float:
+def _share(standing: list[Standing], joint: Joint) -> float:
     """Share of the area of a slave's face that lies on the master."""
     areas = standing[joint.slave].model.surfaces[joint.slave_surface].areas
-    return areas[touching(standing, joint)].sum() / areas.sum()
+    share: float = areas[touching(standing, joint)].sum() / areas.sum()
+    return share
 
 
-def _glued(joint: Joint, standing, keys) -> Joint:
+def _glued(joint: Joint, standing: list[Standing], keys: Interface) -> Joint:
     bond = Bond(
         touching(standing, joint),
         keys.bond_stiffness_n_m3,
@@ -68,11 +78,14 @@ def _glued(joint: Joint, standing, keys) -> Joint:
     return dataclasses.replace(joint, bond=bond)
 
 
-def pulls_of_bonds(standing, joint: Joint) -> list[tuple[np.ndarray, np.ndarray, float, float]]:
+def pulls_of_bonds(
+    standing: list[Standing], joint: Joint
+) -> list[tuple[NDArray[Any], NDArray[Any], float, float]]:
     """Forces [N] that the points of a glued joint may have on the slave at most: place (3,) [m],
     direction (3,), least and most of it.
     """
     slave, bond = standing[joint.slave], joint.bond
+    assert bond is not None
     surface, found = slave.model.surfaces[joint.slave_surface], []
     for row in bond.rows:
         place = slave.center + slave.model.arms[surface.nodes[row]]
@@ -82,7 +95,7 @@ def pulls_of_bonds(standing, joint: Joint) -> list[tuple[np.ndarray, np.ndarray,
     return found
 
 
-def check_starts(joints: list[Joint], standing: list[Standing], file) -> None:
+def check_starts(joints: list[Joint], standing: list[Standing], file: Path | str) -> None:
     """Refuse bodies that lean at the start though they are glued to what they stand on."""
     for joint in joints:
         places = {joint.slave, joint.master} - {GROUND} if joint.bond else ()

@@ -3,21 +3,31 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from fecolumn.case.bodies import Matrices
+from fecolumn.case.body_keys import WithMaterial
+from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.rim import Rim
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import ball_of, hertz
-from fecolumn.structures.model import Joint
-from fecolumn.structures.place import loads
+from fecolumn.structures.model import BodyModel, Joint
+from fecolumn.structures.place import Standing, loads
 
 
-def joint_of(case, contact: dict, bodies, places, sizes, file) -> Joint:
+def joint_of(
+    case: Case,
+    contact: dict[str, Any],
+    bodies: dict[str, BodyModel],
+    places: dict[tuple[str, int], int],
+    sizes: dict[str, float],
+    file: Path | str,
+) -> Joint:
     """The joint of one contact of a layout.
 
     Parameters
@@ -63,10 +73,11 @@ def joint_of(case, contact: dict, bodies, places, sizes, file) -> Joint:
             contact_keys.law,
             f'must be augmented_lagrange where the slave, "{body}", has no elements',
         )
+    drawn = case.bodies[body]
     youngs = (
-        0.0
-        if body not in sizes
-        else material_of(case.bodies[body], case.materials).youngs_modulus_pa
+        material_of(drawn, case.materials).youngs_modulus_pa
+        if body in sizes and isinstance(drawn, WithMaterial)
+        else 0.0
     )
     law = interface_compliance(contact_keys, youngs, sizes.get(body, 1.0), surface.areas)
     ball = ball_of(case.bodies[body]) if contact["slave_surface"] == "foot" else None
@@ -97,7 +108,9 @@ def joint_of(case, contact: dict, bodies, places, sizes, file) -> Joint:
     )
 
 
-def with_hertz(case, joints, standing, copies) -> list[Joint]:
+def with_hertz(
+    case: Case, joints: list[Joint], standing: list[Standing], copies: list[tuple[str, int]]
+) -> list[Joint]:
     """The joints, domes with the compliance of a sphere on what they stand on, linear about what
     they carry at rest; none in the rigid engine.
     """
@@ -111,11 +124,11 @@ def with_hertz(case, joints, standing, copies) -> list[Joint]:
                 for place in (joint.slave, joint.master)
                 if place != GROUND
             ]
-            if bodies[0].contact_stiffness_n_m3 is None:
+            if getattr(bodies[0], "contact_stiffness_n_m3", None) is None:
                 materials = [
                     material_of(body, case.materials)
                     for body in bodies
-                    if not isinstance(body, Matrices)
+                    if isinstance(body, WithMaterial)
                 ]
                 joint = dataclasses.replace(
                     joint, law=joint.law + hertz(joint.ball.radius, load, *materials)

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.case import Case
 from fecolumn.case.link import PULLING, PUSHING
 from fecolumn.contact.points import GROUND
 from fecolumn.structures.model import Link
@@ -16,7 +20,9 @@ from fecolumn.structures.store import (
 )
 
 
-def links_at_copies(case, name: str, places, standing: list[Standing]):
+def links_at_copies(
+    case: Case, name: str, places: dict[tuple[str, int], int], standing: list[Standing]
+) -> Iterator[Link]:
     """The links of a name, one at each copy of its body; points as the bodies stand."""
     keys = case.links[name]
     body, numbers = case.meant_by(keys.body)
@@ -58,14 +64,16 @@ def links_at_copies(case, name: str, places, standing: list[Standing]):
         )
 
 
-def with_shapes(link: Link, copies, standing: list[Standing], keys: dict) -> Link:
+def with_shapes(
+    link: Link, copies: list[tuple[str, int]], standing: list[Standing], keys: dict[str, str]
+) -> Link:
     """A link with the shapes of the modes at its ends; keys: of the bodies in `store`."""
 
-    def shape(place: int, arm: np.ndarray):
+    def shape(place: int, arm: NDArray[Any]) -> NDArray[Any] | None:
         if place == GROUND or not len(standing[place].model.frequencies):
             return None
         key = keys.get(copies[place][0])
-        found = key and shape_at(key, arm)
+        found = shape_at(key, arm) if key else None
         return None if found is None else found[:, : len(standing[place].model.frequencies)]
 
     return replace(link, shape_a=shape(link.a, link.arm_a), shape_b=shape(link.b, link.arm_b))

@@ -5,18 +5,27 @@ from __future__ import annotations
 import math
 import warnings
 from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import linprog
 from scipy.spatial import cKDTree
 
+from fecolumn.case.case import Case
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.tolerances import ROUND_NODES
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
+from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.bonds import pulls_of_bonds
-from fecolumn.structures.place import footing
+from fecolumn.structures.meetings import Meeting
+from fecolumn.structures.model import Joint, StructureModel
+from fecolumn.structures.patches import Patch
+from fecolumn.structures.place import Standing, footing
 
 #: Contact points of one body, above which its compliance alone has more than 3000^2 numbers.
 _MOST_POINTS = 1000
@@ -32,7 +41,31 @@ _HELD = 1e-6
 _DIRECTIONS = 8
 
 
-def check_points(name: str, patches, file) -> None:
+class CheckedContact(Protocol):
+    """What its check reads of a `layout.ContactPair`."""
+
+    @property
+    def slave(self) -> tuple[str, int]:
+        """As there."""
+
+    @property
+    def master(self) -> tuple[str, int] | None:
+        """As there."""
+
+
+class CheckedLayout(Protocol):
+    """What its check reads of a `layout.Layout`; that imports this file, and not this one that."""
+
+    @property
+    def drawings(self) -> Mapping[str, Drawing]:
+        """By body."""
+
+    @property
+    def contacts(self) -> Sequence[CheckedContact]:
+        """As there."""
+
+
+def check_points(name: str, patches: Mapping[str, Patch], file: Path | str) -> None:
     """Refuse a body with more contact points than an analysis can carry."""
     count = sum(len(patch.positions) for patch in patches.values())
     if count > _MOST_POINTS:
@@ -48,11 +81,11 @@ def check_points(name: str, patches, file) -> None:
         )
 
 
-def check_meetings(case, meetings, file) -> None:
+def check_meetings(case: Case, meetings: list[Meeting], file: Path | str) -> None:
     """Refuse a joint that is stated twice, in one direction or in each: its points would be there
     twice, and each carry half the force.
     """
-    stated = {}
+    stated: dict[frozenset[tuple[tuple[str, int] | None, int]], str] = {}
     for meeting in meetings:
         faces = frozenset(
             {(meeting.slave, meeting.slave_face), (meeting.master, meeting.master_face)}
@@ -73,7 +106,7 @@ def check_meetings(case, meetings, file) -> None:
             )
 
 
-def check_layout(case, layout, file) -> None:
+def check_layout(case: Case, layout: CheckedLayout, file: Path | str) -> None:
     """Refuse copies without a path to the ground, and those that overlap."""
     copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
     fixed = {copy for copy in copies if getattr(case.bodies[copy[0]], "fixed", False)}
@@ -135,7 +168,7 @@ def check_layout(case, layout, file) -> None:
                     )
 
 
-def deepest(one, other, shift) -> float:
+def deepest(one: Drawing, other: Drawing, shift: NDArray[Any]) -> float:
     """How deep points [m] of a drawing lie within the elements of another that is shifted by (3,)
     [m]; 0 where none does, or there are no elements.
     """
@@ -161,7 +194,7 @@ def deepest(one, other, shift) -> float:
     return deepest
 
 
-def _places_in(drawing) -> np.ndarray:
+def _places_in(drawing: Drawing) -> NDArray[Any]:
     """Points (n, 3) [m] of a drawing: its own, and of its elements the middles and five places on
     each face, for coarse bodies may cross without a node of one in the other.
     """
@@ -180,14 +213,14 @@ def _places_in(drawing) -> np.ndarray:
     )
 
 
-def _to_surface(drawing, point) -> float:
+def _to_surface(drawing: Drawing, point: NDArray[Any]) -> float:
     """Distance [m] of a point inside a body from the nearest plane of its faces."""
     return min((abs(face.normal @ point - face.offset) for face in drawing.faces), default=0.0)
 
 
-def check_joints(joints, standing, file) -> None:
+def check_joints(joints: list[Joint], standing: list[Standing], file: Path | str) -> None:
     """Refuse slaves that hardly have a place at which they stand on their master."""
-    count = Counter()
+    count: Counter[frozenset[int]] = Counter()
     for joint in joints:
         count[frozenset((joint.slave, joint.master))] += len(footing(standing, joint))
     for joint in joints:
@@ -203,9 +236,9 @@ def check_joints(joints, standing, file) -> None:
             )
 
 
-def tell_of_gaps(joints, standing, file) -> None:
+def tell_of_gaps(joints: list[Joint], standing: list[Standing], file: Path | str) -> None:
     """Warn of joints that begin open, once for all pairs of a joint."""
-    pairs: dict[str, list] = {}
+    pairs: dict[str, list[Joint]] = {}
     for joint in joints:
         if joint.gap and joint.pair < 0:
             pairs.setdefault(joint.name.partition(":")[0], []).append(joint)
@@ -217,13 +250,13 @@ def tell_of_gaps(joints, standing, file) -> None:
         warnings.warn(f"{file}: joints.{name}: {told}", stacklevel=2)
 
 
-def _between(joint, standing) -> str:
+def _between(joint: Joint, standing: list[Standing]) -> str:
     """Names of both bodies of a joint."""
     master = "the ground" if joint.master == GROUND else f'"{standing[joint.master].name}"'
     return f'"{standing[joint.slave].name}" and {master}'
 
 
-def check_links(case, extents: dict, file) -> None:
+def check_links(case: Case, extents: dict[str, list[list[float]]], file: Path | str) -> None:
     """Refuse links to nowhere; extents: lowest and highest place (3,) [m] of each body by name, as
     it is drawn.
     """
@@ -249,7 +282,9 @@ def check_links(case, extents: dict, file) -> None:
                     raise InputError(file, f"links.{name}.{end}", list(getattr(link, end)), told)
 
 
-def check_rest(case, structure, standing, file) -> None:
+def check_rest(
+    case: Case, structure: StructureModel, standing: list[Standing], file: Path | str
+) -> None:
     """Of a structure that nothing tilts or sets moving, refuse bodies that no contact forces within
     their cones, and no forces of links, hold at rest: what is missing least is a linear programme.
 
@@ -259,14 +294,15 @@ def check_rest(case, structure, standing, file) -> None:
         return
     if any(start.tilt_rad or start.moves for start in case.initial.values()):
         return
-    columns, bounds, rows = [], [], 6 * len(structure.parts)
+    columns, rows = [], 6 * len(structure.parts)
+    bounds: list[tuple[float | None, ...]] = []
     free = [part.held < 0 and not part.airborne for part in structure.parts]
     weights = np.array([part.model.mass for part in structure.parts]) * GRAVITY
     sizes = np.array(
         [math.sqrt(np.trace(part.model.inertia) / part.model.mass) for part in structure.parts]
     )
 
-    def act(column, place, force, point):
+    def act(column: NDArray[Any], place: int, force: NDArray[Any], point: NDArray[Any]) -> None:
         if place != GROUND and free[place]:
             column[6 * place : 6 * place + 3] += force
             column[6 * place + 3 : 6 * place + 6] += (

@@ -10,11 +10,15 @@ region at every step (`contact.two_sided`). Holes of faces are left out.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from fecolumn.case.case import Case
 from fecolumn.contact.tolerances import EDGE_REACH, ROUND_NODES
+from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.faces import Face, apart, over, triangles_of
 from fecolumn.structures.feet import ball_of, foot_of
 from fecolumn.structures.meetings import Meeting, allowance_of, place_of
@@ -37,12 +41,12 @@ class Edge:
     lower_face: int
     upper: tuple[str, int]
     upper_face: int
-    points: np.ndarray
+    points: NDArray[Any]
     zones: list[tuple[float, ...]]
-    outlines: tuple[list, list]
+    outlines: tuple[list[list[list[float]]], list[list[list[float]]]]
 
 
-def edges_of(case, drawings, meetings: list[Meeting]) -> list[Edge]:
+def edges_of(case: Case, drawings: dict[str, Drawing], meetings: list[Meeting]) -> list[Edge]:
     """Edges of all masters that run below the faces of their slaves, but where the case has an
     interface with the roles exchanged.
     """
@@ -59,14 +63,15 @@ def edges_of(case, drawings, meetings: list[Meeting]) -> list[Edge]:
     return [edge for edge in (_edge(case, drawings, meeting) for meeting in wanted) if edge]
 
 
-def edge_patch(face: Face, order: int, points: np.ndarray) -> Patch:
+def edge_patch(face: Face, order: int, points: NDArray[Any]) -> Patch:
     """Contact points of a face at nodes (k, 3) [m] of its outlines."""
     whole = whole_face(face, order)
     return node_patch(whole, np.unique(cKDTree(whole.positions).query(points)[1]))
 
 
-def _edge(case, drawings, meeting: Meeting) -> Edge | None:
+def _edge(case: Case, drawings: dict[str, Drawing], meeting: Meeting) -> Edge | None:
     """All nodes of the master's outline that the slave may reach, None where it cannot."""
+    assert meeting.master is not None
     upper, lower = drawings[meeting.slave[0]], drawings[meeting.master[0]]
     face, other = upper.faces[meeting.slave_face], lower.faces[meeting.master_face]
     if ball_of(upper.body) and face is foot_of(upper.faces):
@@ -105,10 +110,11 @@ def _edge(case, drawings, meeting: Meeting) -> Edge | None:
         meeting.slave_face,
         nodes[on],
         zones,
-        tuple(outline.tolist() for outline in outlines),
+        (outlines[0].tolist(), outlines[1].tolist()),
     )
 
 
-def _distance(points: np.ndarray, sides: np.ndarray) -> np.ndarray:
+def _distance(points: NDArray[Any], sides: NDArray[Any]) -> NDArray[Any]:
     """Distance (n,) [m] of points (n, 2) from the nearest of sides (m, 2, 2)."""
-    return apart(points[:, None], sides).min(axis=1)
+    distances: NDArray[Any] = apart(points[:, None], sides).min(axis=1)
+    return distances

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
@@ -28,10 +30,10 @@ class Face:
     """
 
     part: int
-    normal: np.ndarray
+    normal: NDArray[Any]
     offset: float
-    cells: np.ndarray
-    corners: np.ndarray
+    cells: NDArray[Any]
+    corners: NDArray[Any]
 
     @property
     def area(self) -> float:
@@ -39,7 +41,7 @@ class Face:
         return float(np.linalg.norm(_normals(self.corners), axis=1).sum() / 2)
 
     @property
-    def axes(self) -> np.ndarray:
+    def axes(self) -> NDArray[Any]:
         """Two tangents and the normal as columns (3, 3), right-handed; the first tangent is the x
         axis where the face is level.
         """
@@ -51,7 +53,7 @@ class Face:
         return np.stack([first, np.cross(self.normal, first), self.normal], axis=1)
 
     @property
-    def outline(self) -> np.ndarray:
+    def outline(self) -> NDArray[Any]:
         """Ends (n, 2, 3) [m] of the sides of the face's outlines."""
         number, place = np.unique(self.cells, return_index=True)
         return self.corners.reshape(-1, 3)[place][
@@ -88,14 +90,17 @@ def plane_faces(mesh: BrickMesh) -> list[Face]:
     return sorted(found, key=lambda face: -face.area)
 
 
-def _normals(corners: np.ndarray) -> np.ndarray:
+def _normals(corners: NDArray[Any]) -> NDArray[Any]:
     """Normals (n, 3) of twice the area of faces (n, 4 or 3, 3)."""
     if corners.shape[1] == 3:
-        return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        one, other = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    else:
+        one, other = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    normals: NDArray[Any] = np.cross(one, other)
+    return normals
 
 
-def _alike(planes: np.ndarray) -> list[np.ndarray]:
+def _alike(planes: NDArray[Any]) -> list[NDArray[Any]]:
     """Rows of planes (n, 4), normals and offsets over the size, that are the same within
     SAME_PLANE.
     """
@@ -108,7 +113,7 @@ def _alike(planes: np.ndarray) -> list[np.ndarray]:
     return [np.flatnonzero(label == one) for one in range(label.max() + 1)]
 
 
-def over(points: np.ndarray, triangles: np.ndarray, tolerance: float) -> np.ndarray:
+def over(points: NDArray[Any], triangles: NDArray[Any], tolerance: float) -> NDArray[Any]:
     """Which points (n, 2) lie in any of the triangles (t, 3, 2) of a plane, or within `tolerance`
     [m] of one.
     """
@@ -133,28 +138,32 @@ def over(points: np.ndarray, triangles: np.ndarray, tolerance: float) -> np.ndar
     return inside
 
 
-def apart(points: np.ndarray, sides: np.ndarray) -> np.ndarray:
+def apart(points: NDArray[Any], sides: NDArray[Any]) -> NDArray[Any]:
     """Distances (...) [m] of points (..., 2) from the sides (..., 2, 2) between two ends each,
     which broadcast.
     """
     start, along = sides[..., 0, :], sides[..., 1, :] - sides[..., 0, :]
     offset, square = points - start, (along**2).sum(axis=-1)
     share = np.clip((offset * along).sum(axis=-1) / np.where(square > 0, square, 1.0), 0.0, 1.0)
-    return np.linalg.norm(offset - share[..., None] * along, axis=-1)
+    distances: NDArray[Any] = np.linalg.norm(offset - share[..., None] * along, axis=-1)
+    return distances
 
 
-def apart_from_side(triangles: np.ndarray, side: np.ndarray) -> np.ndarray:
+def apart_from_side(triangles: NDArray[Any], side: NDArray[Any]) -> NDArray[Any]:
     """Distances (t,) [m] of triangles (t, 3, 2) from the side (2, 2) between two ends, 0 of those
     that it meets.
     """
     around = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2)
-    found = np.minimum(
+    found: NDArray[Any] = np.minimum(
         apart(triangles, side).min(axis=1), apart(side[:, None, None], around).min(axis=(0, 2))
     )
 
-    def left(ends, point):  # of the way between two ends
+    def left(
+        ends: NDArray[Any], point: NDArray[Any]
+    ) -> NDArray[Any]:  # of the way between two ends
         way, offset = ends[..., 1, :] - ends[..., 0, :], point - ends[..., 0, :]
-        return way[..., 0] * offset[..., 1] - way[..., 1] * offset[..., 0]
+        turned: NDArray[Any] = way[..., 0] * offset[..., 1] - way[..., 1] * offset[..., 0]
+        return turned
 
     first, last = left(around, side[0]), left(around, side[1])
     crossed = (first * last < 0) & (left(side, around[:, :, 0]) * left(side, around[:, :, 1]) < 0)
@@ -162,7 +171,7 @@ def apart_from_side(triangles: np.ndarray, side: np.ndarray) -> np.ndarray:
     return found
 
 
-def triangles_of(quads: np.ndarray) -> np.ndarray:
+def triangles_of(quads: NDArray[Any]) -> NDArray[Any]:
     """Triangles (t, 3, 2) of faces (n, 4 or 3, 2)."""
     return (
         quads if quads.shape[1] == 3 else np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])

@@ -10,20 +10,25 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Tube, half_sides
+from fecolumn.case.bodies import Block, Cylinder, Tube, half_sides
+from fecolumn.case.body_keys import Placed
+from fecolumn.case.sections import Material
 from fecolumn.contact.tolerances import ROUND_CORNERS
+from fecolumn.mesh.bricks import BrickMesh
 from fecolumn.structures.faces import Face
 from fecolumn.structures.model import Ball, BodyModel
 
 
-def lifted(body, points: np.ndarray) -> np.ndarray:
+def lifted(body: Tube | Cylinder | Block, points: NDArray[Any]) -> NDArray[Any]:
     """Points (..., 3) [m] of the drawing of a body with a flat foot where they are in that of one
-    with a dome.
+    with a dome, if its foot is one.
     """
-    if isinstance(body, Tube):
+    if isinstance(body, Tube) or not body.foot_radius_m:
         return points
     radius = np.minimum(np.linalg.norm(points[..., :2], axis=-1), body.foot_radius_m)
     fading = np.clip(1 - points[..., 2] / body.height_m, 0.0, 1.0)
@@ -32,7 +37,9 @@ def lifted(body, points: np.ndarray) -> np.ndarray:
     return moved
 
 
-def domed(body, shape, faces: list[Face]):
+def domed(
+    body: Tube | Cylinder | Block, mesh: BrickMesh, faces: list[Face]
+) -> tuple[BrickMesh, list[Face]]:
     """Mesh and plane faces of a body with a dome from those of one with a flat foot; the foot keeps
     its plane, in which the lowest point lies.
     """
@@ -41,9 +48,7 @@ def domed(body, shape, faces: list[Face]):
         face if face is foot else dataclasses.replace(face, corners=lifted(body, face.corners))
         for face in faces
     ]
-    return dataclasses.replace(
-        shape, mesh=dataclasses.replace(shape.mesh, points=lifted(body, shape.mesh.points))
-    ), moved
+    return dataclasses.replace(mesh, points=lifted(body, mesh.points)), moved
 
 
 def foot_of(faces: list[Face]) -> Face:
@@ -54,19 +59,21 @@ def foot_of(faces: list[Face]) -> Face:
     )
 
 
-def ball_of(body) -> Ball | None:
+def ball_of(body: Placed) -> Ball | None:
     """How the foot of a body touches; None where it is flat."""
-    if getattr(body, "foot_radius_m", None):
+    if not isinstance(body, (Tube, Cylinder, Block)):
+        return None
+    if body.foot_radius_m:
         return Ball(body.foot_radius_m, half_sides(body))
-    return Ball(body.edge_radius_m) if getattr(body, "edge_radius_m", 0.0) else None
+    return Ball(body.edge_radius_m) if body.edge_radius_m else None
 
 
-def with_balls(model: BodyModel, body) -> BodyModel:
+def with_balls(model: BodyModel, body: Placed) -> BodyModel:
     """The model of a body whose foot is not flat, from that of the nodes of its foot: nodes in the
     places that `model.Ball` tells.
     """
     ball = ball_of(body)
-    if ball is None or "foot" not in model.surfaces:
+    if not isinstance(body, (Tube, Cylinder, Block)) or not ball or "foot" not in model.surfaces:
         return model
     foot = model.surfaces["foot"]
     count, places = len(foot.nodes), model.arms[foot.nodes] + model.center
@@ -103,7 +110,7 @@ def with_balls(model: BodyModel, body) -> BodyModel:
     )
 
 
-def edge_points(ball: Ball) -> np.ndarray:
+def edge_points(ball: Ball) -> NDArray[Any]:
     """Corners (n, 3) [m] of the edge of a dome from the centre of its sphere."""
     x, y = ball.edge
     if y:
@@ -116,7 +123,7 @@ def edge_points(ball: Ball) -> np.ndarray:
     )
 
 
-def hertz(radius: float, load: float, *materials) -> np.ndarray:
+def hertz(radius: float, load: float, *materials: Material) -> NDArray[Any]:
     """Compliance (3,) [m/N] across x, y and along z of a sphere pressed on a plane by `load` [N],
     linear about it.
 
@@ -131,4 +138,5 @@ def hertz(radius: float, load: float, *materials) -> np.ndarray:
     modulus = 1 / sum((1 - one.poissons_ratio**2) / one.youngs_modulus_pa for one in materials)
     along = 2 / 3 * (9 / (16 * modulus**2 * radius * load)) ** (1 / 3)
     ratio = materials[0].poissons_ratio
-    return along * np.array([(2 - ratio) / (2 * (1 - ratio))] * 2 + [1.0])
+    compliance: NDArray[Any] = along * np.array([(2 - ratio) / (2 * (1 - ratio))] * 2 + [1.0])
+    return compliance

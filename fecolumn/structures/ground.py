@@ -4,18 +4,31 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.case import Case
 from fecolumn.case.ground import Ground
 from fecolumn.contact.points import GROUND
-from fecolumn.contact.unbounded_base import rigid_base, unbounded_base, window
+from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base, unbounded_base, window
 from fecolumn.foundation._compiled import cache_folder
 from fecolumn.foundation.digests import remove_damaged
 from fecolumn.foundation.lock import alone
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.base_plate import depths, plate_line
+from fecolumn.structures.model import Joint, Part
+from fecolumn.structures.place import Standing
 from fecolumn.structures.store import key_of
+
+if TYPE_CHECKING:
+    from fecolumn.contact.base_plate import BasePlate
+    from fecolumn.contact.known_base import KnownBase
+    from fecolumn.fem.body import Body
+    from fecolumn.mesh.bricks import BrickMesh
 
 # Fine elements along the side of a foot, by its area and at least; coarse ones are so much larger
 _ALONG, _LEAST, _COARSE = 12, 4, 6
@@ -27,14 +40,21 @@ class Sized:
     z of the nodes, falling from 0; fine size of the elements; allowance of sliding.
     """
 
-    x: np.ndarray
-    y: np.ndarray
-    z: np.ndarray
+    x: NDArray[Any]
+    y: NDArray[Any]
+    z: NDArray[Any]
     fine: float
     allowance: float
 
 
-def bases_of(case, standing, joints, reach: np.ndarray, file, say=lambda text: None) -> tuple:
+def bases_of(
+    case: Case,
+    standing: Sequence[Standing],
+    joints: Sequence[Joint],
+    reach: NDArray[Any],
+    file: Path | str,
+    say: Callable[[str], None] = lambda text: None,
+) -> tuple[KnownBase | UnboundedBase, ...]:
     """What each ground of a case is to those that stand on it: a `contact.base_plate.BasePlate` or
     what answers as it does.
 
@@ -53,7 +73,9 @@ def bases_of(case, standing, joints, reach: np.ndarray, file, say=lambda text: N
     )
 
 
-def feet_on(standing, joints, ground: int) -> list[np.ndarray]:
+def feet_on(
+    standing: Sequence[Standing | Part], joints: Iterable[Joint], ground: int
+) -> list[NDArray[Any]]:
     """Places (n, 3) [m] of the nodes of each foot on a ground."""
     return [
         standing[joint.slave].center
@@ -65,7 +87,14 @@ def feet_on(standing, joints, ground: int) -> list[np.ndarray]:
     ]
 
 
-def _base(case, name: str, feet, reach, file, say):
+def _base(
+    case: Case,
+    name: str,
+    feet: list[NDArray[Any]],
+    reach: NDArray[Any],
+    file: Path | str,
+    say: Callable[[str], None],
+) -> KnownBase | UnboundedBase:
     """As `bases_of`, of one ground below feet, each (n, 3) [m]."""
     ground = case.grounds[name]
     if ground.kind in ("rigid", "pad") or not feet:
@@ -86,7 +115,7 @@ def _base(case, name: str, feet, reach, file, say):
     return _plate(case, name, ground, sized, feet, file, say)
 
 
-def sized_ground(name: str, ground: Ground, feet: list[np.ndarray], file) -> Sized:
+def sized_ground(name: str, ground: Ground, feet: list[NDArray[Any]], file: Path | str) -> Sized:
     """A ground with the sizes that it leaves open, from the feet (n, 3) [m] on it.
 
     Raises
@@ -98,8 +127,8 @@ def sized_ground(name: str, ground: Ground, feet: list[np.ndarray], file) -> Siz
     smallest = sides[np.argmin(sides.min(axis=1))]
     shorter, longer = sides.min(), sides.max()
 
-    def stated(key, value):
-        given = getattr(ground, key)
+    def stated(key: str, value: float) -> float:
+        given: float | None = getattr(ground, key)
         return value if given is None else given
 
     fine = stated(
@@ -129,12 +158,12 @@ def sized_ground(name: str, ground: Ground, feet: list[np.ndarray], file) -> Siz
         )
         lines.append(plate_line(spans, middle - length / 2, middle + length / 2, fine, largest))
     thickness = stated("thickness_m", shorter / 4)
-    return Sized(*lines, depths(thickness, fine, largest), fine, allowance)
+    return Sized(lines[0], lines[1], depths(thickness, fine, largest), fine, allowance)
 
 
-def _joined(spans, fine: float) -> list[tuple[float, float]]:
+def _joined(spans: Iterable[tuple[float, float]], fine: float) -> list[tuple[float, float]]:
     """Spans (start, end) [m] one after another; those less than two fine elements apart are one."""
-    found = []
+    found: list[tuple[float, float]] = []
     for start, end in sorted(spans):
         if found and start < found[-1][1] + 2 * fine:
             found[-1] = found[-1][0], max(found[-1][1], end)
@@ -143,7 +172,15 @@ def _joined(spans, fine: float) -> list[tuple[float, float]]:
     return found
 
 
-def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
+def _plate(
+    case: Case,
+    name: str,
+    ground: Ground,
+    sized: Sized,
+    feet: list[NDArray[Any]],
+    file: Path | str,
+    say: Callable[[str], None],
+) -> KnownBase:
     """The plate as it is kept, its compliance found if it is not on disk, or damaged."""
     from fecolumn.contact.known_base import LEAST_REACH, under
     from fecolumn.structures.kept_plate import KeptPlate, keep_plate, plate_is_kept
@@ -165,7 +202,7 @@ def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
     key = key_of([lines, material, sized.allowance, [foot[:, :2].tolist() for foot in feet]])
     folder = cache_folder() / f"ground-{key}"
 
-    def make():
+    def make() -> BasePlate:
         return plate_of(sized, ground)
 
     if not plate_is_kept(folder):
@@ -190,7 +227,7 @@ def _plate(case, name: str, ground: Ground, sized: Sized, feet, file, say):
     return KeptPlate(folder, make)
 
 
-def plate_mesh(sized: Sized):
+def plate_mesh(sized: Sized) -> BrickMesh:
     """Mesh of a plate of these sizes, its top at z = 0."""
     from fecolumn.mesh.bricks import BASE
     from fecolumn.mesh.gmsh_section import swept_grid
@@ -198,15 +235,16 @@ def plate_mesh(sized: Sized):
     return swept_grid(sized.x, sized.y, sized.z[::-1], BASE)
 
 
-def plate_of(sized: Sized, ground: Ground):
+def plate_of(sized: Sized, ground: Ground) -> BasePlate:
     """The BasePlate of a ground of these sizes, its top at z = 0."""
     from mpi4py import MPI
 
     from fecolumn.contact.base_plate import BasePlate
     from fecolumn.fem.body import Body
 
-    def held(body):
+    def held(body: Body) -> tuple[dict[int, tuple[NDArray[Any], NDArray[Any]]], NDArray[Any]]:
         bottom = body.all_X[:, 2].min()
         return {}, np.flatnonzero(body.all_X[:, 2] < bottom - 1e-9 * sized.z[-1])
 
-    return BasePlate(Body(MPI.COMM_SELF, plate_mesh(sized), ground, 1, held))
+    body = Body(MPI.COMM_SELF, plate_mesh(sized), ground, 1, held)
+    return BasePlate(body)  # type: ignore[no-untyped-call]  # contact has no types

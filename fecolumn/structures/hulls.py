@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from pathlib import Path
+
 import numpy as np
 
+from fecolumn.case.case import Case
 from fecolumn.contact.convex import Hulls, hull_of, is_convex_body, no_hull
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.bodies import Drawing
-from fecolumn.structures.model import FoundContact
+from fecolumn.structures.model import FoundContact, HullOutline
 from fecolumn.structures.patches import Patch
 
 #: Name of the surface of a body that has the corners of its hull.
@@ -31,7 +35,7 @@ def hull_patch(drawing: Drawing) -> Patch:
     )
 
 
-def hulls_of_parts(outlines) -> list[Hulls]:
+def hulls_of_parts(outlines: Iterable[HullOutline | None]) -> list[Hulls]:
     """Hull of each of `StructureModel.outlines`, none of a part that has no outline or is not
     convex.
     """
@@ -45,7 +49,12 @@ def hulls_of_parts(outlines) -> list[Hulls]:
     return [made[id(outline)] for outline in outlines]
 
 
-def found_contact(case, places: dict, outlines: dict, file) -> FoundContact | None:
+def found_contact(
+    case: Case,
+    places: dict[tuple[str, int], int],
+    outlines: dict[str, HullOutline | None],
+    file: Path | str,
+) -> FoundContact | None:
     """Contact of a case that is found; None where there is none.
 
     Parameters
@@ -65,6 +74,7 @@ def found_contact(case, places: dict, outlines: dict, file) -> FoundContact | No
     chosen = case.contact.between
     for name in dict.fromkeys(name for name, _ in case.found):
         outline = outlines[name]
+        assert outline is not None  # matrices, which have none, are refused by the case
         hull = hull_of(np.array(outline["points"]), outline["volume"])
         if not is_convex_body(hull)[0]:
             raise InputError(

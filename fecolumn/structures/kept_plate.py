@@ -9,12 +9,17 @@ import shutil
 import tempfile
 import warnings
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.contact.known_base import KnownBase, keep_base
 from fecolumn.foundation.digests import intact, note
 from fecolumn.foundation.lock import alone
+
+if TYPE_CHECKING:
+    from fecolumn.contact.base_plate import BasePlate
 
 
 class KeptPlate(KnownBase):
@@ -44,13 +49,13 @@ def plate_is_kept(folder: Path) -> bool:
     return intact(folder, "base.npz", *_names(0))
 
 
-def keep_plate(folder: Path, base: dict, plate) -> None:
+def keep_plate(folder: Path, base: dict[str, ArrayLike], plate: BasePlate) -> None:
     """Write a plate and what is known of it, all at once.
 
     Parameters
     ----------
     base
-        arrays of base.npz by name.
+        arrays and numbers of base.npz by name.
     plate
         `contact.base_plate.BasePlate`.
     """

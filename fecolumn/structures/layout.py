@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case.bodies import Plate, Storeys
+from fecolumn.case.bodies import Block, Cylinder, Plate, Storeys, Tube
+from fecolumn.case.case import Case
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.bodies import Drawing, drawing
 from fecolumn.structures.check import check_meetings
@@ -19,6 +21,7 @@ from fecolumn.structures.feet import ball_of, lifted
 from fecolumn.structures.hulls import HULL, hull_patch
 from fecolumn.structures.meetings import Meeting, meetings_of, place_of, zones_of
 from fecolumn.structures.patches import Patch, master_patch, slave_patch
+from fecolumn.structures.shapes import Spot
 from fecolumn.structures.size import refuse_too_large
 
 
@@ -37,7 +40,7 @@ class ContactPair:
     master: tuple[str, int] | None
     master_surface: str | None
     pair: int = -1
-    outlines: tuple = ()
+    outlines: tuple[list[list[list[float]]], ...] = ()
     gap: float = 0.0
 
 
@@ -52,7 +55,7 @@ class Layout:
     contacts: tuple[ContactPair, ...]
 
 
-def layout_of(case, file) -> Layout:
+def layout_of(case: Case, file: Path | str) -> Layout:
     """Mesh the bodies of a case, plates finely where others meet them, and find their contacts.
 
     Raises
@@ -82,16 +85,11 @@ def layout_of(case, file) -> Layout:
                 case.joints[meeting.interface].on,
                 f'must be the slave: the foot of "{meeting.master[0]}" is not flat',
             )
-    patches, contacts, edges = (
-        {name: {} for name in case.bodies},
-        [],
-        # the points of a pad are those of one face, however the other one lies below it
-        edges_of(
-            case,
-            drawings,
-            [one for one in meetings if case.joints[one.interface].stiffness_n_m3 is None],
-        ),
-    )
+    patches: dict[str, dict[str, Patch]] = {name: {} for name in case.bodies}
+    contacts: list[ContactPair] = []
+    # the points of a pad are those of one face, however the other one lies below it
+    without_pads = [one for one in meetings if case.joints[one.interface].stiffness_n_m3 is None]
+    edges = edges_of(case, drawings, without_pads)
     for body in case.bodies:
         patches[body] = _touching(case, body, drawings[body], meetings, edges)
     for body in case.bodies:
@@ -131,11 +129,13 @@ def layout_of(case, file) -> Layout:
     return Layout(drawings, patches, tuple(contacts))
 
 
-def _spots(case, drawings, meetings: list[Meeting]) -> dict[str, list]:
+def _spots(
+    case: Case, drawings: dict[str, Drawing], meetings: list[Meeting]
+) -> dict[str, list[Spot]]:
     """Where other bodies meet plates: (low x, high x, low y, high y, size) [m] in the drawing,
     twice the nodes' distance where those are midway, too.
     """
-    found = {}
+    found: dict[str, list[Spot]] = {}
     for meeting in meetings:
         for own, other in ((meeting.master, meeting.slave), (meeting.slave, meeting.master)):
             if (
@@ -171,10 +171,11 @@ def _spots(case, drawings, meetings: list[Meeting]) -> dict[str, list]:
 
 
 def _touching(
-    case, body: str, one: Drawing, meetings: list[Meeting], edges: list[Edge]
+    case: Case, body: str, one: Drawing, meetings: list[Meeting], edges: list[Edge]
 ) -> dict[str, Patch]:
     """Contact points of a body as slave by the names of its surfaces, all copies together."""
-    slaves, found = {}, {}
+    slaves: dict[int, int] = {}
+    found: dict[str, Patch] = {}
     for meeting in meetings:
         interface = case.joints[meeting.interface]
         if meeting.slave[0] == body:
@@ -186,7 +187,7 @@ def _touching(
             slaves[meeting.slave_face] = max(interior, slaves.get(meeting.slave_face, 0))
     for face, interior in slaves.items():
         drawn, name = one.faces[face], _surface_name(one.faces, face, "slave")
-        if name == "foot" and getattr(one.body, "foot_radius_m", None):
+        if name == "foot" and isinstance(one.body, (Tube, Cylinder, Block)):
             drawn = dataclasses.replace(drawn, corners=lifted(one.body, drawn.corners))
         found[name] = slave_patch(drawn, one.order, interior)
     for face in sorted({edge.lower_face for edge in edges if edge.lower[0] == body}):
@@ -200,7 +201,7 @@ def _touching(
 
 
 def _touched(
-    case,
+    case: Case,
     body: str,
     drawings: dict[str, Drawing],
     touching: dict[str, dict[str, Patch]],
@@ -210,7 +211,8 @@ def _touched(
     """Nodes of a body as master by the names of its surfaces, all copies together: those near which
     points of its slaves may come.
     """
-    zones, one = {}, drawings[body]
+    zones: dict[int, set[tuple[float, ...]]] = {}
+    one = drawings[body]
     for meeting in meetings:
         if meeting.master and meeting.master[0] == body:
             faces = drawings[meeting.slave[0]].faces

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.mesh.base_plate import growing_count, growing_steps
 from fecolumn.mesh.column import divisions
 
+#: Low and high end of a spot along a line, and element size in it [m].
+Span = tuple[float, float, float]
 
-def fine_at_ends(length: float, fine: float, coarse: float) -> np.ndarray:
+
+def fine_at_ends(length: float, fine: float, coarse: float) -> NDArray[Any]:
     """Grid line (n,) from 0 to `length` [m] with steps near `fine` at both ends, growing to
     `coarse` in the middle.
     """
@@ -16,7 +23,8 @@ def fine_at_ends(length: float, fine: float, coarse: float) -> np.ndarray:
         return np.linspace(0.0, length, max(2, divisions(length, fine)) + 1)
     half = np.concatenate([[fine], growing_steps(length / 2 - fine, fine, coarse)])
     line = np.concatenate([[0.0], np.cumsum(np.concatenate([half, half[::-1]]))])
-    return line * (length / line[-1])
+    scaled: NDArray[Any] = line * (length / line[-1])
+    return scaled
 
 
 def count_at_ends(length: float, fine: float, coarse: float) -> int:
@@ -28,7 +36,7 @@ def count_at_ends(length: float, fine: float, coarse: float) -> int:
     )
 
 
-def fine_at_spots(length: float, spots, coarse: float) -> np.ndarray:
+def fine_at_spots(length: float, spots: Iterable[Span], coarse: float) -> NDArray[Any]:
     """Grid line (n,) from -length/2 to length/2 [m], fine in spots and growing to `coarse` between
     them.
 
@@ -54,7 +62,7 @@ def fine_at_spots(length: float, spots, coarse: float) -> np.ndarray:
     return np.array(line)
 
 
-def count_at_spots(length: float, spots, coarse: float) -> int:
+def count_at_spots(length: float, spots: Iterable[Span], coarse: float) -> int:
     """Steps of `fine_at_spots`, told without making them."""
     count, end = 0, -length / 2
     for low, high, fine in _joined(spots, length):
@@ -72,7 +80,7 @@ def count_at_spots(length: float, spots, coarse: float) -> int:
     return count
 
 
-def _between(low: float, high: float, fine: float, coarse: float, from_spot: bool) -> np.ndarray:
+def _between(low: float, high: float, fine: float, coarse: float, from_spot: bool) -> NDArray[Any]:
     """Places after `low` up to `high`, where a spot begins: steps that shrink towards it, and grow
     from a spot before.
     """
@@ -81,16 +89,16 @@ def _between(low: float, high: float, fine: float, coarse: float, from_spot: boo
     else:
         half = growing_steps((high - low) / 2, fine, coarse)
         steps = np.concatenate([half, half[::-1]])
-    places = low + np.cumsum(steps) * ((high - low) / steps.sum())
+    places: NDArray[Any] = low + np.cumsum(steps) * ((high - low) / steps.sum())
     places[-1] = high
     return places
 
 
-def _joined(spots, length: float) -> list[tuple[float, float, float]]:
+def _joined(spots: Iterable[Span], length: float) -> list[Span]:
     """Spots within the line by rising place, those joined that leave less than a step between them;
     slivers at the ends are taken in.
     """
-    found = []
+    found: list[Span] = []
     for low, high, fine in sorted(
         (max(low, -length / 2), min(high, length / 2), fine) for low, high, fine in spots
     ):

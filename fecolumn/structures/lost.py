@@ -8,7 +8,7 @@ from fecolumn.contact.overturning import FAR, Limits
 from fecolumn.contact.points import GROUND
 from fecolumn.structures.barrier import is_level, stances
 from fecolumn.structures.model import StructureModel
-from fecolumn.structures.place import Standing, supports_of
+from fecolumn.structures.place import Standing, Supports, supports_of
 
 
 def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
@@ -74,7 +74,7 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
     return Limits(tilts, rows, np.ascontiguousarray(np.concatenate(corners)))
 
 
-def _moves_with_ground(place: int, supports: list, standing: list[Standing]) -> bool:
+def _moves_with_ground(place: int, supports: list[Supports], standing: list[Standing]) -> bool:
     """Whether nothing stands on a part on the ground, or it is one of equal columns below one slab
     and there is nothing else.
     """

@@ -3,22 +3,31 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
 
 from scipy.spatial import ConvexHull
 
-from fecolumn.case.bodies import Matrices, Storeys
-from fecolumn.case.case import identity
+from fecolumn.case.bodies import Storeys
+from fecolumn.case.body_keys import WithMaterial
+from fecolumn.case.case import Case, identity
 from fecolumn.case.check_bodies import material_of
 from fecolumn.mesh.mass import mass_properties
+from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.check import (
     check_layout,
     check_links,
     check_points,
 )
 from fecolumn.structures.layout import Layout, layout_of
+from fecolumn.structures.model import HullOutline
+from fecolumn.structures.patches import Patch
 from fecolumn.structures.size import size_of
 from fecolumn.structures.store import (
     KEPT_MODES,
+    KeptLayout,
+    MadeBody,
     keep_body,
     keep_layout,
     kept_layout,
@@ -29,7 +38,9 @@ from fecolumn.structures.store import (
 _LOOSE = ("at_m", "copies_m", "modes", "damping_ratio", "material")
 
 
-def layout_on_disk(case, file, say, fields: bool = False) -> dict:
+def layout_on_disk(
+    case: Case, file: Path | str, say: Callable[[str], None], fields: bool = False
+) -> KeptLayout:
     """The layout as `store.keep_layout` keeps it, made if it is not on disk; fields as of
     `store.kept_layout`.
     """
@@ -42,12 +53,12 @@ def layout_on_disk(case, file, say, fields: bool = False) -> dict:
     return found
 
 
-def kept_keys(case, file="case") -> dict[str, str]:
+def kept_keys(case: Case, file: Path | str = "case") -> dict[str, str]:
     """Key of each body's reduced model in `store`, on disk with the modes all over it."""
     return layout_on_disk(case, file, lambda text: None, fields=True)["models"]
 
 
-def _geometry(case) -> dict:
+def _geometry(case: Case) -> dict[str, Any]:
     """What of a case decides its layout and the reduced bodies."""
     bodies = {
         name: _made_of(case, name) | {"places": body.places} for name, body in case.bodies.items()
@@ -64,7 +75,7 @@ def _geometry(case) -> dict:
     } | ({"found": sorted({name for name, _ in case.found})} if case.found else {})
 
 
-def _made_of(case, name: str) -> dict:
+def _made_of(case: Case, name: str) -> dict[str, Any]:
     """What of a body's keys decides its reduced model."""
     body = case.bodies[name]
     table = {
@@ -72,7 +83,7 @@ def _made_of(case, name: str) -> dict:
         for key, value in identity(body).items()
         if key not in _LOOSE or isinstance(body, Storeys) and key == "damping_ratio"
     }
-    if not isinstance(body, Matrices):
+    if isinstance(body, WithMaterial):
         material = dataclasses.asdict(material_of(body, case.materials))
         if not isinstance(body, Storeys):
             del material["damping_ratio"]
@@ -82,7 +93,9 @@ def _made_of(case, name: str) -> dict:
     return table | {"modes": max(case.modes_of(name), KEPT_MODES)}
 
 
-def keep_models(case, layout: Layout, file, say) -> dict:
+def keep_models(
+    case: Case, layout: Layout, file: Path | str, say: Callable[[str], None]
+) -> KeptLayout:
     """Check a layout and have its bodies on disk; what `store.keep_layout` keeps of it."""
     check_drawings(case, layout, file)
     keys = {}
@@ -95,15 +108,20 @@ def keep_models(case, layout: Layout, file, say) -> dict:
         keys[name] = key_of([_made_of(case, name), said])
         count = max(case.modes_of(name), KEPT_MODES)
 
-        def make(name=name, one=one, patches=patches, count=count):
+        def make(
+            name: str = name,
+            one: Drawing = one,
+            patches: dict[str, Patch] = patches,
+            count: int = count,
+        ) -> MadeBody:
             say(f'making the reduced model of "{name}" (once)')
             return one.model(patches, count)
 
         keep_body(keys[name], make)
-    return {"models": keys} | said_of(layout)
+    return {"models": keys, **said_of(layout)}
 
 
-def check_drawings(case, layout: Layout, file) -> None:
+def check_drawings(case: Case, layout: Layout, file: Path | str) -> None:
     """Refuse bodies that overlap or stand on nothing, those with too many contact points, and links
     to nowhere.
     """
@@ -113,7 +131,7 @@ def check_drawings(case, layout: Layout, file) -> None:
         check_points(name, layout.patches[name], file)
 
 
-def said_of(layout: Layout) -> dict:
+def said_of(layout: Layout) -> KeptLayout:
     """What `assembled` takes of a layout."""
     sizes = {name: one.shape.size for name, one in layout.drawings.items() if one.shape}
     return {
@@ -124,7 +142,7 @@ def said_of(layout: Layout) -> dict:
     }
 
 
-def _outline(drawing) -> dict | None:
+def _outline(drawing: Drawing) -> HullOutline | None:
     """Corners (n, 3) [m] of the convex hull of a drawing, and its volume [m3]."""
     if drawing.shape is None:
         return None
@@ -136,7 +154,7 @@ def _outline(drawing) -> dict | None:
     }
 
 
-def _extents(layout: Layout) -> dict:
+def _extents(layout: Layout) -> dict[str, list[list[float]]]:
     """Lowest and highest place (3,) [m] of each body by name, as it is drawn."""
     return {
         name: [one.points.min(axis=0).tolist(), one.points.max(axis=0).tolist()]

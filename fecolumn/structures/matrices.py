@@ -4,12 +4,16 @@ touch.
 
 from __future__ import annotations
 
+import functools
 import zipfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any, NoReturn
 
 import numpy as np
 import scipy.sparse as sparse
+from numpy.typing import NDArray
 from scipy.linalg import eigh, qr
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from scipy.spatial import ConvexHull, Delaunay, QhullError
@@ -26,6 +30,8 @@ from fecolumn.structures.reduction import top_face
 _EXACT = 1e-6
 # Degrees of freedom up to which all modes are found at once
 _DENSE = 1000
+# Raises the InputError of what a file may be instead
+Refusal = Callable[[str], NoReturn]
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +42,9 @@ class SystemMatrices:
 
     mass: sparse.csc_matrix
     stiffness: sparse.csc_matrix
-    dofs: np.ndarray
-    coordinates: np.ndarray
-    triangles: np.ndarray
+    dofs: NDArray[Any]
+    coordinates: NDArray[Any]
+    triangles: NDArray[Any]
 
     def faces(self) -> list[Face]:
         """Plane faces in which the contact nodes lie."""
@@ -62,7 +68,7 @@ class SystemMatrices:
         return sorted(found, key=lambda face: -face.area)
 
 
-def read_system(key: str, body: Matrices, file) -> SystemMatrices:
+def read_system(key: str, body: Matrices, file: Path | str) -> SystemMatrices:
     """Matrices and nodes of a body's files.
 
     Raises
@@ -71,7 +77,7 @@ def read_system(key: str, body: Matrices, file) -> SystemMatrices:
         files that cannot be read, or whose matrices and nodes do not fit one another.
     """
 
-    def refuse(name, allowed):
+    def refuse(name: str, allowed: str) -> NoReturn:
         raise InputError(file, f"{key}.{name}", getattr(body, name), allowed)
 
     found = {}
@@ -79,7 +85,7 @@ def read_system(key: str, body: Matrices, file) -> SystemMatrices:
         matrix = _matrix(
             getattr(body, f"{name}_file"),
             name,
-            lambda allowed, own=name: refuse(f"{own}_file", allowed),
+            functools.partial(refuse, f"{name}_file"),
         )
         if (
             matrix.shape[0] != matrix.shape[1]
@@ -97,20 +103,18 @@ def read_system(key: str, body: Matrices, file) -> SystemMatrices:
             f"must have as many rows as mass_file, {found['mass'].shape[0]}, has "
             f"{found['stiffness'].shape[0]}",
         )
-    dofs, coordinates, triangles = _nodes(
-        body.nodes_file, lambda allowed: refuse("nodes_file", allowed)
-    )
+    dofs, coordinates, triangles = _nodes(body.nodes_file, functools.partial(refuse, "nodes_file"))
     rows = found["mass"].shape[0]
     if len(np.unique(dofs)) < dofs.size or dofs.min() < 0 or dofs.max() >= rows:
         refuse(
             "nodes_file", f"its dofs must be different rows of the matrices, from 0 to {rows - 1}"
         )
     if triangles is None:
-        triangles = _hull(coordinates, lambda allowed: refuse("nodes_file", allowed))
+        triangles = _hull(coordinates, functools.partial(refuse, "nodes_file"))
     return SystemMatrices(found["mass"], found["stiffness"], dofs, coordinates, triangles)
 
 
-def _matrix(path: str, name: str, refuse) -> sparse.csc_matrix:
+def _matrix(path: str, name: str, refuse: Refusal) -> sparse.csc_matrix:
     import scipy.io
 
     try:
@@ -124,7 +128,7 @@ def _matrix(path: str, name: str, refuse) -> sparse.csc_matrix:
         refuse(f"cannot be read as MatrixMarket or .npz: {error}")
 
 
-def _nodes(path: str, refuse):
+def _nodes(path: str, refuse: Refusal) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any] | None]:
     try:
         if Path(path).suffix == ".npz":
             with np.load(path, allow_pickle=False) as arrays:
@@ -147,7 +151,7 @@ def _nodes(path: str, refuse):
         refuse(f"cannot be read as nodes: {error}")
 
 
-def _hull(coordinates: np.ndarray, refuse) -> np.ndarray:
+def _hull(coordinates: NDArray[Any], refuse: Refusal) -> NDArray[Any]:
     """Triangles (t, 3) of nodes: every plane face of their convex hull, with the nodes that lie
     inside it.
     """
@@ -155,7 +159,8 @@ def _hull(coordinates: np.ndarray, refuse) -> np.ndarray:
         hull = ConvexHull(coordinates)
     except QhullError:
         refuse("its nodes must not lie in one plane: give the triangles of its faces")
-    size, found, done = np.ptp(coordinates, axis=0).max(), [], []
+    size, found = np.ptp(coordinates, axis=0).max(), []
+    done: list[NDArray[Any]] = []
     for *normal, offset in hull.equations:
         if any(
             np.abs(np.array([*normal, offset / size]) - plane).max() < SAME_PLANE for plane in done
@@ -163,7 +168,8 @@ def _hull(coordinates: np.ndarray, refuse) -> np.ndarray:
             continue
         done.append(np.array([*normal, offset / size]))
         nodes = np.flatnonzero(np.abs(coordinates @ normal + offset) < SAME_PLANE * size)
-        axes = Face(0, np.array(normal), -offset, None, None).axes
+        cells, corners = np.zeros((0, 3), np.int64), np.zeros((0, 3, 3))
+        axes = Face(0, np.array(normal), -offset, cells, corners).axes
         plane = coordinates[nodes] @ axes[:, :2]
         triangles = Delaunay(plane).simplices
         one, two = (plane[triangles[:, k]] - plane[triangles[:, 0]] for k in (1, 2))
@@ -174,7 +180,11 @@ def _hull(coordinates: np.ndarray, refuse) -> np.ndarray:
 
 
 def matrices_model(
-    system: SystemMatrices, faces: list[Face], patches: dict[str, Patch], n_modes: int, refuse
+    system: SystemMatrices,
+    faces: list[Face],
+    patches: dict[str, Patch],
+    n_modes: int,
+    refuse: Refusal,
 ) -> BodyModel:
     """Reduce a body given by its matrices, as `reduction.elastic_model` does one of finite
     elements.
@@ -227,10 +237,11 @@ def matrices_model(
     masses = rigid.T @ (mass @ rigid)
     shares, momentum = np.linalg.inv(masses), mass @ rigid
 
-    def elastic(columns):
-        return columns - rigid @ (shares @ (momentum.T @ columns))
+    def elastic(columns: NDArray[Any]) -> NDArray[Any]:
+        strained: NDArray[Any] = columns - rigid @ (shares @ (momentum.T @ columns))
+        return strained
 
-    def response(forces):
+    def response(forces: NDArray[Any]) -> NDArray[Any]:
         forces = forces - momentum @ (shares @ (rigid.T @ forces))
         moved = np.zeros_like(forces)
         moved[free] = factor.solve(np.ascontiguousarray(forces[free]))
@@ -266,7 +277,12 @@ def matrices_model(
     )
 
 
-def _modes(mass, stiffness, response, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _modes(
+    mass: sparse.csc_matrix,
+    stiffness: sparse.csc_matrix,
+    response: Callable[[NDArray[Any]], NDArray[Any]],
+    count: int,
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Squares (m,) [1/s2] of the lowest elastic frequencies and shapes (N, m) of unit modal
     mass.
     """
@@ -284,7 +300,7 @@ def _modes(mass, stiffness, response, count: int) -> tuple[np.ndarray, np.ndarra
     return squares[order], shapes[:, order]
 
 
-def _rigid(arms: np.ndarray) -> np.ndarray:
+def _rigid(arms: NDArray[Any]) -> NDArray[Any]:
     """Rigid motions (3 n, 6) of points with arms (n, 3): translations, and rotations about the
     origin.
     """
@@ -297,15 +313,17 @@ def _rigid(arms: np.ndarray) -> np.ndarray:
     )
 
 
-def _cross(center: np.ndarray) -> np.ndarray:
+def _cross(center: NDArray[Any]) -> NDArray[Any]:
     """Translations by which rotations about the origin become rotations about `center`: -e_j x
     center in column j.
     """
-    return -np.stack([np.cross(axis, center) for axis in np.eye(3)], axis=1)
+    ways: NDArray[Any] = -np.stack([np.cross(axis, center) for axis in np.eye(3)], axis=1)
+    return ways
 
 
-def _rows(coordinates: np.ndarray, positions: np.ndarray) -> np.ndarray:
+def _rows(coordinates: NDArray[Any], positions: NDArray[Any]) -> NDArray[Any]:
     """Nodes (k,) at positions (k, 3)."""
     from scipy.spatial import cKDTree
 
-    return cKDTree(coordinates).query(positions)[1]
+    nodes: NDArray[Any] = cKDTree(coordinates).query(positions)[1]
+    return nodes

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, NoReturn
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.case import Case
+from fecolumn.case.joint import Interface
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import SAME_PLANE, Face, over, triangles_of
 from fecolumn.structures.feet import ball_of
@@ -54,14 +60,15 @@ class _Gap:
     width: float
 
     @property
-    def sides(self) -> list[tuple]:
+    def sides(self) -> list[tuple[tuple[str, int] | None, int]]:
         """Copy and face of both bodies, of the slave alone on the ground."""
         one = self.meeting
+        found: list[tuple[tuple[str, int] | None, int]]
         found = [(one.slave, one.slave_face), (one.master, one.master_face)]
         return found if one.master else found[:1]
 
 
-def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
+def meetings_of(case: Case, faces: dict[str, list[Face]], file: Path | str) -> list[Meeting]:
     """Meetings of all interfaces of a case, in its order. Beside one that names all voussoirs of an
     arch, one that names two single bodies stands for what these meet in.
 
@@ -89,22 +96,27 @@ def meetings_of(case, faces: dict[str, list[Face]], file) -> list[Meeting]:
     return [meeting for meetings in found.values() for meeting in meetings]
 
 
-def _is_arch(case, *names: str) -> bool:
+def _is_arch(case: Case, *names: str) -> bool:
     """Whether one of the names stands for all voussoirs of an arch."""
     return any(name not in case.grounds and not _is_body(case, name) for name in names)
 
 
-def _is_body(case, name: str) -> bool:
+def _is_body(case: Case, name: str) -> bool:
     """Whether a name is that of a body or of one of its copies."""
     return name in case.bodies or name.rpartition(" ")[0] in case.bodies
 
 
-def _of_interface(case, name: str, faces, file) -> list[Meeting]:
+def _of_interface(
+    case: Case, name: str, faces: dict[str, list[Face]], file: Path | str
+) -> list[Meeting]:
     interface = case.joints[name]
     slaves = _copies(case, interface.slave)
     ground = case.grounds.get(interface.on)
-    masters = _copies(case, interface.on) if ground is None else [None]
-    found, gaps = [], []
+    masters: Sequence[tuple[str, int] | None] = (
+        _copies(case, interface.on) if ground is None else [None]
+    )
+    found: list[Meeting] = []
+    gaps: list[_Gap] = []
     for slave in slaves:
         for master in masters:
             if master == slave:
@@ -114,7 +126,9 @@ def _of_interface(case, name: str, faces, file) -> list[Meeting]:
             )
             found += meetings
             gaps += apart if not meetings else []
-    touching = {(one.slave, one.slave_face) for one in found}
+    touching: set[tuple[tuple[str, int] | None, int]] = {
+        (one.slave, one.slave_face) for one in found
+    }
     touching |= {(one.master, one.master_face) for one in found if one.master}
     gaps = [one for one in gaps if not touching & set(one.sides)]
     if interface.open or not found and interface.open is None:
@@ -135,7 +149,8 @@ def _across_gaps(gaps: list[_Gap]) -> list[Meeting]:
     """Meetings of faces that look at one another across a gap: of each face with the nearest one,
     where that has none nearer, either.
     """
-    least, gaps = {}, [one for one in gaps if one.gap > 0]
+    least: dict[tuple[tuple[str, int] | None, int], float] = {}
+    gaps = [one for one in gaps if one.gap > 0]
     for one in gaps:
         for side in one.sides:
             least[side] = min(least.get(side, np.inf), one.gap)
@@ -146,7 +161,15 @@ def _across_gaps(gaps: list[_Gap]) -> list[Meeting]:
     ]
 
 
-def _refuse(case, name: str, interface, gaps: list[_Gap], near: bool, faces, file) -> None:
+def _refuse(
+    case: Case,
+    name: str,
+    interface: Interface,
+    gaps: list[_Gap],
+    near: bool,
+    faces: dict[str, list[Face]],
+    file: Path | str,
+) -> NoReturn:
     """Raise the InputError of a joint whose bodies do not touch at the start.
 
     The message names the two bodies, how far apart their nearest faces are or how deep the bodies
@@ -197,7 +220,7 @@ def _refuse(case, name: str, interface, gaps: list[_Gap], near: bool, faces, fil
     raise InputError(file, f"joints.{name}", [slave, on], told)
 
 
-def _crossing(case, name: str, faces) -> tuple[str, float]:
+def _crossing(case: Case, name: str, faces: dict[str, list[Face]]) -> tuple[str, float]:
     """Names of the bodies of a joint that lie deepest in one another, and how deep [m]; 0 where
     none do.
     """
@@ -216,14 +239,14 @@ def _crossing(case, name: str, faces) -> tuple[str, float]:
     return found
 
 
-def _apart(one: _Gap, faces) -> str:
+def _apart(one: _Gap, faces: dict[str, list[Face]]) -> str:
     """The way [m] that takes the slave of an overlap out of its master, in words."""
     body, _ = one.meeting.slave
     way = faces[body][one.meeting.slave_face].normal * one.gap + 0.0
     return "[" + ", ".join(f"{part:.4g}" for part in way) + "]"
 
 
-def _inclined(case, name: str, faces) -> str:
+def _inclined(case: Case, name: str, faces: dict[str, list[Face]]) -> str:
     """Which two faces with a common edge or corner are inclined to one another by a few degrees, in
     words; "" where none are.
     """
@@ -254,24 +277,24 @@ def _gap_text(gap: float) -> str:
     return f"leave a gap of {gap:.4g} m" if gap > 0 else f"overlap by {-gap:.4g} m"
 
 
-def _name(case, copy: tuple[str, int]) -> str:
+def _name(case: Case, copy: tuple[str, int]) -> str:
     return case.names_of(copy[0])[copy[1]]
 
 
-def _quoted(case, copy) -> str:
+def _quoted(case: Case, copy: tuple[str, int] | None) -> str:
     return "the ground" if copy is None else f'"{_name(case, copy)}"'
 
 
-def _copies(case, name: str) -> list[tuple[str, int]]:
+def _copies(case: Case, name: str) -> list[tuple[str, int]]:
     return list(case.copies_of(name))
 
 
-def place_of(case, copy: tuple[str, int]) -> np.ndarray:
+def place_of(case: Case, copy: tuple[str, int]) -> NDArray[Any]:
     """Place (3,) [m] of a copy: where the origin of its drawing is at the start."""
     return np.array(case.bodies[copy[0]].places[copy[1]])
 
 
-def allowance_of(case, meeting: Meeting, face: Face) -> float:
+def allowance_of(case: Case, meeting: Meeting, face: Face) -> float:
     """How far [m] the slave of a meeting, with this face, may slide."""
     stated, box = case.joints[meeting.interface].allowance_m, plane_box(face)
     if stated is not None:
@@ -281,13 +304,14 @@ def allowance_of(case, meeting: Meeting, face: Face) -> float:
 
 
 def zones_of(
-    case, meeting: Meeting, slave: Face, points: np.ndarray, master: Face
+    case: Case, meeting: Meeting, slave: Face, points: NDArray[Any], master: Face
 ) -> list[tuple[float, ...]]:
     """Zones (start 1, start 2, end 1, end 2, way) [m] of the master's face, along its tangents in
     its drawing, in which points of the slave stand and may come: as far as it may slide around each
     side of its outlines, along which a rim's points roll, and around each of its contact points (k,
     3) [m].
     """
+    assert meeting.master is not None
     allowance, shift = (
         allowance_of(case, meeting, slave),
         place_of(case, meeting.slave) - place_of(case, meeting.master),
@@ -299,13 +323,19 @@ def zones_of(
 
 
 def _of_pair(
-    case, name: str, slave, master, faces, twice: bool
+    case: Case,
+    name: str,
+    slave: tuple[str, int],
+    master: tuple[str, int] | None,
+    faces: dict[str, list[Face]],
+    twice: bool,
 ) -> tuple[list[Meeting], list[_Gap]]:
     """Meetings of two copies; and of those faces that look at one another elsewhere.
 
     twice: the two are looked at the other way round, too, so that of two faces one way is left out.
     """
-    found, gaps = [], []
+    found: list[Meeting] = []
+    gaps: list[_Gap] = []
     place = place_of(case, slave)
     for number, face in enumerate(faces[slave[0]]):
         box = plane_box(face)
@@ -340,7 +370,12 @@ def _of_pair(
     return found, gaps
 
 
-def _meeting(case, name: str, one, other) -> Meeting:
+def _meeting(
+    case: Case,
+    name: str,
+    one: tuple[tuple[str, int], int, Face],
+    other: tuple[tuple[str, int], int, Face],
+) -> Meeting:
     """The meeting of two faces, each (copy, number, Face): the slave is the smaller one, of equal
     ones the upper.
 
@@ -358,17 +393,18 @@ def _meeting(case, name: str, one, other) -> Meeting:
     return Meeting(name, copy, number, other_copy, other_number)
 
 
-def _is_ball(case, copy, face: Face) -> bool:
+def _is_ball(case: Case, copy: tuple[str, int], face: Face) -> bool:
     """Whether a face is a foot that touches with balls: only a slave can."""
-    return ball_of(case.bodies[copy[0]]) is not None and face.normal[2] < -1 + 1e-9
+    return ball_of(case.bodies[copy[0]]) is not None and bool(face.normal[2] < -1 + 1e-9)
 
 
-def _is_upper(face: Face, slave, master) -> bool:
+def _is_upper(face: Face, slave: tuple[str, int], master: tuple[str, int]) -> bool:
     """Of two copies of one body the upper one is the slave; of two side by side the first."""
-    return face.normal[2] < -_OPPOSITE or abs(face.normal[2]) <= _OPPOSITE and slave < master
+    up = face.normal[2]
+    return bool(up < -_OPPOSITE or abs(up) <= _OPPOSITE and slave < master)
 
 
-def _overlap(face: Face, corners: np.ndarray, other: Face) -> bool:
+def _overlap(face: Face, corners: NDArray[Any], other: Face) -> bool:
     """Whether a face, its corners (n, 4 or 3, 2) [m] in the plane of another, lies over part of
     that, more than an edge.
     """
@@ -379,7 +415,7 @@ def _overlap(face: Face, corners: np.ndarray, other: Face) -> bool:
     if np.any(low - edge > other_high) or np.any(high + edge < other_low):
         return False
 
-    def tried(quads):
+    def tried(quads: NDArray[Any]) -> NDArray[Any]:
         # besides a point off the middle: corners and middles may all lie on edges of the other's
         # elements
         shares = _OFF_MIDDLE[: quads.shape[1]] / _OFF_MIDDLE[: quads.shape[1]].sum()

@@ -13,11 +13,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.contact.pad import Pad
 from fecolumn.contact.points import GROUND
+
+if TYPE_CHECKING:
+    from fecolumn.contact.base_plate import BasePlate
+    from fecolumn.contact.known_base import KnownBase
+    from fecolumn.contact.unbounded_base import UnboundedBase
 
 
 @dataclass(frozen=True)
@@ -32,23 +39,25 @@ class Surface:
         lies on it. (0, 3) where the surface is never a master.
     """
 
-    nodes: np.ndarray
-    origin: np.ndarray
-    axes: np.ndarray
-    areas: np.ndarray
-    outlines: np.ndarray
-    triangles: np.ndarray
+    nodes: NDArray[Any]
+    origin: NDArray[Any]
+    axes: NDArray[Any]
+    areas: NDArray[Any]
+    outlines: NDArray[Any]
+    triangles: NDArray[Any]
 
     @property
-    def normal(self) -> np.ndarray:
+    def normal(self) -> NDArray[Any]:
         """Unit normal (3,) out of the body."""
-        return self.axes[:, 2]
+        normal: NDArray[Any] = self.axes[:, 2]
+        return normal
 
-    def plane(self, arms: np.ndarray) -> np.ndarray:
+    def plane(self, arms: NDArray[Any]) -> NDArray[Any]:
         """Coordinates (..., 3) [m] along tangents and normal of points with arms (..., 3) [m] in
         the body's frame.
         """
-        return (arms - self.origin) @ self.axes
+        places: NDArray[Any] = (arms - self.origin) @ self.axes
+        return places
 
 
 @dataclass(frozen=True)
@@ -60,8 +69,8 @@ class StoreyDrifts:
     drift.
     """
 
-    drifts: np.ndarray
-    stiffness: np.ndarray
+    drifts: NDArray[Any]
+    stiffness: NDArray[Any]
 
 
 @dataclass(frozen=True)
@@ -84,22 +93,23 @@ class BodyModel:
     """
 
     mass: float
-    inertia: np.ndarray
-    center: np.ndarray
-    frequencies: np.ndarray
-    shapes: np.ndarray
-    flexibility: np.ndarray
-    arms: np.ndarray
+    inertia: NDArray[Any]
+    center: NDArray[Any]
+    frequencies: NDArray[Any]
+    shapes: NDArray[Any]
+    flexibility: NDArray[Any]
+    arms: NDArray[Any]
     dofs: int
     surfaces: dict[str, Surface]
-    marks: dict[str, tuple[np.ndarray, np.ndarray]]
-    damping: np.ndarray | None = None
+    marks: dict[str, tuple[NDArray[Any], NDArray[Any]]]
+    damping: NDArray[Any] | None = None
     storeys: StoreyDrifts | None = None
 
     @property
-    def reference(self) -> np.ndarray:
+    def reference(self) -> NDArray[Any]:
         """Positions (n, 3) [m] of the nodes in the drawing of the body."""
-        return self.arms + self.center
+        positions: NDArray[Any] = self.arms + self.center
+        return positions
 
     def with_modes(self, count: int) -> BodyModel:
         """The body with its `count` lowest elastic modes, or all it has; the others stay in the
@@ -139,11 +149,11 @@ class Part:
 
     name: str
     model: BodyModel
-    center: np.ndarray
-    rotation: np.ndarray
-    damping_ratio: float | np.ndarray
-    velocity: np.ndarray
-    spin: np.ndarray
+    center: NDArray[Any]
+    rotation: NDArray[Any]
+    damping_ratio: float | NDArray[Any]
+    velocity: NDArray[Any]
+    spin: NDArray[Any]
     held: int = -1
     airborne: bool = False
 
@@ -179,7 +189,7 @@ class Bond:
     energy [J/m2]: that it takes to fail, 0 of one that fails at once.
     """
 
-    rows: np.ndarray
+    rows: NDArray[Any]
     stiffness: float
     shear_stiffness: float
     tension: float
@@ -216,12 +226,12 @@ class Joint:
     master: int
     master_surface: str | None
     friction: float
-    law: np.ndarray
+    law: NDArray[Any]
     round: bool
     restitution: float
     ball: Ball | None = None
     pair: int = -1
-    outlines: tuple[np.ndarray, ...] = ()
+    outlines: tuple[NDArray[Any], ...] = ()
     rolling: float = 0.0
     pad: Pad | None = None
     ground: int = 0
@@ -259,9 +269,9 @@ class Link:
     name: str
     kind: str
     a: int
-    arm_a: np.ndarray
+    arm_a: NDArray[Any]
     b: int
-    arm_b: np.ndarray
+    arm_b: NDArray[Any]
     stiffness: float
     damping: float
     prestress: float
@@ -275,8 +285,17 @@ class Link:
     bends: float = math.inf
     power: float = 1.0
     slow: float = 0.0
-    shape_a: np.ndarray | None = None
-    shape_b: np.ndarray | None = None
+    shape_a: NDArray[Any] | None = None
+    shape_b: NDArray[Any] | None = None
+
+
+class HullOutline(TypedDict):
+    """Corners (n, 3) [m] of the convex hull of a body, arrays or as JSON has them, from the middle
+    of its drawing or from its centre of mass; its volume [m3].
+    """
+
+    points: NDArray[Any] | list[list[float]]
+    volume: float
 
 
 @dataclass(frozen=True)
@@ -300,24 +319,23 @@ class StructureModel:
     parts, joints, links: in the order of the case; joints and links name parts by their places.
     base: what the ground is to those that stand on it, as `structures.ground.bases_of` makes it;
     more: those of further grounds; levels: heights of all grounds [m].
-    outlines: of each part the corners `points` of its convex hull from its centre of mass [m] and
-    its `volume` [m3], None of one without elements. found: contact that is found, None where bodies
-    meet at their joints alone. observed: place of the part and name of its mark whose horizontal
-    displacement is u_top.
+    outlines: of each part, from its centre of mass, None of one without elements. found: contact
+    that is found, None where bodies meet at their joints alone. observed: place of the part and
+    name of its mark whose horizontal displacement is u_top.
     """
 
     parts: tuple[Part, ...]
     joints: tuple[Joint, ...]
     links: tuple[Link, ...]
-    base: object
+    base: BasePlate | KnownBase | UnboundedBase
     observed: tuple[int, str]
-    more: tuple = ()
+    more: tuple[BasePlate | KnownBase | UnboundedBase, ...] = ()
     levels: tuple[float, ...] = (0.0,)
-    outlines: tuple[dict | None, ...] = ()
+    outlines: tuple[HullOutline | None, ...] = ()
     found: FoundContact | None = None
 
     @property
-    def bases(self) -> tuple:
+    def bases(self) -> tuple[BasePlate | KnownBase | UnboundedBase, ...]:
         """What each ground is to those that stand on it."""
         return (self.base, *self.more)
 

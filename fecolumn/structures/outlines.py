@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import ConvexHull
 
 from fecolumn.mesh.bricks import outline_edges
@@ -14,7 +16,7 @@ from fecolumn.structures.faces import SAME_PLANE, Face, apart
 _STRAIGHT = 1e-3
 
 
-def outline_of(face: Face) -> np.ndarray:
+def outline_of(face: Face) -> NDArray[Any]:
     """Ends (n, 2, 3) [m] of the sides of the outer outlines of a face, counter-clockwise seen from
     outside, straight on no corner; holes are left out.
     """
@@ -24,7 +26,7 @@ def outline_of(face: Face) -> np.ndarray:
     return np.concatenate([loop for loop in _loops(face) if _area(loop @ face.axes[:, :2]) > 0])
 
 
-def convex_outline(face: Face) -> np.ndarray | None:
+def convex_outline(face: Face) -> NDArray[Any] | None:
     """Corners (n, 3) [m] of the outer outline of a face, counter-clockwise seen from outside; None
     where it is not convex.
     """
@@ -45,10 +47,11 @@ def convex_outline(face: Face) -> np.ndarray | None:
     covered = np.linalg.norm(plane[on, 1] - plane[on, 0], axis=1).sum()
     if abs(covered - np.linalg.norm(around[:, 1] - around[:, 0], axis=1).sum()) > 1e-3 * size:
         return None
-    return hull @ axes[:, :2].T + face.offset * face.normal
+    corners: NDArray[Any] = hull @ axes[:, :2].T + face.offset * face.normal
+    return corners
 
 
-def inwards(points: np.ndarray, sides: np.ndarray) -> np.ndarray:
+def inwards(points: NDArray[Any], sides: NDArray[Any]) -> NDArray[Any]:
     """How far (n,) [m] points (n, 2) are within the outline of sides (m, 2, 2), below 0 beyond
     it.
     """
@@ -61,7 +64,7 @@ def inwards(points: np.ndarray, sides: np.ndarray) -> np.ndarray:
     return np.where(inside, away, -away)
 
 
-def crossings(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def crossings(first: NDArray[Any], second: NDArray[Any]) -> NDArray[Any]:
     """Places (n, 2) [m] where sides (m, 2, 2) of two outlines cross or meet."""
     own, other = first[:, 0], second[:, 0]
     along, across = (first[:, 1] - own)[:, None], second[:, 1] - other
@@ -71,10 +74,11 @@ def crossings(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     turn = np.where(parallel, 1.0, turn)
     at, there = _turned(offset, across) / turn, _turned(offset, along) / turn
     met = ~parallel & (at >= 0) & (at <= 1) & (there >= 0) & (there <= 1)
-    return (own[:, None] + at[..., None] * along)[met]
+    places: NDArray[Any] = (own[:, None] + at[..., None] * along)[met]
+    return places
 
 
-def corners_of_overlap(first: np.ndarray, second: np.ndarray, slack: float) -> np.ndarray:
+def corners_of_overlap(first: NDArray[Any], second: NDArray[Any], slack: float) -> NDArray[Any]:
     """Corners (n, 2) [m] of the region where two outlines, of sides (m, 2, 2), overlap: those of
     one within the other, or beyond it by less than `slack` [m], and where sides cross.
     """
@@ -88,18 +92,19 @@ def corners_of_overlap(first: np.ndarray, second: np.ndarray, slack: float) -> n
     )
 
 
-def _turned(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+def _turned(one: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:
     """The cross products (...) of vectors (..., 2)."""
-    return one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
+    products: NDArray[Any] = one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
+    return products
 
 
-def _loops(face: Face) -> list[np.ndarray]:
+def _loops(face: Face) -> list[NDArray[Any]]:
     """Ends (n, 2, 3) [m] of the sides of each outline of a face, one after the other along it, the
     face on the left.
     """
     number, place = np.unique(face.cells, return_index=True)
     edges, points = outline_edges(face.cells), face.corners.reshape(-1, 3)[place]
-    starts = {}
+    starts: dict[int, list[int]] = {}
     for start, end in edges.tolist():
         starts.setdefault(start, []).append(end)
     found = []
@@ -119,6 +124,6 @@ def _loops(face: Face) -> list[np.ndarray]:
     return found
 
 
-def _area(sides: np.ndarray) -> float:
+def _area(sides: NDArray[Any]) -> float:
     """Area [m2] within an outline of sides (n, 2, 2), below 0 clockwise."""
     return float(_turned(sides[:, 0], sides[:, 1]).sum() / 2)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from fecolumn.structures.faces import SAME_PLANE, Face
 
 
-def depth_along(faces: list[Face], normal: np.ndarray) -> float:
+def depth_along(faces: list[Face], normal: NDArray[Any]) -> float:
     """Extent [m] of a body along a normal."""
     ends = [face.corners @ normal for face in faces]
-    return max(one.max() for one in ends) - min(one.min() for one in ends)
+    extent: float = max(one.max() for one in ends) - min(one.min() for one in ends)
+    return extent
 
 
-def common_ball(faces: list[Face], others: list[Face], shift: np.ndarray) -> float:
+def common_ball(faces: list[Face], others: list[Face], shift: NDArray[Any]) -> float:
     """Diameter [m] of the largest ball in two convex bodies, the other one shifted by (3,) [m]: a
     linear programme in its centre and radius. 0 where there is none, or a body is not convex.
     """

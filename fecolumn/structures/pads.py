@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import warnings
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.case import Case
+from fecolumn.case.ground import Ground
+from fecolumn.case.joint import Interface
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.pad import pad_below
 from fecolumn.contact.points import GROUND
@@ -19,7 +25,7 @@ from fecolumn.structures.place import Standing, loads
 FEWEST_STEPS, FEW_STEPS = 4, 10
 
 
-def pad_keys(case, interface):
+def pad_keys(case: Case, interface: str) -> tuple[Interface | Ground | None, str]:
     """Where the keys of the pad below an interface are stated, and their names' beginning: the
     interface's own, or its ground; None, "" without a pad.
     """
@@ -32,7 +38,13 @@ def pad_keys(case, interface):
     return None, ""
 
 
-def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces, file) -> list[Joint]:
+def with_pads(
+    case: Case,
+    joints: list[Joint],
+    standing: list[Standing],
+    interfaces: list[str],
+    file: Path | str,
+) -> list[Joint]:
     """The joints, those on a pad with its springs; interfaces: names of theirs.
 
     One relaxation time for all joints of a pad: that at which the dashpots give what the pad
@@ -54,6 +66,7 @@ def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces, f
         mass /= sum(one.sum() for one in areas)
         for k, area, pressure in zip(own, areas, pressures):
             keys = pads[k][0]
+            assert keys is not None
             if keys.yield_pa and pressure >= keys.yield_pa:
                 raise InputError(
                     file,
@@ -64,7 +77,7 @@ def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces, f
                 )
             found[k] = dataclasses.replace(
                 joints[k],
-                pad=pad_below(pads[k][0], area, mass or _own_mass(standing, joints[k], area)),
+                pad=pad_below(keys, area, mass or _own_mass(standing, joints[k], area)),
                 restitution=0.0,
                 rolling=0.0,
                 # a node of a rim that comes down on a pad presses a spring
@@ -73,28 +86,30 @@ def with_pads(case, joints: list[Joint], standing: list[Standing], interfaces, f
     return found
 
 
-def _areas(standing, joint: Joint) -> np.ndarray:
+def _areas(standing: list[Standing], joint: Joint) -> NDArray[Any]:
     """Areas (n,) [m2] tributary to the points of a joint."""
     return standing[joint.slave].model.surfaces[joint.slave_surface].areas
 
 
-def _area_below(standing, joints, joint: Joint) -> float:
+def _area_below(standing: list[Standing], joints: list[Joint], joint: Joint) -> float:
     """Area [m2] of all faces with which the slave of a joint stands on the master."""
-    return sum(
+    area: float = sum(
         _areas(standing, one).sum()
         for one in joints
         if (one.slave, one.master) == (joint.slave, joint.master)
     )
+    return area
 
 
-def _own_mass(standing, joint: Joint, areas: np.ndarray) -> float:
+def _own_mass(standing: list[Standing], joint: Joint, areas: NDArray[Any]) -> float:
     """Mass over area [kg/m2] of the bodies of a joint that carries nothing at rest."""
     masses = [standing[joint.slave].model.mass]
     masses += [standing[joint.master].model.mass] if joint.master != GROUND else []
-    return min(masses) / areas.sum()
+    over_area: float = min(masses) / areas.sum()
+    return over_area
 
 
-def warn_of_grounds(case, structure: StructureModel, file) -> None:
+def warn_of_grounds(case: Case, structure: StructureModel, file: Path | str) -> None:
     """Tell of a step that resolves the vibration of a plate, or not that of what stands on a pad.
 
     Raises
@@ -102,11 +117,12 @@ def warn_of_grounds(case, structure: StructureModel, file) -> None:
     InputError
         a pad so stiff that its vibration is less than a few steps.
     """
-    dt, told = case.integration.dt_s, set()
+    dt, told = float(case.integration.dt_s), set()
     for joint in structure.joints:
         if joint.pad is None:
             continue
         keys, where = pad_keys(case, joint.name.partition(":")[0])
+        assert keys is not None
         steps = 1 / (joint.pad.frequency * dt)
         text = (
             f"the vertical vibration on it, of {joint.pad.frequency:.3g} Hz, takes "

@@ -4,9 +4,12 @@ touched.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from fecolumn.contact.footprint import footprint
@@ -23,19 +26,19 @@ _SAME_NODE = 1e-8
 class Patch:
     """Nodes of a face that take part in contact, in the drawing of the body.
 
-    part: of the mesh. positions: (k, 3) [m]; origin: (3,) [m] a point of the plane; axes, areas,
-    outlines, triangles: as of `model.Surface`.
+    part: of the mesh, None where the nodes are of no face. positions: (k, 3) [m]; origin: (3,) [m]
+    a point of the plane; axes, areas, outlines, triangles: as of `model.Surface`.
     """
 
-    part: int
-    positions: np.ndarray
-    origin: np.ndarray
-    axes: np.ndarray
-    areas: np.ndarray
-    outlines: np.ndarray
-    triangles: np.ndarray
+    part: int | None
+    positions: NDArray[Any]
+    origin: NDArray[Any]
+    axes: NDArray[Any]
+    areas: NDArray[Any]
+    outlines: NDArray[Any]
+    triangles: NDArray[Any]
 
-    def surface(self, nodes: np.ndarray, center: np.ndarray) -> Surface:
+    def surface(self, nodes: NDArray[Any], center: NDArray[Any]) -> Surface:
         """The patch as surface of a model whose rows `nodes` (k,) are its positions, about its
         centre of mass (3,) [m].
         """
@@ -64,7 +67,7 @@ def slave_patch(face: Face, order: int, interior: int) -> Patch:
     return replace(node_patch(whole, nodes), areas=areas)
 
 
-def node_patch(whole: Patch, nodes: np.ndarray) -> Patch:
+def node_patch(whole: Patch, nodes: NDArray[Any]) -> Patch:
     """Some nodes (k,) of a face, as contact points of a slave."""
     return replace(
         whole,
@@ -75,7 +78,7 @@ def node_patch(whole: Patch, nodes: np.ndarray) -> Patch:
     )
 
 
-def master_patch(face: Face, order: int, zones) -> Patch:
+def master_patch(face: Face, order: int, zones: Iterable[tuple[float, ...]]) -> Patch:
     """Nodes of a master's face in and around `zones` as of `meetings.zones_of`, along its tangents
     in the drawing.
     """
@@ -115,7 +118,7 @@ def plane_box(face: Face) -> tuple[float, float, float, float]:
     return plane[:, 0].min(), plane[:, 0].max(), plane[:, 1].min(), plane[:, 1].max()
 
 
-def face_weights(face: Face, order: int) -> tuple[np.ndarray, np.ndarray]:
+def face_weights(face: Face, order: int) -> tuple[NDArray[Any], NDArray[Any]]:
     """Positions (k, 3) [m] of a face's nodes and their shares (k,) in a mean over it."""
     whole = whole_face(face, order)
     return whole.positions, whole.areas / whole.areas.sum()
@@ -149,7 +152,9 @@ def whole_face(face: Face, order: int) -> Patch:
     )
 
 
-def _unique(points, axes, size) -> tuple[np.ndarray, np.ndarray]:
+def _unique(
+    points: NDArray[Any], axes: NDArray[Any], size: float
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Different points by rising place along the tangents, and which of them each point (n, 3)
     is.
     """
@@ -166,7 +171,7 @@ def _unique(points, axes, size) -> tuple[np.ndarray, np.ndarray]:
     return points[first[kept]], renumbered[index]
 
 
-def _triangles(index: np.ndarray, order: int, plane: np.ndarray) -> np.ndarray:
+def _triangles(index: NDArray[Any], order: int, plane: NDArray[Any]) -> NDArray[Any]:
     """Triangles (t, 3) of nodes from the nodes (n, m) of each face as of `face_points`,
     counter-clockwise in the plane (k, 2).
     """

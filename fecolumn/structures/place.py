@@ -5,11 +5,15 @@ velocity and spin.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fecolumn.case.sections import GRAVITY
+from fecolumn.case.sections import GRAVITY, Initial
 from fecolumn.contact.ball import from_center
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.points import GROUND
@@ -27,6 +31,8 @@ _AGREE = 1e-6
 # Sine of a tilt below which there is none, and share of a foot's width within which points are
 # equally far ahead
 _UPRIGHT, _EDGE = 1e-12, 1e-9
+#: What a part stands on, GROUND or the places of parts, each with the joints between.
+Supports = list[tuple[int, list[Joint]]]
 
 
 @dataclass(frozen=True)
@@ -37,8 +43,8 @@ class Standing:
 
     name: str
     model: BodyModel
-    center: np.ndarray
-    start: object
+    center: NDArray[Any]
+    start: Initial | None
     held: int = -1
 
 
@@ -55,19 +61,19 @@ class Placement:
     spin (3,) [rad/s].
     """
 
-    center: np.ndarray
-    rotation: np.ndarray
-    velocity: np.ndarray
-    spin: np.ndarray
+    center: NDArray[Any]
+    rotation: NDArray[Any]
+    velocity: NDArray[Any]
+    spin: NDArray[Any]
 
 
-def touching(standing: list[Standing], joint: Joint) -> np.ndarray:
+def touching(standing: Sequence[Standing], joint: Joint) -> NDArray[Any]:
     """Rows among the nodes of a joint's slave surface (k,) that have the master below them as the
     bodies stand.
     """
     slave = standing[joint.slave]
     surface = slave.model.surfaces[joint.slave_surface]
-    if joint.master == GROUND:
+    if joint.master == GROUND or joint.master_surface is None:
         return np.arange(len(surface.nodes))
     master = standing[joint.master]
     face = master.model.surfaces[joint.master_surface]
@@ -78,7 +84,9 @@ def touching(standing: list[Standing], joint: Joint) -> np.ndarray:
     )
 
 
-def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placement]:
+def placed(
+    standing: Sequence[Standing], joints: Sequence[Joint], file: Path | str
+) -> list[Placement]:
     """Places of all parts at the start.
 
     A part leans by its own tilt about the point of its foot that is farthest in the direction in
@@ -94,7 +102,8 @@ def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placemen
     supports = supports_of(standing, joints)
     found: dict[int, Placement] = {}
     for place in _from_below(supports):
-        part, centers, pivot = standing[place], [], None
+        part, centers = standing[place], []
+        pivot: NDArray[Any] | None = None
         for below, between in supports[place]:
             pivot, center = _on(standing, between, place, below, turns, found)
             centers.append(center)
@@ -112,12 +121,12 @@ def placed(standing: list[Standing], joints: list[Joint], file) -> list[Placemen
         found[place] = Placement(
             center,
             turns[place],
-            *_moving(part, center, pivot, turns[place], supports[place], joints, standing),
+            *_moving(part, center, pivot, supports[place], standing),
         )
     return [found[place] for place in range(len(standing))]
 
 
-def _turn(start) -> np.ndarray:
+def _turn(start: Initial | None) -> NDArray[Any]:
     """Rotation (3, 3) of a part that leans."""
     if start is None or not start.tilt_rad:
         return np.eye(3)
@@ -125,11 +134,11 @@ def _turn(start) -> np.ndarray:
     return rotation_matrix(start.tilt_rad * np.array([-np.sin(direction), np.cos(direction), 0.0]))
 
 
-def supports_of(standing, joints) -> list[list[tuple[int, list[Joint]]]]:
+def supports_of(standing: Sequence[Standing], joints: Iterable[Joint]) -> list[Supports]:
     """Of each part what it stands on, GROUND or a part, and the joints between; a fixed part stands
     by itself, and across a gap nothing stands on anything.
     """
-    found = [{} for _ in standing]
+    found: list[dict[int, list[Joint]]] = [{} for _ in standing]
     for joint in joints:
         down = standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]
         upper = joint.slave if down < 0 else joint.master
@@ -142,7 +151,7 @@ def supports_of(standing, joints) -> list[list[tuple[int, list[Joint]]]]:
     return [list(one.items()) for one in found]
 
 
-def loads(standing, joints) -> list[float]:
+def loads(standing: Sequence[Standing], joints: Sequence[Joint]) -> list[float]:
     """Force [N] that each joint carries at rest: what a part and all on it weigh, in equal shares
     on what it stands on.
     """
@@ -160,11 +169,12 @@ def loads(standing, joints) -> list[float]:
     return [found[id(joint)] for joint in joints]
 
 
-def _from_below(supports) -> list[int]:
+def _from_below(supports: list[Supports]) -> list[int]:
     """Places of the parts, each after all that it stands on; those in a circle come last, as they
     are.
     """
-    order, left = [], list(range(len(supports)))
+    order: list[int] = []
+    left = list(range(len(supports)))
     while left:
         ready = [
             place
@@ -177,8 +187,13 @@ def _from_below(supports) -> list[int]:
 
 
 def _on(
-    standing, joints: list[Joint], upper: int, below: int, turns, found
-) -> tuple[np.ndarray, np.ndarray]:
+    standing: Sequence[Standing],
+    joints: list[Joint],
+    upper: int,
+    below: int,
+    turns: list[NDArray[Any]],
+    found: dict[int, Placement],
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Point (3,) [m] about which a part is turned on what is below it, and where its centre (3,) of
     mass comes.
     """
@@ -187,18 +202,19 @@ def _on(
     relative = base.T @ turns[upper]
     pivot, joint = _pivot(standing, joints, relative[:, 2] * [1.0, 1.0, 0.0])
 
-    def carried(point):
+    def carried(point: NDArray[Any]) -> NDArray[Any]:
         if below == GROUND or below not in found:
             return point
-        return found[below].center + base @ (point - standing[below].center)
+        there: NDArray[Any] = found[below].center + base @ (point - standing[below].center)
+        return there
 
     touched, offset = _rolled(standing, joint, pivot, relative)
     return carried(touched), carried(touched + relative @ (part.center - pivot - offset))
 
 
 def _rolled(
-    standing, joint: Joint, pivot: np.ndarray, turn: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
+    standing: Sequence[Standing], joint: Joint, pivot: NDArray[Any], turn: NDArray[Any]
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Where a slave that is turned by (3, 3) touches (3,) [m], and its way (3,) there from the
     pivot, in its own frame: a ball about the pivot has rolled there.
     """
@@ -211,8 +227,9 @@ def _rolled(
         turn[:, 2] - normal * (turn[:, 2] @ normal),
     )
     interface["ball"], interface["edge"] = joint.ball.radius, joint.ball.edge
-    interpreted(from_center)(interface[0], turn.T @ normal, offset)
-    across = np.linalg.norm(offset - normal * (offset @ normal))
+    plain = interpreted(from_center)  # type: ignore[no-untyped-call]  # compiled code has no types
+    plain(interface[0], turn.T @ normal, offset)
+    across = float(np.linalg.norm(offset - normal * (offset @ normal)))
     length = np.linalg.norm(lean)
     way = (
         joint.ball.radius * math.asin(min(across / joint.ball.radius, 1.0)) * lean / length
@@ -222,7 +239,9 @@ def _rolled(
     return pivot - joint.ball.radius * normal + way, offset
 
 
-def _pivot(standing, joints: list[Joint], ahead: np.ndarray) -> tuple[np.ndarray, Joint]:
+def _pivot(
+    standing: Sequence[Standing], joints: list[Joint], ahead: NDArray[Any]
+) -> tuple[NDArray[Any], Joint]:
     """Point (3,) [m] of joints farthest in the direction `ahead`, as the bodies stand, and its
     joint; of a round rim on its circle, of an edge its middle.
 
@@ -231,7 +250,7 @@ def _pivot(standing, joints: list[Joint], ahead: np.ndarray) -> tuple[np.ndarray
     length = np.linalg.norm(ahead)
     if length >= _UPRIGHT:
         ahead = ahead / length
-    leans = length >= _UPRIGHT
+    leans = bool(length >= _UPRIGHT)
     farthest = [
         _end_of_region(standing, joint, ahead)
         if leans and joint.outlines
@@ -246,25 +265,34 @@ def _pivot(standing, joints: list[Joint], ahead: np.ndarray) -> tuple[np.ndarray
     return farthest[first], joints[first]
 
 
-def _farthest(standing, joint: Joint, ahead: np.ndarray, leans: bool) -> np.ndarray:
+def _farthest(
+    standing: Sequence[Standing], joint: Joint, ahead: NDArray[Any], leans: bool
+) -> NDArray[Any]:
     """As `_pivot`, of one joint; ahead: unit vector (3,) where it leans."""
     slave = standing[joint.slave]
     surface = slave.model.surfaces[joint.slave_surface]
     arms = slave.model.arms[surface.nodes]
     rows = touching(standing, joint)
     points = slave.center + arms[rows]
+    found: NDArray[Any]
     if not len(points):
-        return slave.center + arms.mean(axis=0)
+        found = slave.center + arms.mean(axis=0)
+        return found
     if not leans:
-        return points.mean(axis=0)
+        found = points.mean(axis=0)
+        return found
     rim = Rim.find(surface.plane(arms)) if joint.round else None
     if rim is not None and np.isin(rim.nodes, rows).all():
-        return slave.center + arms[rim.nodes].mean(axis=0) + rim.radius * ahead
+        found = slave.center + arms[rim.nodes].mean(axis=0) + rim.radius * ahead
+        return found
     far = points @ ahead
-    return points[far >= far.max() - _EDGE * np.ptp(points, axis=0).max()].mean(axis=0)
+    found = points[far >= far.max() - _EDGE * np.ptp(points, axis=0).max()].mean(axis=0)
+    return found
 
 
-def _region(standing, joint: Joint):
+def _region(
+    standing: Sequence[Standing], joint: Joint
+) -> tuple[list[Rim | None], list[NDArray[Any]], float, NDArray[Any]]:
     """Of a joint with two sides, with the roles exchanged: the circles of its outlines or None,
     these as sides (m, 2, 2) [m] in the plane of the slave's face, the height of that, and the
     corners (n, 2) [m] of the region in which they overlap.
@@ -277,16 +305,16 @@ def _region(standing, joint: Joint):
     circles, height = [Rim.find(sides[:, 0]) for sides in outlines], outlines[0][0, 0, 2]
     outlines = [sides[..., :2] for sides in outlines]
     slack = SAME_OUTLINE * np.ptp(outlines[0], axis=(0, 1)).max()
-    return circles, outlines, height, corners_of_overlap(*outlines, slack)
+    return circles, outlines, height, corners_of_overlap(outlines[0], outlines[1], slack)
 
 
-def footing(standing: list[Standing], joint: Joint) -> np.ndarray:
+def footing(standing: Sequence[Standing], joint: Joint) -> NDArray[Any]:
     """Places (n, 3) [m] where the bodies of a joint touch at the start: nodes of the slave on the
     master, and of a joint with two sides corners of the region in which both faces overlap.
     """
     slave = standing[joint.slave]
     surface = slave.model.surfaces[joint.slave_surface]
-    nodes = slave.center + slave.model.arms[surface.nodes[touching(standing, joint)]]
+    nodes: NDArray[Any] = slave.center + slave.model.arms[surface.nodes[touching(standing, joint)]]
     if not joint.outlines:
         return nodes
     _, outlines, height, corners = _region(standing, joint)
@@ -296,7 +324,7 @@ def footing(standing: list[Standing], joint: Joint) -> np.ndarray:
     return np.concatenate([nodes, corners[apart > _AGREE * np.ptp(outlines[0], axis=(0, 1)).max()]])
 
 
-def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
+def _end_of_region(standing: Sequence[Standing], joint: Joint, ahead: NDArray[Any]) -> NDArray[Any]:
     """Point (3,) [m] farthest in the direction `ahead` of the region in which the faces of a joint
     with two sides overlap, of an edge its middle; joint: with the roles exchanged.
 
@@ -324,19 +352,24 @@ def _end_of_region(standing, joint: Joint, ahead: np.ndarray) -> np.ndarray:
             inside = inwards(point[None], other)[0] >= 0
         if inside:
             best = point
-    return face @ np.append(best, height)
+    place: NDArray[Any] = face @ np.append(best, height)
+    return place
 
 
 def _moving(
-    part: Standing, center, pivot, turn, supports, joints, standing
-) -> tuple[np.ndarray, np.ndarray]:
+    part: Standing,
+    center: NDArray[Any],
+    pivot: NDArray[Any] | None,
+    supports: Supports,
+    standing: Sequence[Standing],
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Velocity (3,) of the centre of mass and spin (3,) of a part: a spin tips it over the point
     that it stands on, and turns it about its foot.
     """
     if part.start is None:
         return np.zeros(3), np.zeros(3)
     spin, velocity = np.array(part.start.spin_rad_s), np.array(part.start.velocity_m_s)
-    if not supports or not spin.any():
+    if pivot is None or not spin.any():
         return velocity, spin
     axis = pivot
     if not part.start.tilt_rad:

@@ -6,18 +6,25 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import Material
 from fecolumn.mesh.mass import mass_properties
 from fecolumn.structures.faces import Face
-from fecolumn.structures.model import BodyModel
+from fecolumn.structures.model import BodyModel, Surface
 from fecolumn.structures.patches import Patch, face_weights
 from fecolumn.structures.shapes import Shape
 
+if TYPE_CHECKING:
+    from mpi4py.MPI import Intracomm
 
-def body_of(shape: Shape, material: Material, comm=None):
+    from fecolumn.fem.body import Body
+
+
+def body_of(shape: Shape, material: Material, comm: Intracomm | None = None) -> Body:
     """The `fem.body.Body` of a mesh with its ties, of this process alone unless `comm` says
     more.
     """
@@ -30,7 +37,7 @@ def body_of(shape: Shape, material: Material, comm=None):
 
 def elastic_model(
     shape: Shape, faces: list[Face], patches: dict[str, Patch], material: Material, n_modes: int
-) -> tuple[BodyModel, tuple[np.ndarray, np.ndarray]]:
+) -> tuple[BodyModel, tuple[NDArray[Any], NDArray[Any]]]:
     """Reduce a body of finite elements; also its nodes (n_nodes, 3) [m] from the centre of mass and
     the shapes (m, n_nodes, 3) of the modes there.
 
@@ -59,7 +66,9 @@ def elastic_model(
     return model, (body.all_X - body.center, fields)
 
 
-def bare_model(body, nodes: np.ndarray, surfaces, top: np.ndarray) -> BodyModel:
+def bare_model(
+    body: Body, nodes: NDArray[Any], surfaces: dict[str, Surface], top: NDArray[Any]
+) -> BodyModel:
     """BodyModel of a `fem.body.Body` with nodes (n,) of it, without modes and flexibility.
 
     Parameters
@@ -86,8 +95,12 @@ def bare_model(body, nodes: np.ndarray, surfaces, top: np.ndarray) -> BodyModel:
 
 
 def with_elasticity(
-    model: BodyModel, body, nodes: np.ndarray, n_modes: int, top
-) -> tuple[BodyModel, np.ndarray]:
+    model: BodyModel,
+    body: Body,
+    nodes: NDArray[Any],
+    n_modes: int,
+    top: tuple[NDArray[Any], NDArray[Any]],
+) -> tuple[BodyModel, NDArray[Any]]:
     """A bare model with elastic modes and flexibility; also the shapes (m, n_owned, 3)
     [1/sqrt(kg)] of the modes all over the body.
 
@@ -147,7 +160,9 @@ def rigid_model(
     )
 
 
-def local_points(patches, center, material, stiffness) -> tuple[np.ndarray, np.ndarray, dict]:
+def local_points(
+    patches: dict[str, Patch], center: NDArray[Any], material: Material, stiffness: float | None
+) -> tuple[NDArray[Any], NDArray[Any], dict[str, Surface]]:
     """Arms (n, 3) [m], flexibility (n, n, 3, 3) [m/N] and surfaces of the points of all patches,
     each of which gives alone, 1 / (k A).
     """

@@ -5,16 +5,21 @@ computed.
 from __future__ import annotations
 
 import warnings
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Matrices, Prism, Storeys
+from fecolumn.case.bodies import Prism
+from fecolumn.case.body_keys import Solid
+from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.model import StructureModel
-from fecolumn.structures.place import loads
+from fecolumn.structures.model import BodyModel, HullOutline, StructureModel
+from fecolumn.structures.place import Standing, loads
 from fecolumn.structures.size import LARGE, largest_side
 
 # Mean strain of a body at rest below one of its faces: what elements are made for is a tenth of it
@@ -29,7 +34,13 @@ _STIFF = 1e9
 _FORCE = 1e-6
 
 
-def check_sense(case, structure: StructureModel, standing, extents, file) -> None:
+def check_sense(
+    case: Case,
+    structure: StructureModel,
+    standing: list[Standing],
+    extents: list[NDArray[Any]],
+    file: Path | str,
+) -> None:
     """Refuse soft bodies that their load flattens, links that hold nothing, and a cap of the top's
     way that no structure stays below.
 
@@ -55,7 +66,7 @@ def check_sense(case, structure: StructureModel, standing, extents, file) -> Non
         _check_strains(case, structure, standing, file)
 
 
-def tell_of_lengths(case, file) -> None:
+def tell_of_lengths(case: Case, file: Path | str) -> None:
     """Warn, once, of a prism so large that its lengths are likely not in metres."""
     sides = {
         name: largest_side(body) for name, body in case.bodies.items() if isinstance(body, Prism)
@@ -69,7 +80,12 @@ def tell_of_lengths(case, file) -> None:
         )
 
 
-def tell_of_densities(case, bodies: dict, outlines: dict, file) -> None:
+def tell_of_densities(
+    case: Case,
+    bodies: dict[str, BodyModel],
+    outlines: dict[str, HullOutline | None],
+    file: Path | str,
+) -> None:
     """Warn of stiff bodies whose density, mass over volume, is that of no stone or metal.
 
     Parameters
@@ -82,7 +98,7 @@ def tell_of_densities(case, bodies: dict, outlines: dict, file) -> None:
     told = set()
     for name, outline in outlines.items():
         body = case.bodies[name]
-        if not outline or isinstance(body, (Matrices, Storeys)):
+        if not outline or not isinstance(body, Solid):
             continue
         density = bodies[name].mass / outline["volume"]
         stiff = material_of(body, case.materials).youngs_modulus_pa >= _STIFF
@@ -101,7 +117,7 @@ def tell_of_densities(case, bodies: dict, outlines: dict, file) -> None:
         told.add(own)
 
 
-def _check_forces(case, structure: StructureModel, file) -> None:
+def _check_forces(case: Case, structure: StructureModel, file: Path | str) -> None:
     for link in structure.links:
         ends = [end for end in (link.a, link.b) if end != GROUND]
         least = _FORCE * GRAVITY * min(structure.parts[end].model.mass for end in ends)
@@ -120,18 +136,20 @@ def _check_forces(case, structure: StructureModel, file) -> None:
                     )
 
 
-def _check_strains(case, structure: StructureModel, standing, file) -> None:
+def _check_strains(
+    case: Case, structure: StructureModel, standing: list[Standing], file: Path | str
+) -> None:
     bodies = [name for name in case.bodies for _ in case.names_of(name)]
     for joint, load in zip(structure.joints, loads(standing, structure.joints)):
         if joint.gap or joint.ball:
             continue
         surfaces = [(joint.slave, joint.slave_surface)]
-        if joint.master != GROUND:
+        if joint.master_surface is not None:
             surfaces.append((joint.master, joint.master_surface))
         area = min(standing[at].model.surfaces[face].areas.sum() for at, face in surfaces)
         for at, _ in surfaces:
             body = case.bodies[bodies[at]]
-            if isinstance(body, (Matrices, Storeys)) or not body.deforms or area <= 0:
+            if not isinstance(body, Solid) or not body.deforms or area <= 0:
                 continue
             stiffness = material_of(body, case.materials).youngs_modulus_pa
             if load > _STRAIN * area * stiffness:

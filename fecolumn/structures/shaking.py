@@ -3,32 +3,43 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
+
+from fecolumn.case.case import Case
+
+if TYPE_CHECKING:
+    from fecolumn.motions.record import GroundMotion
 
 # Speed at which two grounds go on to move apart after their motions, over their largest one, that
 # is told
 _DRIFTS = 0.05
 
 
-def motions_of(case, first, file) -> list:
+def motions_of(
+    case: Case, first: GroundMotion | None, file: Path | str
+) -> list[GroundMotion | None]:
     """Ground motion of each ground, `first` that of those which have none of their own; None of a
     ground at rest.
     """
     from fecolumn.motions.load import load_motion
 
     found = [
-        load_motion(ground.motion, case.integration.dt_s, file) if ground.motion else first
+        load_motion(ground.motion, float(case.integration.dt_s), file) if ground.motion else first
         for ground in case.grounds.values()
     ]
     names = list(case.grounds)
     for name, motion in zip(names[1:], found[1:]):
-        if motion is not found[0]:
+        if motion and found[0] and motion is not found[0]:
             _warn_of_drift(f"grounds.{name}", f"grounds.{names[0]}", motion, found[0], file)
     return found
 
 
-def accelerations(motions: list, step: int) -> np.ndarray:
+def accelerations(motions: Sequence[GroundMotion | None], step: int) -> NDArray[Any]:
     """Accelerations (3 G,) of grounds at a step [m/s2]."""
     found = np.zeros((len(motions), 3))
     for own, motion in zip(found, motions):
@@ -37,7 +48,9 @@ def accelerations(motions: list, step: int) -> np.ndarray:
     return found.ravel()
 
 
-def _warn_of_drift(name: str, other: str, motion, first, file) -> None:
+def _warn_of_drift(
+    name: str, other: str, motion: GroundMotion, first: GroundMotion, file: Path | str
+) -> None:
     """Tell of a ground that goes on to move away from the first one when both motions are over."""
     steps = max(len(one.acceleration) for one in (motion, first))
     relative = np.zeros((steps, 3))

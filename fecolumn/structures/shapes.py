@@ -5,12 +5,17 @@ a prism the point from which its outline is measured.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Block, Cone, Meshed, Plate, Prism, Storeys, Tube
+from fecolumn.case.bodies import Block, Cone, Cylinder, Meshed, Plate, Prism, Storeys, Tube
 from fecolumn.case.polygon import signed_area
+from fecolumn.case.sections import Cap, Flange
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import CAP, FLANGE, UPPER, BrickMesh, brick_mesh, merged_mesh
 from fecolumn.mesh.column import divisions
@@ -20,7 +25,13 @@ from fecolumn.mesh.jacobian import corner_jacobians
 from fecolumn.mesh.prism import polygon_counts, prism_mesh
 from fecolumn.mesh.section import Annulus, Disc
 from fecolumn.mesh.tie import Tie, adjust, tie
-from fecolumn.structures.lines import count_at_ends, count_at_spots, fine_at_ends, fine_at_spots
+from fecolumn.structures.lines import (
+    Span,
+    count_at_ends,
+    count_at_spots,
+    fine_at_ends,
+    fine_at_spots,
+)
 from fecolumn.structures.tied import is_tied, tied_counts, tied_mesh
 
 # Elements around a round body, and along the geometric mean of a block's sides
@@ -30,6 +41,14 @@ AROUND, _ALONG = 24, 8
 _LONG = 0.2
 # Elements along the longer side of a plate, away from what stands on it
 _ACROSS = 8
+
+
+#: Bodies with a round section, those whose elements are made here, and all that have elements.
+Round = Tube | Cylinder | Cone
+Gridded = Round | Block | Plate | Prism | Storeys
+Meshable = Gridded | Meshed
+#: Low x, high x, low y, high y and size [m] in the drawing of a plate where another body meets it.
+Spot = tuple[float, float, float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +63,7 @@ class Shape:
     size: float
 
 
-def shape_of(key: str, body, file, spots=()) -> Shape:
+def shape_of(key: str, body: Meshable, file: Path | str, spots: Sequence[Spot] = ()) -> Shape:
     """Mesh of a body that is none of matrices.
 
     Parameters
@@ -64,21 +83,21 @@ def shape_of(key: str, body, file, spots=()) -> Shape:
     if is_tied(body):
         return Shape(*tied_mesh(key, body, file))
     # by the word, so that a kind that comes from the class of another one has to be named here
-    match body.kind:
-        case "mesh":
+    match body:
+        case Meshed(kind="mesh"):
             return _own(key, body, file)
-        case "plate" | "slab" | "storeys":
+        case Plate(kind="plate" | "slab") | Storeys(kind="storeys"):
             return _plate(body, spots)
-        case "block":
+        case Block(kind="block"):
             return _block(body)
-        case "prism":
+        case Prism(kind="prism"):
             return _prism(key, body, file)
-        case "tube" | "cylinder" | "cone":
+        case Tube(kind="tube") | Cylinder(kind="cylinder") | Cone(kind="cone"):
             return _round(key, body, file)
     raise ValueError(f"{key}: shape_of names no mesh of kind {body.kind!r}")
 
 
-def element_size(body) -> float:
+def element_size(body: Gridded) -> float:
     """Element size at feet and heads [m], as stated or as it follows from the body's dimensions."""
     if body.element_size_m is not None:
         return body.element_size_m
@@ -98,7 +117,9 @@ def element_size(body) -> float:
     )
 
 
-def counts_of(key: str, body, file, spots=()) -> tuple[int, int]:
+def counts_of(
+    key: str, body: Meshable, file: Path | str, spots: Sequence[Spot] = ()
+) -> tuple[int, int]:
     """Elements and nodes of the mesh that `shape_of` makes, told without making it; arguments as
     there.
     """
@@ -134,23 +155,25 @@ def counts_of(key: str, body, file, spots=()) -> tuple[int, int]:
         order, layers = body.element_order or 1, divisions(body.width_m, size)
         cells, nodes = polygon_counts(np.array(body.outline_m), size, order)
         return cells * layers, nodes * (order * layers + 1)
-    planes, layers = (
+    planes, heights = (
         _planes(body, size),
         [count_at_ends(body.height_m, size, _coarse_size(body, size))],
     )
-    if getattr(body, "flange", None):
-        layers.append(_flange_layers(body, size))
-    cap = getattr(body, "cap", None)
+    flange, cap = _plates_of(body)
+    if flange:
+        heights.append(_flange_layers(flange, size))
     return _counts(
         [[divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m)]]
         if cap
         else [],
-        zip(planes, layers),
+        zip(planes, heights),
         body.element_order or 1,
     )
 
 
-def _counts(grids, swept, order: int) -> tuple[int, int]:
+def _counts(
+    grids: Sequence[Sequence[int]], swept: Iterable[tuple[Annulus | Disc, int]], order: int
+) -> tuple[int, int]:
     """Elements and nodes of grids (elements along x, y, z) and of sections swept in layers."""
     swept = list(swept)
     return (
@@ -161,7 +184,7 @@ def _counts(grids, swept, order: int) -> tuple[int, int]:
     )
 
 
-def _own(key: str, body: Meshed, file) -> Shape:
+def _own(key: str, body: Meshed, file: Path | str) -> Shape:
     try:
         own = own_mesh(body.drawn)
     except InputError as error:
@@ -173,7 +196,7 @@ def _own(key: str, body: Meshed, file) -> Shape:
         raise InputError(
             file,
             f"{key}.{placed}",
-            [list(place) for place in body.copies_m] or list(body.at_m),
+            [list(place) for place in body.copies_m] or list(body.at_m or ()),
             "must be left out, and the body stays where its file has it: it has no flat foot, in "
             "the lowest horizontal plane, whose middle could be moved there",
         )
@@ -192,7 +215,7 @@ def _own(key: str, body: Meshed, file) -> Shape:
     )
 
 
-def _plate(body: Plate | Storeys, spots) -> Shape:
+def _plate(body: Plate | Storeys, spots: Sequence[Spot]) -> Shape:
     """Tensor grid, fine where other bodies meet it, one layer of second order through the thickness
     unless it is thick.
     """
@@ -210,7 +233,7 @@ def _plate(body: Plate | Storeys, spots) -> Shape:
     )
 
 
-def _plate_lines(body: Plate | Storeys, spots) -> tuple[float, list]:
+def _plate_lines(body: Plate | Storeys, spots: Sequence[Spot]) -> tuple[float, list[list[Span]]]:
     """Coarse element size [m] of a plate, and its spots along x and y as `lines.fine_at_spots`
     takes them.
     """
@@ -237,7 +260,7 @@ def _block(body: Block) -> Shape:
     return Shape(swept_grid(x, y, z, UPPER), (), body.element_order or 1, size)
 
 
-def _prism(key: str, body: Prism, file) -> Shape:
+def _prism(key: str, body: Prism, file: Path | str) -> Shape:
     """A polygon extruded along y, or upwards."""
     size, upwards = element_size(body), body.along == "z"
     low, high = (0.0, body.width_m) if upwards else (-body.width_m / 2, body.width_m / 2)
@@ -255,7 +278,7 @@ def _prism(key: str, body: Prism, file) -> Shape:
     return Shape(mesh, (), body.element_order or 1, size)
 
 
-def _coarse_size(body, size: float) -> float:
+def _coarse_size(body: Round | Block, size: float) -> float:
     """Largest element size [m] away from the ends of a block, tube or cylinder."""
     return body.coarse_size_m or max(
         size,
@@ -264,7 +287,7 @@ def _coarse_size(body, size: float) -> float:
     )
 
 
-def _planes(body, size: float) -> list[Annulus | Disc]:
+def _planes(body: Round, size: float) -> list[Annulus | Disc]:
     """Sections of a round body, and of its flange if it has one."""
     radius, wall = body.outer_diameter_m / 2, getattr(body, "wall_m", None)
     n_around = 4 * max(3, round(2 * math.pi * (radius - (wall or 0.0) / 2) / (4 * size)))
@@ -273,8 +296,8 @@ def _planes(body, size: float) -> list[Annulus | Disc]:
         if wall
         else Disc(radius, n_around, divisions(radius / 2, size))
     ]
-    if getattr(body, "flange", None):
-        outer, inner = body.flange.outer_diameter_m / 2, body.flange.inner_diameter_m / 2
+    if flange := _plates_of(body)[0]:
+        outer, inner = flange.outer_diameter_m / 2, flange.inner_diameter_m / 2
         n_flange = 4 * max(3, round(2 * math.pi * outer / (4 * size)))
         planes.append(
             Annulus(inner, outer, n_flange, divisions(outer - inner, size))
@@ -284,16 +307,20 @@ def _planes(body, size: float) -> list[Annulus | Disc]:
     return planes
 
 
-def _flange_layers(body, size: float) -> int:
-    return max(2, divisions(body.flange.thickness_m, size))
+def _plates_of(body: Round) -> tuple[Flange | None, Cap | None]:
+    return (None, None) if isinstance(body, Cone) else (body.flange, body.cap)
 
 
-def _round(key: str, body, file) -> Shape:
+def _flange_layers(flange: Flange, size: float) -> int:
+    return max(2, divisions(flange.thickness_m, size))
+
+
+def _round(key: str, body: Round, file: Path | str) -> Shape:
     """Tube, cylinder or cone, on its flange and below its cap if it has them, tied; element sizes
     are those of the body's ends.
     """
     size = element_size(body)
-    flange, cap = getattr(body, "flange", None), getattr(body, "cap", None)
+    flange, cap = _plates_of(body)
     planes = _planes(body, size)
     levels = fine_at_ends(body.height_m, size, _coarse_size(body, size))
     seat = flange.thickness_m if flange else 0.0
@@ -306,7 +333,7 @@ def _round(key: str, body, file) -> Shape:
             0,
             _swept(
                 planes[1],
-                np.linspace(0.0, seat, _flange_layers(body, size) + 1),
+                np.linspace(0.0, seat, _flange_layers(flange, size) + 1),
                 FLANGE,
                 (True, False),
             ),
@@ -347,7 +374,7 @@ def _outer(plane: Annulus | Disc) -> float:
     return plane.radius if isinstance(plane, Disc) else plane.outer_radius
 
 
-def _taper(body, levels: np.ndarray) -> np.ndarray:
+def _taper(body: Round, levels: NDArray[Any]) -> NDArray[Any]:
     """Radii (n,) of a body at levels (n,) [m] above its foot, over that of its section."""
     if not isinstance(body, Cone):
         return np.ones(len(levels))
@@ -356,7 +383,11 @@ def _taper(body, levels: np.ndarray) -> np.ndarray:
 
 
 def _swept(
-    plane, levels: np.ndarray, part: int, true_ends: tuple[bool, bool], radii=None
+    plane: Annulus | Disc,
+    levels: NDArray[Any],
+    part: int,
+    true_ends: tuple[bool, bool],
+    radii: NDArray[Any] | None = None,
 ) -> BrickMesh:
     """Bricks of a round section between levels (n,) [m], with radii (n,) over its own there.
 
@@ -377,7 +408,7 @@ def _swept(
 
 
 def _spread(
-    equal_area: float, heights: np.ndarray, radii: np.ndarray, true_ends: tuple[bool, bool]
+    equal_area: float, heights: NDArray[Any], radii: NDArray[Any], true_ends: tuple[bool, bool]
 ) -> float:
     """Factor s on the radii of all levels but those true ends whose factor is 1, by which the
     volume is that of the circle, or of the frustum.
@@ -398,4 +429,5 @@ def _spread(
         crossed / 3,
         squares / 3 - whole * equal_area**2,
     )
-    return (-b + math.sqrt(b * b - 4 * a * c)) / (2 * a)
+    factor: float = (-b + math.sqrt(b * b - 4 * a * c)) / (2 * a)
+    return factor

@@ -3,23 +3,35 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Block, Matrices, Meshed, Plate, Prism, Storeys, half_sides
+from fecolumn.case.bodies import Block, Meshed, Plate, Prism, Storeys, half_sides
+from fecolumn.case.case import Case
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.estimate import Estimate, Load, refuse_sizes
 from fecolumn.mesh.imported import own_mesh
+from fecolumn.structures.drawn_pieces import DrawnScene
 from fecolumn.structures.ground import sized_ground
-from fecolumn.structures.shapes import counts_of, element_size
+from fecolumn.structures.model import BodyModel
+from fecolumn.structures.shapes import Gridded, Meshable, Spot, counts_of, element_size
 
 #: [m]: the largest element size that a key takes, and size of a body from which its lengths are
 #: likely not in metres
 LARGE = 100.0
 
 
-def size_of(case, file, spots=None, bodies=None) -> Estimate:
+def size_of(
+    case: Case,
+    file: Path | str,
+    spots: Mapping[str, Sequence[Spot]] | None = None,
+    bodies: Iterable[str] | None = None,
+) -> Estimate:
     """Size of the meshes of bodies; those of copies count where each has its own, with engine =
     "full".
 
@@ -34,7 +46,7 @@ def size_of(case, file, spots=None, bodies=None) -> Estimate:
     elements, dofs, loads, full = {}, {}, [], case.integration.engine == "full"
     for name in case.bodies if bodies is None else bodies:
         body, copies = case.bodies[name], len(case.names_of(name))
-        if isinstance(body, Matrices):
+        if not isinstance(body, Meshable):
             continue
         count, nodes = counts_of(f"bodies.{name}", body, file, (spots or {}).get(name, ()))
         times = copies if full else 1
@@ -44,7 +56,7 @@ def size_of(case, file, spots=None, bodies=None) -> Estimate:
     return Estimate(elements, dofs, tuple(loads), case.integration.engine)
 
 
-def _points(case, name: str, nodes: int) -> int:
+def _points(case: Case, name: str, nodes: int) -> int:
     """Contact points of a body of so many nodes, roughly: on the outlines of the faces that touch,
     and as many inside as the case says.
     """
@@ -65,7 +77,7 @@ def _points(case, name: str, nodes: int) -> int:
     return sum(round(min(face, 4 * math.sqrt(face) + each)) for each in inner)
 
 
-def expected(case, file) -> Estimate:
+def expected(case: Case, file: Path | str) -> Estimate:
     """What the meshes of bodies and elastic grounds, and the analysis, will take."""
     found = size_of(case, file)
     bricks, dofs, loads = dict(found.bricks), dict(found.dofs), list(found.loads)
@@ -80,7 +92,7 @@ def expected(case, file) -> Estimate:
     return Estimate(bricks, dofs, tuple(loads), found.engine)
 
 
-def made_of(case, models: dict, scene) -> Estimate:
+def made_of(case: Case, models: Mapping[str, BodyModel], scene: DrawnScene) -> Estimate:
     """As `expected`, of bodies that are made.
 
     Parameters
@@ -108,7 +120,7 @@ def made_of(case, models: dict, scene) -> Estimate:
     return Estimate(bricks, dofs, tuple(loads), case.integration.engine)
 
 
-def _feet(case, ground: str) -> list[np.ndarray]:
+def _feet(case: Case, ground: str) -> list[NDArray[Any]]:
     """Corners (4, 3) [m] of the rectangles around the feet on a ground, by the keys of bodies."""
     found = []
     for one in case.joints.values():
@@ -116,7 +128,7 @@ def _feet(case, ground: str) -> list[np.ndarray]:
             continue
         for name, number in case.copies_of(one.slave):
             body = case.bodies[name]
-            if isinstance(body, Matrices):
+            if not isinstance(body, Meshable):
                 continue
             low, high = extent_in_plan(body)
             corners = np.array([[x, y, 0.0] for x in (low[0], high[0]) for y in (low[1], high[1])])
@@ -124,7 +136,7 @@ def _feet(case, ground: str) -> list[np.ndarray]:
     return found
 
 
-def extent_in_plan(body) -> tuple[np.ndarray, np.ndarray]:
+def extent_in_plan(body: Meshable) -> tuple[NDArray[Any], NDArray[Any]]:
     """Lowest and highest corner (2,) [m] of the foot of a body that is not of matrices."""
     if isinstance(body, Meshed):
         own = own_mesh(body.drawn)
@@ -132,11 +144,11 @@ def extent_in_plan(body) -> tuple[np.ndarray, np.ndarray]:
         foot = points[points[:, 2] < points[:, 2].min() + 1e-6 * np.ptp(points[:, 2]), :2]
         return foot.min(axis=0), foot.max(axis=0)
     if isinstance(body, Prism):
-        outline, half = np.array(body.outline_m), body.width_m / 2
+        outline, side = np.array(body.outline_m), body.width_m / 2
         if body.along == "z":
             return outline.min(axis=0), outline.max(axis=0)
         foot = outline[outline[:, 1] < outline[:, 1].min() + 1e-6 * np.ptp(outline[:, 1]), 0]
-        return np.array([foot.min(), -half]), np.array([foot.max(), half])
+        return np.array([foot.min(), -side]), np.array([foot.max(), side])
     if isinstance(body, (Plate, Storeys)):
         half = np.array([body.length_m, body.width_m]) / 2
     else:
@@ -145,7 +157,7 @@ def extent_in_plan(body) -> tuple[np.ndarray, np.ndarray]:
     return -half, half
 
 
-def expected_of_all(cases, file) -> str:
+def expected_of_all(cases: Iterable[Case], file: Path | str) -> str:
     """What a study says of its meshes: how many structures there are, and the estimate of the
     largest.
     """
@@ -154,14 +166,16 @@ def expected_of_all(cases, file) -> str:
     return f"{len(found)} meshes, the largest of {largest}" if len(found) > 1 else str(largest)
 
 
-def refuse_too_large(case, file, spots=None) -> None:
+def refuse_too_large(
+    case: Case, file: Path | str, spots: Mapping[str, Sequence[Spot]] | None = None
+) -> None:
     """Refuse meshes of more degrees of freedom than `mesh.limit_dofs`, naming the body and the size
     that makes them so, and one that would fit.
     """
     found, limit = size_of(case, file, spots), case.mesh.limit_dofs
     if (total := sum(found.dofs.values())) <= limit:
         return
-    name = max(found.dofs, key=found.dofs.get)
+    name = max(found.dofs, key=found.dofs.__getitem__)
     body, key = case.bodies[name], f"bodies.{name}"
     too_many = (
         f"the meshes would have {total:,} degrees of freedom "
@@ -176,6 +190,7 @@ def refuse_too_large(case, file, spots=None) -> None:
             body.mesh_file,
             f"{too_many}; take a coarser mesh, or a higher mesh.limit_dofs",
         )
+    assert isinstance(body, Gridded)
     if isinstance(body, Prism) and (size := largest_side(body)) > LARGE:
         side = "width_m" if size == body.width_m else "outline_m"
         raise InputError(
@@ -196,11 +211,12 @@ def refuse_too_large(case, file, spots=None) -> None:
     }
 
     def dofs_with(changed: str, value: float) -> int:
-        other = {changed.rpartition(".")[2]: value}
+        other: dict[str, Any] = {changed.rpartition(".")[2]: value}
         if coarse:
             other["coarse_size_m"] = max(coarse, value)
-        trial = replace(case, bodies=case.bodies | {name: replace(body, **other)})
-        return total - found.dofs[name] + size_of(trial, file, spots, [name]).dofs[name]
+        trial = replace(case, bodies={**case.bodies, name: replace(body, **other)})
+        dofs: int = total - found.dofs[name] + size_of(trial, file, spots, [name]).dofs[name]
+        return dofs
 
     refuse_sizes(file, sizes, dofs_with, limit, too_many, "the elements of all bodies")
 
@@ -210,7 +226,7 @@ def largest_side(body: Prism) -> float:
     return max(body.width_m, float(np.ptp(body.outline_m, axis=0).max()))
 
 
-def _largest(body) -> float:
+def _largest(body: Gridded) -> float:
     """The largest element size [m] that a body takes, as `check_keys.check_body` says."""
     if isinstance(body, Block):
         return min(body.length_m, body.width_m)

@@ -17,17 +17,20 @@ import json
 import os
 import shutil
 import tempfile
+from collections.abc import Callable
 from dataclasses import fields
 from pathlib import Path
+from typing import Any, NotRequired, TypedDict
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.foundation._compiled import cache_folder
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.digests import digest_of_json, intact, note, remove_damaged
 from fecolumn.foundation.lock import alone
 from fecolumn.foundation.sources import digest_of, files_of
-from fecolumn.structures.model import BodyModel, StoreyDrifts, Surface
+from fecolumn.structures.model import BodyModel, HullOutline, StoreyDrifts, Surface
 
 #: Sources that bodies, layouts and grounds are made from, whole folders where most of them are.
 SOURCES = (
@@ -49,12 +52,14 @@ SOURCES = (
 )
 #: Modes that a body keeps at least, so that analyses with fewer share it.
 KEPT_MODES = 30
+#: A reduced body; and nodes (n_nodes, 3) [m] and modes (m, n_nodes, 3) of one of finite elements.
+MadeBody = tuple[BodyModel, tuple[NDArray[Any], NDArray[Any]] | None]
 # Nodes by which the shape at a point between them is found, and how near a node a point is it, over
 # the body's size
 _NEAREST, _AT_NODE = 12, 1e-9
 
 
-def key_of(what) -> str:
+def key_of(what: object) -> str:
     """Name of what is made from `what`, anything that JSON takes, and from the present code."""
     return hashlib.sha256(json.dumps([what, _code()], sort_keys=True).encode()).hexdigest()[:16]
 
@@ -62,10 +67,12 @@ def key_of(what) -> str:
 @functools.cache
 def _code() -> list[str]:
     try:
-        dolfinx = importlib.metadata.version("fenics-dolfinx")
+        version = importlib.metadata.version("fenics-dolfinx")
     except importlib.metadata.PackageNotFoundError:
-        from dolfinx import __version__ as dolfinx
-    return [digest_of(files_of(SOURCES)), f"dolfinx {dolfinx}"]
+        import dolfinx
+
+        version = dolfinx.__version__
+    return [digest_of(files_of(SOURCES)), f"dolfinx {version}"]
 
 
 def body_folder(key: str) -> Path:
@@ -73,7 +80,7 @@ def body_folder(key: str) -> Path:
     return cache_folder() / f"body-{key}"
 
 
-def keep_body(key: str, make) -> None:
+def keep_body(key: str, make: Callable[[], MadeBody]) -> None:
     """Have a reduced body on disk; `make` returns the model and its fields, or None for these,
     where there is none yet, or it is damaged.
     """
@@ -101,7 +108,7 @@ def keep_body(key: str, make) -> None:
             shutil.rmtree(partial, ignore_errors=True)
 
 
-def shape_at(key: str, arm: np.ndarray) -> np.ndarray | None:
+def shape_at(key: str, arm: NDArray[Any]) -> NDArray[Any] | None:
     """Shape (3, m) [1/sqrt(kg)] of a kept body's modes at a point (3,) [m] from its centre of mass;
     None of a body without finite elements.
 
@@ -120,7 +127,8 @@ def shape_at(key: str, arm: np.ndarray) -> np.ndarray | None:
     weights = 1 / away[near]
     linear = np.column_stack([np.ones(len(near)), nodes[near] - arm])
     shares = np.linalg.pinv(linear * weights[:, None])[0] * weights
-    return np.einsum("n,nam->am", shares, own)
+    shape: NDArray[Any] = np.einsum("n,nam->am", shares, own)
+    return shape
 
 
 @functools.lru_cache(maxsize=32)
@@ -128,7 +136,9 @@ def kept_body(key: str) -> BodyModel:
     """The reduced body of a key, all its modes; equal bodies are one object."""
     with np.load(body_folder(key) / "body.npz") as file:
         arrays = {name: file[name] for name in file.files}
-    plain, surfaces, marks, storeys = {}, {}, {}, {}
+    surfaces: dict[str, dict[str, NDArray[Any]]] = {}
+    marks: dict[str, dict[str, NDArray[Any]]] = {}
+    plain, storeys = {}, {}
     for name, values in arrays.items():
         group, *rest = name.split("/")
         if group == "surfaces":
@@ -147,8 +157,8 @@ def kept_body(key: str) -> BodyModel:
     )
 
 
-def _arrays(model: BodyModel) -> dict[str, np.ndarray]:
-    """A model as arrays by names such as "surfaces/foot/areas"."""
+def _arrays(model: BodyModel) -> dict[str, ArrayLike]:
+    """A model as arrays and numbers by names such as "surfaces/foot/areas"."""
     arrays = {
         field.name: getattr(model, field.name)
         for field in fields(model)
@@ -170,25 +180,39 @@ def _arrays(model: BodyModel) -> dict[str, np.ndarray]:
     return arrays
 
 
+class KeptLayout(TypedDict):
+    """What is kept of a `layout.Layout`, as JSON has it.
+
+    By the names of bodies: element sizes [m]; lowest and highest place (3,) [m] and outlines, as
+    drawn; keys of the reduced models, where these are kept. contacts: each `layout.ContactPair`.
+    """
+
+    sizes: dict[str, float]
+    extents: dict[str, list[list[float]]]
+    outlines: dict[str, HullOutline | None]
+    contacts: list[dict[str, Any]]
+    models: NotRequired[dict[str, str]]
+
+
 def layout_file(key: str) -> Path:
     """Where a layout is kept."""
     return cache_folder() / "layouts" / f"{key}.json"
 
 
-def keep_layout(key: str, what: dict) -> None:
+def keep_layout(key: str, what: KeptLayout) -> None:
     """Write a layout."""
     layout_file(key).parent.mkdir(parents=True, exist_ok=True)
     write_json(layout_file(key), {"digest": digest_of_json(what), "layout": what})
 
 
-def kept_layout(key: str, fields: bool = False) -> dict | None:
+def kept_layout(key: str, fields: bool = False) -> KeptLayout | None:
     """The layout of a key, whose bodies are all on disk; None where it has to be made.
 
     fields: whether the modes all over the bodies are needed, too.
     """
     try:
         kept = json.loads(layout_file(key).read_text())
-        found = kept["layout"]
+        found: KeptLayout = kept["layout"]
         fits = kept["digest"] == digest_of_json(found)
     except FileNotFoundError:
         return None

@@ -6,8 +6,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 from fecolumn.case.bodies import Storeys
@@ -23,24 +25,27 @@ class Building:
     stiffness: (n, 2) [N/m] of storeys along x, y.
     """
 
-    masses: np.ndarray
-    heights: np.ndarray
-    stiffness: np.ndarray
+    masses: NDArray[Any]
+    heights: NDArray[Any]
+    stiffness: NDArray[Any]
 
-    def stiffness_matrix(self, axis: int) -> np.ndarray:
+    def stiffness_matrix(self, axis: int) -> NDArray[Any]:
         """Stiffness (n, n) [N/m] of the floors along an axis, relative to the slab."""
         drift = np.eye(len(self.masses)) - np.eye(len(self.masses), k=-1)
-        return drift.T * self.stiffness[:, axis] @ drift
+        matrix: NDArray[Any] = drift.T * self.stiffness[:, axis] @ drift
+        return matrix
 
-    def fixed(self, axis: int) -> np.ndarray:
+    def fixed(self, axis: int) -> NDArray[Any]:
         """Frequencies (n,) [rad/s] along an axis on a fixed slab."""
-        return np.sqrt(eigh(self.stiffness_matrix(axis), np.diag(self.masses), eigvals_only=True))
+        squares = eigh(self.stiffness_matrix(axis), np.diag(self.masses), eigvals_only=True)
+        frequencies: NDArray[Any] = np.sqrt(squares)
+        return frequencies
 
 
 def building_of(body: Storeys) -> Building:
     """Floors and storeys as a body's keys say."""
 
-    def each(values):
+    def each(values: tuple[float, ...]) -> NDArray[Any]:
         return np.array(values * body.floors if len(values) == 1 else values, float)
 
     masses, storey_heights = each(body.floor_masses_kg), each(body.storey_heights_m)
@@ -50,19 +55,21 @@ def building_of(body: Storeys) -> Building:
         stiffness = np.stack([x, each(body.stiffness_y_n_m) if body.stiffness_y_n_m else x], axis=1)
     else:
         stiffness = np.repeat(
-            _of_period(body, masses, np.cumsum(storey_heights))[:, None], 2, axis=1
+            _of_period(body, body.period_s, masses, np.cumsum(storey_heights))[:, None], 2, axis=1
         )
     return Building(masses, heights, stiffness)
 
 
-def _of_period(body: Storeys, masses, heights) -> np.ndarray:
+def _of_period(
+    body: Storeys, period: float, masses: NDArray[Any], heights: NDArray[Any]
+) -> NDArray[Any]:
     """Stiffnesses (n,) [N/m] of storeys by which the first mode on a fixed slab has the wanted
-    period, and the wanted profile.
+    period [s], and the wanted profile.
 
     With floors that move as f_i at the frequency w, storey i carries w^2 times the sum of m_j f_j
     above it, at a drift of f_i - f_(i-1).
     """
-    w = 2 * math.pi / body.period_s
+    w = 2 * math.pi / period
     z = heights / heights[-1]
     if body.profile == "uniform":
         alike = Building(masses, heights, np.ones((len(masses), 2)))
@@ -72,7 +79,10 @@ def _of_period(body: Storeys, masses, heights) -> np.ndarray:
         "shear": np.sin(np.pi * z / 2),
         "flexural": 1 - np.cos(np.pi * z / 2),
     }[body.profile]
-    return w**2 * np.cumsum((masses * moved)[::-1])[::-1] / np.diff(moved, prepend=0.0)
+    stiffness: NDArray[Any] = (
+        w**2 * np.cumsum((masses * moved)[::-1])[::-1] / np.diff(moved, prepend=0.0)
+    )
+    return stiffness
 
 
 def storeys_model(
@@ -87,17 +97,18 @@ def storeys_model(
     ... from below, "top" the highest; "storey 1" ...: points at the centre of mass that move by a
     storey's drift besides.
     """
-    building, n, sides = building_of(body), body.floors, np.array([body.length_m, body.width_m])
+    building, n = building_of(body), body.floors
     mass = slab_mass + building.masses.sum()
     center = np.array(
         [0.0, 0.0, (slab_mass * body.thickness_m / 2 + building.masses @ building.heights) / mass]
     )
     above = building.heights - center[2]
     inertia = slab_mass * (
-        _plate(*sides, body.thickness_m) + _raised(body.thickness_m / 2 - center[2])
+        _plate(body.length_m, body.width_m, body.thickness_m)
+        + _raised(body.thickness_m / 2 - center[2])
     )
     for floor, z in zip(building.masses, above):
-        inertia = inertia + floor * (_plate(*sides, 0.0) + _raised(z))
+        inertia = inertia + floor * (_plate(body.length_m, body.width_m, 0.0) + _raised(z))
     rigid = np.zeros((6, 6))
     rigid[:3, :3], rigid[3:, 3:] = mass * np.eye(3), inertia
     coupling = np.zeros((6, 2, n))
@@ -113,9 +124,11 @@ def storeys_model(
     squares, moved = eigh(stiffness, own - coupling.T @ np.linalg.solve(rigid, coupling))
     turned, frequencies = -np.linalg.solve(rigid, coupling @ moved), np.sqrt(squares)
 
-    def carried(arms):
+    def carried(arms: NDArray[Any]) -> NDArray[Any]:
         """Displacements (k, 3, m) of points with arms (k, 3) that move with the slab."""
-        return turned[:3] + np.cross(turned[3:].T[None], arms[:, None]).transpose(0, 2, 1)
+        moved_by_turns = np.cross(turned[3:].T[None], arms[:, None]).transpose(0, 2, 1)
+        displacements: NDArray[Any] = turned[:3] + moved_by_turns
+        return displacements
 
     arms, flexibility, surfaces = local_points(
         patches, center, material, body.contact_stiffness_n_m3
@@ -157,20 +170,26 @@ def storeys_model(
     )
 
 
-def _plate(length: float, width: float, thickness: float) -> np.ndarray:
+def _plate(length: float, width: float, thickness: float) -> NDArray[Any]:
     """Inertia (3, 3) over mass of a box about its middle [m2]."""
     x, y, z = length**2, width**2, thickness**2
     return np.diag([y + z, x + z, x + y]) / 12
 
 
-def _raised(z: float) -> np.ndarray:
+def _raised(z: float) -> NDArray[Any]:
     """What a height z [m] over the centre of mass adds to it."""
     return np.diag([z**2, z**2, 0.0])
 
 
 def _rayleigh(
-    body: Storeys, building: Building, ratio: float, mass, stiffness, moved, frequencies
-) -> np.ndarray:
+    body: Storeys,
+    building: Building,
+    ratio: float,
+    mass: NDArray[Any],
+    stiffness: NDArray[Any],
+    moved: NDArray[Any],
+    frequencies: NDArray[Any],
+) -> NDArray[Any]:
     """Damping ratios (m,) of the free modes: floors damped relative to the slab by C = a M + b K on
     each axis.
 
@@ -188,4 +207,5 @@ def _rayleigh(
             / (first + second)
             * (first * second * mass[rows, rows] + stiffness[rows, rows])
         )
-    return np.einsum("im,ij,jm->m", moved, damping, moved) / (2 * frequencies)
+    ratios: NDArray[Any] = np.einsum("im,ij,jm->m", moved, damping, moved) / (2 * frequencies)
+    return ratios

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Matrices
+from fecolumn.case.body_keys import Solid, WithMaterial
+from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import Initial
 from fecolumn.contact.points import GROUND
@@ -23,16 +28,16 @@ from fecolumn.structures.check import (
 from fecolumn.structures.ground import bases_of
 from fecolumn.structures.hulls import found_contact
 from fecolumn.structures.made_layout import layout_on_disk
-from fecolumn.structures.model import BodyModel, Part, StructureModel
+from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
 from fecolumn.structures.pads import with_pads
 from fecolumn.structures.place import Standing, placed
 from fecolumn.structures.sense import check_sense, tell_of_densities, tell_of_lengths
-from fecolumn.structures.store import (
-    kept_body,
-)
+from fecolumn.structures.store import KeptLayout, kept_body
 
 
-def structure_model(case, file="case", say=lambda text: None) -> StructureModel:
+def structure_model(
+    case: Case, file: Path | str = "case", say: Callable[[str], None] = lambda text: None
+) -> StructureModel:
     """The structure of a case at its start; bodies that are on disk are not made again.
 
     Parameters
@@ -55,7 +60,11 @@ def structure_model(case, file="case", say=lambda text: None) -> StructureModel:
 
 
 def assembled(
-    case, bodies: dict[str, BodyModel], layout: dict, file, say=lambda text: None
+    case: Case,
+    bodies: dict[str, BodyModel],
+    layout: KeptLayout,
+    file: Path | str,
+    say: Callable[[str], None] = lambda text: None,
 ) -> StructureModel:
     """Structure of the reduced `bodies` by name, put together as a `layout` of `keep_models` says.
 
@@ -137,7 +146,7 @@ def assembled(
     return structure
 
 
-def _airborne(standing: list[Standing], joints, links) -> set[int]:
+def _airborne(standing: list[Standing], joints: list[Joint], links: tuple[Link, ...]) -> set[int]:
     """Places of the parts that no joint without a gap, and no link, ties to a ground."""
     pairs = [(joint.slave, joint.master) for joint in joints if not joint.gap]
     pairs += [(link.a, link.b) for link in links if link.stiffness]
@@ -147,7 +156,7 @@ def _airborne(standing: list[Standing], joints, links) -> set[int]:
     return set(range(len(standing))) - held
 
 
-def _that_moves(case, name: str, model: BodyModel) -> BodyModel:
+def _that_moves(case: Case, name: str, model: BodyModel) -> BodyModel:
     """A body with its modes; in the rigid engine without any give but that of a stated contact
     stiffness.
     """
@@ -159,13 +168,13 @@ def _that_moves(case, name: str, model: BodyModel) -> BodyModel:
     return model.with_modes(case.modes_of(name))
 
 
-def standing_of(case, structure: StructureModel) -> list[Standing]:
+def standing_of(case: Case, structure: StructureModel) -> list[Standing]:
     """The parts of a structure as they stand before any is tilted."""
     copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
     return _standing(case, copies, [part.model for part in structure.parts])
 
 
-def _standing(case, copies, bodies: list[BodyModel]) -> list[Standing]:
+def _standing(case: Case, copies: list[tuple[str, int]], bodies: list[BodyModel]) -> list[Standing]:
     starts = _starts(case)
     return [
         Standing(
@@ -179,32 +188,36 @@ def _standing(case, copies, bodies: list[BodyModel]) -> list[Standing]:
     ]
 
 
-def _held_by(case, name: str) -> int:
+def _held_by(case: Case, name: str) -> int:
     """Place of the ground that holds a body, -1 of one that is free."""
     body = case.bodies[name]
-    if not getattr(body, "fixed", False):
+    if not isinstance(body, Solid) or not body.fixed:
         return -1
     return list(case.grounds).index(body.moves_with) if body.moves_with else 0
 
 
-def _starts(case) -> dict[tuple[str, int], Initial]:
+def _starts(case: Case) -> dict[tuple[str, int], Initial]:
     """Start of each copy that has one; "column 2" goes before "column", "arch 2" before "arch"."""
-    found = {}
+    found: dict[tuple[str, int], Initial] = {}
     for name in sorted(case.initial, key=lambda one: -len(case.copies_of(one))):
         found |= dict.fromkeys(case.copies_of(name), case.initial[name])
     return found
 
 
-def _damping(case, name: str, model: BodyModel):
+def _damping(case: Case, name: str, model: BodyModel) -> float | NDArray[Any]:
     if model.damping is not None:
         return model.damping
     body = case.bodies[name]
     if body.damping_ratio is not None:
         return body.damping_ratio
-    return 0.0 if isinstance(body, Matrices) else material_of(body, case.materials).damping_ratio
+    if not isinstance(body, WithMaterial):
+        return 0.0
+    return material_of(body, case.materials).damping_ratio
 
 
-def _observed(case, parts, places, file) -> tuple[int, str]:
+def _observed(
+    case: Case, parts: tuple[Part, ...], places: dict[tuple[str, int], int], file: Path | str
+) -> tuple[int, str]:
     if case.observed:
         name, _, mark = case.observed.partition(".")
         body, (number,) = case.meant_by(name)

@@ -5,17 +5,25 @@ flange and below its cap.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
+from typing import TypeGuard
 
-from fecolumn.case.bodies import Block, Meshed
+from fecolumn.case.bodies import Block, Cylinder, Meshed, Tube
+from fecolumn.case.body_keys import WithMaterial
 from fecolumn.case.column_keys import Base, Column, Mesh
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.case.sizes import sized
 from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError
+from fecolumn.mesh.bricks import BrickMesh
 from fecolumn.mesh.estimate import body_counts
 from fecolumn.mesh.imported import own_mesh
 from fecolumn.mesh.specimen import body_mesh
+from fecolumn.mesh.tie import Tie
 from fecolumn.mesh.upright import Upright
+
+#: Bodies that may have two grids.
+OfGrids = Tube | Cylinder | Block | Meshed
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +36,7 @@ class Built(Upright):
     cap: Cap | None
 
 
-def is_tied(body) -> bool:
+def is_tied(body: WithMaterial) -> TypeGuard[OfGrids]:
     """Whether a body is of two grids, or has a plate that its own grid cannot have."""
     if isinstance(body, Meshed):
         return body.cap is not None
@@ -37,7 +45,7 @@ def is_tied(body) -> bool:
     return isinstance(body, Block) and (body.flange is not None or body.cap is not None)
 
 
-def built_of(body) -> Built:
+def built_of(body: OfGrids) -> Built:
     """What a body is built of, all sizes known.
 
     Raises
@@ -47,35 +55,36 @@ def built_of(body) -> Built:
     ValueError
         a kind that is none of mesh, block, cylinder and tube.
     """
-    if body.kind == "mesh":
-        if not own_mesh(body.drawn).has_foot:
-            raise InputError(
-                body.mesh_file, "cap", None, "must be left out of a mesh without a flat foot"
+    match body:
+        case Meshed(kind="mesh"):
+            if not own_mesh(body.drawn).has_foot:
+                raise InputError(
+                    body.mesh_file, "cap", None, "must be left out of a mesh without a flat foot"
+                )
+            column = Column(
+                mesh_file=body.mesh_file,
+                mesh_unit=body.mesh_unit,
+                mesh_size_m=body.mesh_size_m,
+                cut_foot_m=body.cut_foot_m,
             )
-        column = Column(
-            mesh_file=body.mesh_file,
-            mesh_unit=body.mesh_unit,
-            mesh_size_m=body.mesh_size_m,
-            cut_foot_m=body.cut_foot_m,
-        )
-    elif body.kind == "block":
-        column = Column(
-            shape="block",
-            length_m=body.length_m,
-            width_m=body.width_m,
-            height_m=body.height_m,
-            fine_height_m=body.fine_height_m,
-        )
-    elif body.kind in ("cylinder", "tube"):
-        column = Column(
-            shape="solid" if body.kind == "cylinder" else "tube",
-            outer_diameter_m=body.outer_diameter_m,
-            wall_m=getattr(body, "wall_m", None),
-            height_m=body.height_m,
-            fine_height_m=body.fine_height_m,
-        )
-    else:
-        raise ValueError(f"no mesh of two grids, or with a plate, of kind {body.kind!r}")
+        case Block(kind="block"):
+            column = Column(
+                shape="block",
+                length_m=body.length_m,
+                width_m=body.width_m,
+                height_m=body.height_m,
+                fine_height_m=body.fine_height_m,
+            )
+        case Cylinder(kind="cylinder") | Tube(kind="tube"):
+            column = Column(
+                shape="solid" if body.kind == "cylinder" else "tube",
+                outer_diameter_m=body.outer_diameter_m,
+                wall_m=getattr(body, "wall_m", None),
+                height_m=body.height_m,
+                fine_height_m=body.fine_height_m,
+            )
+        case _:
+            raise ValueError(f"no mesh of two grids, or with a plate, of kind {body.kind!r}")
     mesh = Mesh(
         fine_size_m=body.element_size_m,
         coarse_size_m=body.coarse_size_m,
@@ -88,7 +97,9 @@ def built_of(body) -> Built:
     return Built(column, mesh, flange, body.cap)
 
 
-def tied_mesh(key: str, body, file):
+def tied_mesh(
+    key: str, body: OfGrids, file: Path | str
+) -> tuple[BrickMesh, tuple[Tie, ...], int, float]:
     """Mesh of a body of two grids, its ties, order of its elements and element size at its foot
     [m].
 
@@ -102,10 +113,12 @@ def tied_mesh(key: str, body, file):
         mesh, ties = body_mesh(built)
     except InputError as error:
         raise InputError(file, f"{key}: {error.key}", error.value, error.allowed) from None
-    return mesh, ties, built.mesh.element_order if body.deforms else 1, built.mesh.fine_size_m
+    order, size = built.mesh.element_order, built.mesh.fine_size_m
+    assert order is not None and size is not None
+    return mesh, ties, order if body.deforms else 1, size
 
 
-def tied_counts(body) -> tuple[int, int]:
+def tied_counts(body: OfGrids) -> tuple[int, int]:
     """Elements and nodes of a body of two grids, told without making them."""
     elements, nodes, _ = body_counts(built_of(body))
     return sum(elements.values()), sum(nodes.values())

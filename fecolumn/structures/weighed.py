@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fecolumn.case.body_keys import Solid
+from fecolumn.case.bodies import Meshed
+from fecolumn.case.body_keys import Solid, WithMaterial
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import BrickMesh
 from fecolumn.mesh.imported import own_mesh
@@ -14,7 +18,7 @@ from fecolumn.mesh.mass import MassProperties, mass_properties
 from fecolumn.mesh.weighing import NoSuchDensity, relative_densities
 
 
-def weighed(body, found: MassProperties) -> MassProperties:
+def weighed(body: WithMaterial, found: MassProperties) -> MassProperties:
     """The mass properties `found` of a body in its own drawing, before it is turned, with what its
     case states in their place.
     """
@@ -24,20 +28,22 @@ def weighed(body, found: MassProperties) -> MassProperties:
     if isinstance(body, Solid):
         if body.centre_m:
             centre = np.array(body.centre_m)
-            if body.as_drawn:
-                centre = centre - own_mesh(body.drawn).drawn_at
+            if isinstance(body, Meshed) and body.as_drawn:
+                centre = centre - np.array(own_mesh(body.drawn).drawn_at)
         if body.inertia_kg_m2:
             inertia = tensor(body.inertia_kg_m2)
     return dataclasses.replace(found, mass=mass, centre=centre, inertia=inertia)
 
 
-def tensor(values: tuple[float, ...]) -> np.ndarray:
+def tensor(values: tuple[float, ...]) -> NDArray[Any]:
     """Inertia (3, 3) of xx, yy, zz and, if there are six, xy, xz, yz."""
     xx, yy, zz, xy, xz, yz = (*values, 0.0, 0.0, 0.0)[:6]
     return np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
 
 
-def weighed_shares(key: str, body, mesh: BrickMesh, density: float, file) -> np.ndarray | None:
+def weighed_shares(
+    key: str, body: WithMaterial, mesh: BrickMesh, density: float, file: Path | str
+) -> NDArray[Any] | None:
     """Densities (n_cells,) over the material's with which a mesh that is not turned yet has the
     centre and inertia stated; None where none are.
 
@@ -50,7 +56,7 @@ def weighed_shares(key: str, body, mesh: BrickMesh, density: float, file) -> np.
     if not stated:
         return None
     wanted = weighed(body, mass_properties(mesh, density))
-    inertia = wanted.inertia / density if body.inertia_kg_m2 else None
+    inertia = wanted.inertia / density if "inertia_kg_m2" in stated else None
     try:
         return relative_densities(mesh, wanted.mass / density, wanted.centre, inertia)
     except NoSuchDensity as error:

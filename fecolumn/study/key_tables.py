@@ -155,10 +155,8 @@ def _of_structures() -> list[Table]:
         'body, or "BODY.MARK", whose displacement is u_top, such as "building.floor '
         "2\"; left out: the highest body's top",
     )
-    bodies = [
-        own(kind)
-        for kind in (Placed, WithMaterial, Solid, Footed, *dict.fromkeys(BODY_KINDS.values()))
-    ]
+    kinds: list[type[Placed]] = [Placed, WithMaterial, Solid, Footed]
+    bodies = [own(kind) for kind in [*kinds, *dict.fromkeys(BODY_KINDS.values())]]
     others = {
         "bodies.NAME.flange": Flange,
         "bodies.NAME.cap": Cap,

@@ -151,7 +151,7 @@ class Foot:
         for iteration in range(ITERATIONS):
             positions = start + (response @ (after["force"] - began).ravel()).reshape(-1, 3)
             interpreted(list_near_points)(
-                self.problem, self.points, self.interface, positions, before, after
+                self.problem, everyone, self.points, self.interface, positions, before, after
             )
             answer, residual = interpreted(find_residual)(
                 self.problem,

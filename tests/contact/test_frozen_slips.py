@@ -12,6 +12,7 @@ from fecolumn.contact.coulomb import violation
 from fecolumn.contact.coupling import (
     Coupling,
     coupling_by_levers,
+    motion_by,
     moved_by,
     slips_under,
     softened,
@@ -19,7 +20,7 @@ from fecolumn.contact.coupling import (
     times,
 )
 from fecolumn.contact.friction import by_frozen_slips
-from fecolumn.contact.frozen_slips import find_impulses
+from fecolumn.contact.frozen_slips import find_impulses, follow_slips, solve_frozen
 from fecolumn.contact.impulses import all_impulses, rough_impulses
 from fecolumn.contact.problem import N_COUNTS
 from fecolumn.foundation._compiled import interpreted
@@ -141,3 +142,26 @@ def test_forces_of_a_step_are_found_where_newton_alone_may_find_none(seed, along
     after = slips_under(coupling, slips, forces)
     assert violation(after, forces, friction, rho) == residual <= 1e-11
     assert (forces[:, 2] > 0).sum() >= 2
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_motion_follows_its_slips(seed):
+    """While the same points carry, stick and slide, the motion that follows a small change of the
+    slips is the solution for them but for what is quadratic in the change, by which cones bend.
+    """
+    coupling, velocity, friction, start = impact(3, seed)
+    chance, far = np.random.default_rng(seed), []
+    n = len(velocity)
+    change = chance.uniform(0.0, 1.0, n)
+    for size in (1e-7, 1e-8):
+        slips, impulses, slopes = np.full(n, 1e-2), np.empty((n, 3)), np.empty((n, 3, 3))
+        motion = motion_by(coupling, start)
+        solve_frozen(coupling, velocity, friction, slips, motion, impulses, slopes, 1e-15)
+        before = np.full(n, 1e-2)
+        stays, after = motion.copy(), before + size * change
+        follow_slips(coupling, before, after, motion, impulses, slopes)
+        exact = motion.copy()
+        solve_frozen(coupling, velocity, friction, after.copy(), exact, impulses, slopes, 1e-15)
+        assert np.abs(exact - stays).max() > 1e-2 * size
+        far.append(np.abs(motion - exact).max())
+    assert far[0] < 1e-3 * 1e-7 or far[1] < 0.02 * far[0]

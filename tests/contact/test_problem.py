@@ -120,7 +120,13 @@ def test_a_point_beyond_an_outline_is_found_anew_where_it_comes_back():
     points["beyond"], contact["force"][:, 2] = [OVER, BEYOND], 1e3
     after = contact.copy()
     interpreted(list_near_points)(
-        room(points), points, interface_of(places), places[:, [1, 2, 0]], contact, after
+        room(points),
+        np.arange(2),
+        points,
+        interface_of(places),
+        places[:, [1, 2, 0]],
+        contact,
+        after,
     )
     assert after["located"].tolist() == [True, False]
 

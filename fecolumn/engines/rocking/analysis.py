@@ -7,14 +7,22 @@ from __future__ import annotations
 import math
 import time
 import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.case import Case
 from fecolumn.engines.analysis import Analysis
 from fecolumn.engines.ending import AT_REST, OVERTURNED, STILL_ROCKING, Ending
 from fecolumn.engines.rocking.model import STATE_TERMS, ModelResponse
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
 from fecolumn.motions.record import GroundMotion
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
 
 
 class ModelAnalysis(Analysis):
@@ -23,7 +31,9 @@ class ModelAnalysis(Analysis):
     It takes milliseconds, has no checkpoint and is made again where it was stopped.
     """
 
-    def __init__(self, case, folder, comm, file, quiet):
+    def __init__(
+        self, case: Case, folder: Path, comm: MPI.Intracomm, file: str, quiet: bool
+    ) -> None:
         super().__init__(case, folder, comm, file, quiet)
         self.file = file
         self.model, self.start = model_of(case, file), start_of(case, file)
@@ -46,16 +56,16 @@ class ModelAnalysis(Analysis):
         last = self.history.last()
         return max(0.0, float(sum(last[f"energy/{name}"] for name in STATE_TERMS)))
 
-    def limits(self) -> dict:
+    def limits(self) -> dict[str, float]:
         """As of Analysis, of the model."""
         return dict(
             critical_tilt_rad=self.model.critical_tilt,
             u_critical_m=self.model.critical_displacement,
         )
 
-    def run(self, stop) -> dict:
+    def run(self, stop: Callable[[], bool]) -> dict[str, Any]:
         """The whole response; its summary. `stop` is not asked."""
-        dt, initial = self.case.integration.dt_s, self.start
+        dt, initial = float(self.case.integration.dt_s), self.start
         samples = (
             np.zeros((2, 3)) if self.motion is None else self.motion.acceleration[: self.steps + 1]
         )
@@ -95,7 +105,7 @@ class ModelAnalysis(Analysis):
         )
         return self.write_results(ending, len(response.coordinates), more)
 
-    def _energy(self, response: ModelResponse, rows: int) -> dict[str, np.ndarray]:
+    def _energy(self, response: ModelResponse, rows: int) -> dict[str, NDArray[Any]]:
         """All terms of the ledger; those that a model has not are 0."""
         from fecolumn.engines.dynamics.energy import TERMS
 
@@ -109,7 +119,7 @@ class ModelAnalysis(Analysis):
         capped = (
             np.flatnonzero(np.hypot(response.u_top[:last, 0], response.u_top[:last, 1]) >= cap)
             if cap
-            else []
+            else np.array([], int)
         )
         if len(capped):
             return int(capped[0]) + 1, Ending(
@@ -127,7 +137,8 @@ class ModelAnalysis(Analysis):
                     f"point of no return: tilt {response.tilt[lost]:.3g} rad, critical "
                     f"{critical:.3g} rad, at {response.time[lost]:.3f} s",
                 )
-        energy = sum(response.energy[name] for name in STATE_TERMS)
+        kinetic, strain, gravity = (response.energy[name] for name in STATE_TERMS)
+        energy = kinetic + strain + gravity
         if self.until_rest:
             still = np.flatnonzero(
                 (energy[:last] <= self.still_j) & (np.arange(last) >= self.motion_steps)
@@ -137,7 +148,7 @@ class ModelAnalysis(Analysis):
                 return int(still[0]) + 1, Ending(
                     AT_REST,
                     "at rest "
-                    f"{end - self.motion_steps * self.case.integration.dt_s:.3f} s "
+                    f"{end - self.motion_steps * float(self.case.integration.dt_s):.3f} s "
                     f"after the motion's end, at {end:.3f} s",
                 )
         outcome = AT_REST if energy[last - 1] <= self.still_j else STILL_ROCKING

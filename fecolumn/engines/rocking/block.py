@@ -7,7 +7,8 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
-from typing import ClassVar, NamedTuple
+from pathlib import Path
+from typing import ClassVar, NamedTuple, TypedDict, Unpack
 
 import numpy as np
 
@@ -34,7 +35,7 @@ class RockingBlock(PlanarModel):
     planes: tuple[Plane, ...]
 
     @classmethod
-    def of_section(cls, section: BlockSection, file) -> RockingBlock:
+    def of_section(cls, section: BlockSection, file: Path | str) -> RockingBlock:
         """Block of its table.
 
         Raises
@@ -67,13 +68,13 @@ class RockingBlock(PlanarModel):
                 section.depth_m,
                 "must be left out where block.sides = 1: such a block leans to +x alone",
             )
-        planes = [_plane(own, 0, width, mass)]
+        planes = [_plane(own, 0, (width, height), mass)]
         if section.depth_m:
             planes.append(
                 _plane(
                     dataclasses.replace(own, roof_eccentricity_m=0.0, roof_thrust_n=0.0),
                     1,
-                    section.depth_m,
+                    (section.depth_m, height),
                     mass,
                 )
             )
@@ -83,7 +84,9 @@ class RockingBlock(PlanarModel):
         return block
 
     @classmethod
-    def of_body(cls, body: RigidColumn, friction: float, file, restitution=None) -> RockingBlock:
+    def of_body(
+        cls, body: RigidColumn, friction: float, file: Path | str, restitution: float | None = None
+    ) -> RockingBlock:
         """A body on its foot, with its mass, centre and inertia; its restitution by the plastic
         impact unless given.
 
@@ -151,7 +154,17 @@ class PlanarBody(NamedTuple):
     top_inside: tuple[float, float]
 
 
-def body_plane(body: PlanarBody, restitution: float | None = None, **laws) -> Plane:
+class PlaneLaws(TypedDict, total=False):
+    """What holds a plane and where it may lean to, as of Plane."""
+
+    restraints: tuple[Restraint, Restraint]
+    friction: float
+    only: int
+
+
+def body_plane(
+    body: PlanarBody, restitution: float | None = None, **laws: Unpack[PlaneLaws]
+) -> Plane:
     """Plane of a rigid body on its foot.
 
     Parameters
@@ -162,7 +175,8 @@ def body_plane(body: PlanarBody, restitution: float | None = None, **laws) -> Pl
         restraints, friction and only, as of Plane.
     """
     mass, central, height = body.mass, body.central, body.height
-    inertia = tuple(central + mass * (edge**2 + height**2) for edge in body.edges)
+    first, second = (central + mass * (edge**2 + height**2) for edge in body.edges)
+    inertia = first, second
     if restitution is None:
         vectors = (-body.edges[0], height), (body.edges[1], height)
         kept = (
@@ -176,8 +190,9 @@ def body_plane(body: PlanarBody, restitution: float | None = None, **laws) -> Pl
     )
 
 
-def _plane(section: BlockSection, axis: int, width: float, mass: float) -> Plane:
-    height, roof, off = section.height_m, section.roof_mass_kg, section.roof_eccentricity_m
+def _plane(section: BlockSection, axis: int, sides: tuple[float, float], mass: float) -> Plane:
+    """Plane of a block of these sides: width and height [m]."""
+    (width, height), roof, off = sides, section.roof_mass_kg, section.roof_eccentricity_m
     total = mass + roof
     centre = np.array([roof * off, mass * height / 2 + roof * height]) / total
     own, there = centre - (0.0, height / 2), centre - (off, height)
@@ -212,13 +227,13 @@ def _plane(section: BlockSection, axis: int, width: float, mass: float) -> Plane
             axis, total, edges, float(centre[1]), float(central), height, (width / 2, width / 2)
         ),
         restitution,
-        restraints=tuple(restraints),
+        restraints=(restraints[0], restraints[1]),
         friction=section.friction_coefficient,
         only=1 if section.sides == 1 else 0,
     )
 
 
-def _refuse_fallen(plane: Plane, file, section) -> None:
+def _refuse_fallen(plane: Plane, file: Path | str, section: BlockSection) -> None:
     for side in plane.sides:
         if not plane.restoring(0.0, side) > 0:
             raise InputError(

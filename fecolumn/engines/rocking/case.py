@@ -7,6 +7,8 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -53,7 +55,7 @@ class ModelCase:
     name: str
     model: Model
     title: str
-    file: object
+    file: Path | str
     sources: tuple[str, ...]
     motion: Motion | None
     start: Start
@@ -72,6 +74,7 @@ class ModelCase:
         if source is None:
             ground, free = GroundMotion(np.zeros((2, 3)), dt, "at rest", ""), duration - dt
         else:
+            assert self.motion is not None  # of which `source` is
             ground = load_motion(dataclasses.replace(self.motion, source=source), dt, self.file)
             free = (
                 self.motion.longest_free_vibration_s
@@ -92,7 +95,7 @@ class ModelCase:
         )
 
 
-def read_model_case(name: str, path) -> ModelCase:
+def read_model_case(name: str, path: Path | str) -> ModelCase:
     """A model by its name, from a file with its table, such as [block], or from a case with
     [column] or [bodies].
 
@@ -125,18 +128,18 @@ def read_model_case(name: str, path) -> ModelCase:
         sources,
         motion,
         start,
-        case.integration.dt_s,
+        float(case.integration.dt_s),
         case.integration.duration_s,
     )
 
 
-def _motion(tables: dict, path) -> tuple[Motion | None, tuple[str, ...]]:
+def _motion(tables: dict[str, Any], path: Path | str) -> tuple[Motion | None, tuple[str, ...]]:
     """The [motion] of a file, and its sources; of the tables only one motion is left, so that they
     are those of a case.
     """
     if "motion" not in tables:
         return None, ()
-    motion = build(Motion, tables["motion"], path, "motion.")
+    motion: Motion = build(Motion, tables["motion"], path, "motion.")
     found = []
     for source in chosen_motions(motion.source, "motion.source", path):
         found.append(located("motion", dataclasses.replace(motion, source=source), path))

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import NoReturn
 
 import numpy as np
 
+from fecolumn.case.bodies import Block, Cylinder, Meshed, Plate, Storeys, Tube
+from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.ground import GROUND_NAME
+from fecolumn.case.joint import Interface
 from fecolumn.case.model_table import Start
+from fecolumn.case.sections import Initial
 from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.frame import RockingFrame
@@ -24,9 +29,10 @@ from fecolumn.structures.storeys import building_of
 
 # Kinds of bodies whose mass, inertia and foot are known here, as of rigid bodies
 _KNOWN_FEET = ("tube", "cylinder", "block", "plate", "slab", "storeys", "mesh")
+_CLASSES = (Tube, Cylinder, Block, Plate, Storeys, Meshed)
 
 
-def model_of(case, file) -> Model:
+def model_of(case: Case, file: Path | str) -> Model:
     """The model that integration.engine of a case names, of its own table or of its bodies.
 
     housner, wobbling: one body on the ground. rocking_frame, wobbling_frame: equal columns on the
@@ -42,7 +48,7 @@ def model_of(case, file) -> Model:
     return _Reader(case, file).model()
 
 
-def start_of(case, file) -> Start:
+def start_of(case: Case, file: Path | str) -> Start:
     """Tilt and direction at the start of the body that rocks, or of all columns alike.
 
     Raises
@@ -59,7 +65,7 @@ def start_of(case, file) -> Start:
 class _Reader:
     """Reads a Case for a model, which it refuses by name."""
 
-    def __init__(self, case, file):
+    def __init__(self, case: Case, file: Path | str) -> None:
         self.case, self.file, self.engine = case, file, case.integration.engine
 
     def model(self) -> Model:
@@ -87,7 +93,7 @@ class _Reader:
         """As `start_of`."""
         single = self.engine in ("housner", "wobbling")
         name, slab = (self._alone(), None) if single else self._columns()
-        found = {}
+        found: dict[int, Initial] = {}
         for key in sorted(self.case.initial, key=lambda one: one not in self.case.bodies):
             one = self.case.initial[key]
             if one.moves:
@@ -109,7 +115,7 @@ class _Reader:
             self._lacks(f'needs one start for all of "{name}", which lean alike')
         return Start(*starts.pop()) if starts else Start()
 
-    def _refuse(self, key: str, value, allowed: str) -> NoReturn:
+    def _refuse(self, key: str, value: object, allowed: str) -> NoReturn:
         raise InputError(self.file, key, value, allowed)
 
     def _lacks(self, needs: str) -> NoReturn:
@@ -119,7 +125,7 @@ class _Reader:
     def _refuse_laws(self) -> None:
         """Refuse keys of which the model knows nothing."""
         contact = self.case.contact
-        stated = {
+        stated: dict[str, float | None] = {
             "contact.restitution": contact.restitution,
             "contact.rolling_resistance": contact.rolling_resistance,
         }
@@ -166,7 +172,7 @@ class _Reader:
             pairs |= {pair for a in own for b in others for pair in ((a, b), (b, a))}
         return pairs
 
-    def _sides(self, joint) -> tuple[set[str], set[str]]:
+    def _sides(self, joint: Interface) -> tuple[set[str], set[str]]:
         """Bodies on both sides of a joint, or GROUND_NAME."""
         one, other = (
             {GROUND_NAME}
@@ -204,7 +210,7 @@ class _Reader:
     def _upright_block(self, name: str) -> tuple[float, float]:
         """Half width along x and height [m] of columns that rock along x."""
         body = self.case.bodies[name]
-        if body.kind != "block":
+        if body.kind != "block" or not isinstance(body, Block):
             self._lacks(
                 f'needs columns of kind = "block"; "{name}" is a {body.kind}'
                 + ("" if self.engine == "podium" else ": wobbling_frame is the model of round ones")
@@ -216,19 +222,24 @@ class _Reader:
             )
         return body.length_m / 2, body.height_m
 
-    def _wobbling_frame(self, name, column: RigidColumn, slab, count, friction) -> WobblingFrame:
+    def _wobbling_frame(
+        self, name: str, column: RigidColumn, slab: str, count: int, friction: float
+    ) -> WobblingFrame:
         body = self.case.bodies[name]
-        if body.kind not in ("tube", "cylinder") or body.flange or body.cap:
+        is_round = body.kind in ("tube", "cylinder")
+        if not is_round or not isinstance(body, (Tube, Cylinder)) or body.flange or body.cap:
             self._lacks(f'needs round columns without flange and cap; "{name}" is a {body.kind}')
         radius = body.outer_diameter_m / 2
-        inner = radius - body.wall_m if body.kind == "tube" else 0.0
+        inner = radius - body.wall_m if isinstance(body, Tube) else 0.0
         share = self._mass(slab) / count
         own = cylinder_body(radius, inner, body.height_m, column.mass, share)
         return WobblingFrame(own, count, friction=friction)
 
-    def _podium(self, name: str, slab: str, alpha, diagonal, columns_mass) -> Podium:
+    def _podium(
+        self, name: str, slab: str, alpha: float, diagonal: float, columns_mass: float
+    ) -> Podium:
         body = self.case.bodies[slab]
-        if body.kind != "storeys":
+        if body.kind != "storeys" or not isinstance(body, Storeys):
             self._lacks(f'needs storeys on the columns; "{slab}" is a {body.kind}')
         building = building_of(body)
         found = Podium(
@@ -260,7 +271,7 @@ class _Reader:
         return rigid_body(self.case, name, self.file).mass
 
 
-def rigid_body(case, name: str, file) -> RigidColumn:
+def rigid_body(case: Case, name: str, file: Path | str) -> RigidColumn:
     """A body of a Case as one rigid body on its foot, from closed forms; of a mesh, by its
     volume.
 
@@ -276,7 +287,7 @@ def rigid_body(case, name: str, file) -> RigidColumn:
     from fecolumn.structures.weighed import weighed
 
     body, is_round = case.bodies[name], False
-    if body.kind not in _KNOWN_FEET:
+    if body.kind not in _KNOWN_FEET or not isinstance(body, _CLASSES):
         raise InputError(
             file,
             f"bodies.{name}.kind",
@@ -287,16 +298,16 @@ def rigid_body(case, name: str, file) -> RigidColumn:
     density = material_of(body, case.materials).density_kg_m3
     flange, cap = getattr(body, "flange", None), getattr(body, "cap", None)
     seat = flange.thickness_m if flange else 0.0
-    if body.kind == "mesh":
+    if isinstance(body, Meshed):
         own = own_mesh(body.drawn)
         if not own.has_foot:
             raise InputError(
                 file, f"bodies.{name}.mesh_file", body.mesh_file, "has no flat foot to rock on"
             )
         found, extent, top = mass_properties(own.mesh, density), own.foot, own.height
-    elif body.kind in ("tube", "cylinder"):
+    elif isinstance(body, (Tube, Cylinder)):
         is_round, outer = True, body.outer_diameter_m / 2
-        inner = outer - body.wall_m if body.kind == "tube" else 0.0
+        inner = outer - body.wall_m if isinstance(body, Tube) else 0.0
         found, top = (
             ring_properties(outer, inner, body.height_m, seat, density),
             seat + body.height_m,
@@ -304,7 +315,7 @@ def rigid_body(case, name: str, file) -> RigidColumn:
         extent = (2 * outer,) * 2
     else:
         extent = body.length_m, body.width_m
-        height = body.height_m if body.kind == "block" else body.thickness_m
+        height = body.height_m if isinstance(body, Block) else body.thickness_m
         found, top = box_properties(*extent, height, seat, density), seat + height
     if flange:
         wide, bore = flange.outer_diameter_m, flange.inner_diameter_m

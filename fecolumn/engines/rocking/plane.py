@@ -6,8 +6,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction
@@ -99,7 +101,7 @@ class Plane:
         return tuple(self.mass * GRAVITY * r / i for r, i in zip(self.radius, self.inertia))
 
     @property
-    def row(self) -> np.ndarray:
+    def row(self) -> NDArray[Any]:
         """(N_PARAMETERS,) for `swing.rock_all`."""
         row, inertia = np.zeros(N_PARAMETERS), np.array(self.inertia)[:, None]
         springs = np.array([one.moments for one in self.restraints]) / inertia
@@ -120,7 +122,7 @@ class Plane:
         """+1, -1 or both: where it can lean to."""
         return (self.only,) if self.only else (1, -1)
 
-    def moved(self, lean, side) -> np.ndarray:
+    def moved(self, lean: ArrayLike, side: ArrayLike) -> NDArray[Any]:
         """Displacement (n, 2) of the top, along the axis and up [m], at a lean >= 0 on a side; both
         arrays (n,).
         """
@@ -133,7 +135,7 @@ class Plane:
             ]
         )
 
-    def pushover(self, displacement, side: int = 1) -> np.ndarray:
+    def pushover(self, displacement: ArrayLike, side: int = 1) -> NDArray[Any]:
         """Horizontal force at the top [N] that holds the structure at a displacement of the top >=
         0 [m], from virtual work.
         """
@@ -143,7 +145,10 @@ class Plane:
         lean = start - np.arcsin(
             np.clip(math.sin(start) - np.asarray(displacement, float) / reach, -1, 1)
         )
-        return self.restoring(lean, side) / (self.top * np.cos(lean) + inside * np.sin(lean))
+        force: NDArray[Any] = self.restoring(lean, side) / (
+            self.top * np.cos(lean) + inside * np.sin(lean)
+        )
+        return force
 
     def uplift(self, side: int = 1) -> float:
         """Ground acceleration against a side that lifts the structure onto it [g], without vertical
@@ -165,22 +170,24 @@ class Plane:
             found.append((tilt, moved, float(sum(self.potential(tilt, side)))))
         return min(found)
 
-    def restoring(self, tilt, side: int = 1) -> np.ndarray:
+    def restoring(self, tilt: ArrayLike, side: int = 1) -> NDArray[Any]:
         """Restoring moment at lean `tilt` >= 0 on a side [N m], without ground motion."""
-        return self._along(tilt, side)[..., 0]
+        found: NDArray[Any] = self._along(tilt, side)[..., 0]
+        return found
 
-    def potential(self, tilt, side: int = 1) -> tuple[np.ndarray, np.ndarray]:
+    def potential(self, tilt: ArrayLike, side: int = 1) -> tuple[NDArray[Any], NDArray[Any]]:
         """Gravity energy, and that of springs, tendon and thrust, at lean `tilt` >= 0 on a side,
         from upright [J].
         """
         found = self._along(tilt, side)
         return found[..., 1], found[..., 2]
 
-    def _along(self, tilt, side: int) -> np.ndarray:
+    def _along(self, tilt: ArrayLike, side: int) -> NDArray[Any]:
         """Restoring moment [N m], gravity energy and energy of the restraints [J], (..., 3)."""
         row, k, found = self.row, 0 if side > 0 else 1, np.empty((np.size(tilt), 4))
         look(row, k, np.ascontiguousarray(np.ravel(tilt), float), found)
-        return self.mass * row[PER_MASS + k] * found[:, :3].reshape(*np.shape(tilt), 3)
+        along: NDArray[Any] = self.mass * row[PER_MASS + k] * found[:, :3]
+        return along.reshape(*np.shape(tilt), 3)
 
     def critical(self, side: int = 1) -> float:
         """Lean at which the restoring moment vanishes [rad]; pi/2 where it never does."""
@@ -211,8 +218,8 @@ class PlaneResponse:
     """States (n, 6) of `swing`, impact times, and whether it fell, of one plane."""
 
     plane: Plane
-    states: np.ndarray
-    impacts: np.ndarray
+    states: NDArray[Any]
+    impacts: NDArray[Any]
     fallen: bool
 
     def cut(self, n: int) -> PlaneResponse:
@@ -232,7 +239,7 @@ class PlaneResponse:
         return PlaneResponse(self.plane, states, self.impacts, self.fallen)
 
     @property
-    def energy(self) -> dict[str, np.ndarray]:
+    def energy(self) -> dict[str, NDArray[Any]]:
         """Terms of the energy [J]."""
         plane, states = self.plane, self.states
         lean, side = np.abs(states[:, SWING_TILT]), np.where(states[:, SWING_EDGE] < 0, -1, 1)
@@ -245,7 +252,7 @@ class PlaneResponse:
             kinetic=kinetic, strain=strain, gravity=gravity, base_work=work, impact=impact
         )
 
-    def base_force(self, ground: np.ndarray) -> np.ndarray:
+    def base_force(self, ground: NDArray[Any]) -> NDArray[Any]:
         """Force of the base (n, 2) along the axis and up [N], between impacts, from the momentum of
         the whole; `ground` (n, 2) [m/s2].
         """
@@ -349,13 +356,15 @@ class PlanarModel:
             u_top=u_top,
             overturned=bool(ended),
             impact_times=np.sort(np.concatenate([one.impacts for one in found])),
-            energy={name: sum(one[name] for one in energies) for name in energies[0]},
+            energy={
+                name: sum((one[name] for one in energies), np.zeros(rows)) for name in energies[0]
+            },
             notes=tuple(notes),
             peaks=peaks,
         )
 
 
-def _check_forces(one: PlaneResponse, ground, peaks: dict) -> list[str]:
+def _check_forces(one: PlaneResponse, ground: NDArray[Any], peaks: dict[str, float]) -> list[str]:
     """Add the largest friction and tension demanded to `peaks`; notes on friction that lacks."""
     force, name, plane = one.base_force(ground), "xy"[one.plane.axis], one.plane
     lean = np.abs(one.states[:, SWING_TILT])

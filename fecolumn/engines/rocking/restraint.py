@@ -29,9 +29,9 @@ class Restraint:
         (H, y, c) horizontal force [N] towards the lean at a point [m].
     """
 
-    springs: tuple = ()
-    bed: tuple = ()
-    tendons: tuple = ()
+    springs: tuple[tuple[float, float, float], ...] = ()
+    bed: tuple[tuple[float, float, float, float], ...] = ()
+    tendons: tuple[tuple[float, float, float], ...] = ()
     thrust: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @property

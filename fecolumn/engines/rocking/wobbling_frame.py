@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar
 
 from fecolumn.case.model_sections import WobblingFrameSection
@@ -27,7 +28,9 @@ class WobblingFrame(Wobbling):
     RIMS: ClassVar[int] = 2
 
     @classmethod
-    def of_section(cls, section: WobblingFrameSection, file) -> WobblingFrame:
+    def of_section(  # type: ignore[override]  # each model has a table of its own
+        cls, section: WobblingFrameSection, file: Path | str
+    ) -> WobblingFrame:
         """Frame of its table.
 
         Raises
@@ -69,9 +72,9 @@ class WobblingFrame(Wobbling):
     @property
     def mass_ratio(self) -> float:
         """gamma: the slab's mass over that of all columns."""
-        return self.body[4] / self.body[3]
+        return float(self.body[4] / self.body[3])
 
-    def pushover(self, tilt) -> tuple[float, float]:
+    def pushover(self, tilt: float) -> tuple[float, float]:
         """Displacement of the slab [m] at a tilt >= 0, and the horizontal force on it [N] that
         holds it there: exact, from virtual work.
         """
