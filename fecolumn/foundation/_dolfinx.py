@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import weakref
+from typing import TYPE_CHECKING, Any
 
 # Before dolfinx: its form compiler gives a root logger without handlers one that prints every call
 # of the C compiler, and takes Python's warnings for itself. What a compiler that fails says still
@@ -18,6 +19,10 @@ from petsc4py import PETSc  # noqa: E402
 
 from fecolumn.foundation import _form_compiler  # noqa: E402, F401
 
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+
 logging.captureWarnings(False)
 
 VERSION = tuple(int(n) for n in dolfinx.__version__.split(".")[:2])
@@ -27,7 +32,7 @@ _MODERN = VERSION >= (0, 8)
 _TENSOR_ORDER = [0, 1, 3, 2, 4, 5, 7, 6]
 
 
-def create_brick_mesh(comm, points, cells):
+def create_brick_mesh(comm: MPI.Intracomm, points: np.ndarray, cells: np.ndarray) -> Any:
     """Distributed mesh of 8-node bricks, or of tetrahedra.
 
     Parameters
@@ -57,7 +62,7 @@ def create_brick_mesh(comm, points, cells):
     return mesh.create_mesh(comm, cells, points, element)
 
 
-def vector_space(msh, order: int):
+def vector_space(msh: dolfinx.mesh.Mesh, order: int) -> Any:
     """Continuous Lagrange space of displacement vectors."""
     return (
         fem.functionspace(msh, ("Lagrange", order, (3,)))
@@ -66,7 +71,7 @@ def vector_space(msh, order: int):
     )
 
 
-def cellwise_space(msh, shape: tuple = ()):
+def cellwise_space(msh: dolfinx.mesh.Mesh, shape: tuple = ()) -> Any:
     """Space of one value (or one array of `shape`) a cell."""
     if _MODERN:
         return fem.functionspace(msh, ("DG", 0, shape) if shape else ("DG", 0))
@@ -79,7 +84,7 @@ def cellwise_space(msh, shape: tuple = ()):
     return fem.FunctionSpace(msh, ("DG", 0))
 
 
-def cellwise(msh, values):
+def cellwise(msh: dolfinx.mesh.Mesh, values: np.ndarray) -> fem.Function:
     """Function of one number a cell, from those of all cells (n_cells,) in the order in which they
     were given to `create_brick_mesh`, known on every rank.
     """
@@ -93,13 +98,13 @@ def cellwise(msh, values):
     return function
 
 
-def interpolation_points(space):
+def interpolation_points(space: Any) -> np.ndarray:
     """Reference points at which an expression for `space` is evaluated."""
     points = space.element.interpolation_points
     return points() if callable(points) else points
 
 
-def assemble_matrix(form) -> PETSc.Mat:
+def assemble_matrix(form: Any) -> PETSc.Mat:
     """Assembled sparse matrix of a bilinear form without boundary conditions."""
     from dolfinx.fem import petsc
 
@@ -108,7 +113,7 @@ def assemble_matrix(form) -> PETSc.Mat:
     return matrix
 
 
-def release_with(owner, *objects) -> weakref.finalize:
+def release_with(owner: object, *objects: Any) -> weakref.finalize:
     """Destroy PETSc objects when `owner` goes, or when the returned function is called: petsc4py
     alone would keep them for ever.
 
@@ -120,6 +125,6 @@ def release_with(owner, *objects) -> weakref.finalize:
     return end
 
 
-def _destroy(*objects) -> None:
+def _destroy(*objects: Any) -> None:
     for one in objects:
         one.destroy()

@@ -15,7 +15,9 @@ import importlib.machinery
 import os
 import shutil
 import tempfile
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from ffcx.codegeneration import jit
 
@@ -32,7 +34,9 @@ def _is_kept(folder: Path, name: str) -> bool:
     )
 
 
-def _cached(name: str, objects, folder, timeout):
+def _cached(
+    name: str, objects: Sequence[str], folder: Path | str, timeout: float
+) -> tuple[Any, Any]:
     """Compiled objects and their module, or None twice where they are not in the cache."""
     return (
         jit._load_objects(Path(folder), name, objects)
@@ -41,7 +45,16 @@ def _cached(name: str, objects, folder, timeout):
     )
 
 
-def _compile_apart(declarations, sources, objects, name: str, options, folder, *how, **more):
+def _compile_apart(
+    declarations: str,
+    sources: str,
+    objects: Sequence[str],
+    name: str,
+    options: Mapping[str, Any],
+    folder: Path | str,
+    *how: Any,
+    **more: Any,
+) -> str:
     """As ffcx' function, in a folder of its own; who comes second waits, and finds it made."""
     folder, code = Path(folder), ""
     try:

@@ -9,7 +9,12 @@ import io
 import json
 import os
 import tempfile
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import h5py
 
 #: How the names of unfinished files begin, each followed by letters of its own. One that a killed
 #: process left may be deleted.
@@ -59,19 +64,23 @@ def _umask() -> int:
         )
 
 
-def write_json(path: Path, content) -> None:
+def write_json(path: Path, content: object) -> None:
     """Write JSON with a line for each key."""
     write_bytes(path, (json.dumps(content, indent=1) + "\n").encode())
 
 
-def write_csv(path: Path, rows) -> None:
+def write_csv(path: Path, rows: Iterable[Iterable[object]]) -> None:
     """Write rows of cells as CSV, lines ended as Unix does: the same bytes everywhere."""
     text = io.StringIO()
     csv.writer(text, lineterminator="\n").writerows(rows)
     write_bytes(path, text.getvalue().encode())
 
 
-def write_hdf5(path: Path, fill, finish=lambda content: content) -> None:
+def write_hdf5(
+    path: Path,
+    fill: Callable[[h5py.File], object],
+    finish: Callable[[bytes], bytes] = lambda content: content,
+) -> None:
     """Write the HDF5 file that `fill(file)` makes, its bytes as `finish` returns them.
 
     It is made in memory: HDF5 cannot take a full disk, and ends the process when it meets one.

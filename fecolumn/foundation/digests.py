@@ -39,7 +39,7 @@ def intact(folder: Path, *names: str) -> bool:
         return False
 
 
-def digest_of_json(content) -> str:
+def digest_of_json(content: object) -> str:
     """SHA-256 of what JSON takes, the same for what it gives back."""
     plain = json.loads(json.dumps(content))
     return hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()

@@ -8,6 +8,7 @@ import json
 import os
 import stat
 from pathlib import Path
+from typing import Any, NoReturn
 
 # More than any motion of a day at 1 kHz, or any table, has; what is larger was named by mistake
 _MOST_BYTES = 500_000_000
@@ -17,7 +18,7 @@ class Unreadable(ValueError):
     """A file cannot be read; the message says why, without its name."""
 
 
-def is_file(path) -> bool:
+def is_file(path: Path | str) -> bool:
     """Whether there is a file of that name; a name that no file system takes is none."""
     try:
         return Path(path).is_file()
@@ -25,7 +26,7 @@ def is_file(path) -> bool:
         return False
 
 
-def read_bytes(path, most: int = _MOST_BYTES) -> bytes:
+def read_bytes(path: Path | str, most: int = _MOST_BYTES) -> bytes:
     """Content of a regular file of at most `most` bytes; neither a device nor a pipe can hold the
     reader up.
 
@@ -60,7 +61,7 @@ def read_bytes(path, most: int = _MOST_BYTES) -> bytes:
         raise Unreadable("no such file (its name holds a null character)") from None
 
 
-def read_json(path, most: int = _MOST_BYTES):
+def read_json(path: Path | str, most: int = _MOST_BYTES) -> Any:
     """What a JSON file holds; numbers that are none (NaN, Infinity) are refused.
 
     Raises
@@ -77,5 +78,5 @@ def read_json(path, most: int = _MOST_BYTES):
         raise Unreadable(f"is damaged: not valid JSON ({error})") from None
 
 
-def _no_number(word: str):
+def _no_number(word: str) -> NoReturn:
     raise ValueError(f"{word} is no number")

@@ -8,6 +8,7 @@ import contextlib
 import os
 import shutil
 import tempfile
+from collections.abc import Iterable, Iterator
 from pathlib import Path, PurePosixPath
 
 from fecolumn.foundation.atomic import UNFINISHED, write_json
@@ -19,7 +20,9 @@ MARK_FILE = ".fecolumn.json"
 
 
 @contextlib.contextmanager
-def written(folder, work: str, *, names: tuple[str, ...] = (), alone: bool = False):
+def written(
+    folder: Path | str, work: str, *, names: tuple[str, ...] = (), alone: bool = False
+) -> Iterator[Path]:
     """A draft folder to write into; what is in it when the block ends takes its place in `folder`.
 
     What the same work wrote there before and does not write now is removed. Until the block ends
@@ -104,7 +107,7 @@ def _read_mark(folder: Path) -> dict[str, list[str]]:
         ) from None
 
 
-def _refuse_foreign(folder: Path, work: str, names, mark: dict) -> None:
+def _refuse_foreign(folder: Path, work: str, names: Iterable[str], mark: dict) -> None:
     own = {name for files in mark.values() for name in files}
     for name in names:
         if name not in own and os.path.lexists(folder / name):

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import contextlib
 import signal
+from collections.abc import Callable, Iterator
+from types import FrameType
 
 
 @contextlib.contextmanager
-def held_interrupts():
+def held_interrupts() -> Iterator[Callable[[], bool]]:
     """Function that tells whether SIGINT or SIGTERM has come; a second SIGINT interrupts at once.
 
     Only in the main thread, as Python handles signals there.
     """
-    came = []
+    came: list[int] = []
 
-    def note(number, frame):
+    def note(number: int, frame: FrameType | None) -> None:
         if came and number == signal.SIGINT:
             raise KeyboardInterrupt
         came.append(number)

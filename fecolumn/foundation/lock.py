@@ -9,8 +9,9 @@ import errno
 import fcntl
 import os
 import stat
+from collections.abc import Iterator
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
 
 def open_lock(file: Path | str) -> IO[str]:
@@ -31,7 +32,7 @@ def open_lock(file: Path | str) -> IO[str]:
 
 
 @contextlib.contextmanager
-def alone(path: Path):
+def alone(path: Path) -> Iterator[None]:
     """Hold the right to make `path`; who comes second waits. It ends with the process that has it.
 
     if not path.exists():
@@ -69,7 +70,7 @@ def is_held(file: Path) -> bool:
     return False
 
 
-def _still(lock, file: Path) -> bool:
+def _still(lock: IO[Any], file: Path) -> bool:
     """Whether an open lock is the one that goes by its name."""
     try:
         return os.path.samestat(os.fstat(lock.fileno()), os.stat(file))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 #: Keys of a case that may name files, by section; of bodies by their kind.
 OF_SECTIONS = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
@@ -18,7 +19,7 @@ def absolute(path: str, folder: Path) -> str:
     return path if not path or ":" in path or Path(path).is_absolute() else str(folder / path)
 
 
-def taken_over(tables: dict, file) -> dict:
+def taken_over(tables: dict, file: Path | str) -> dict:
     """Tables of a case or a study with the paths that `file` states made absolute, so that a file
     of another folder may take them over.
 
@@ -27,7 +28,7 @@ def taken_over(tables: dict, file) -> dict:
     return _absolute(tables, (), Path(file).resolve().parent)
 
 
-def _absolute(value, key: tuple[str, ...], folder: Path):
+def _absolute(value: Any, key: tuple[str, ...], folder: Path) -> Any:
     if isinstance(value, dict):
         return {
             name: _absolute(one, (*key, *name.split(".")), folder) for name, one in value.items()

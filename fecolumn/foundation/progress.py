@@ -8,7 +8,7 @@ import contextlib
 import os
 import sys
 import time
-from typing import Any
+from typing import Any, TextIO
 
 
 class Bar:
@@ -20,10 +20,10 @@ class Bar:
         self,
         total: float,
         quiet: bool = False,
-        stream=None,
+        stream: TextIO | None = None,
         pause_s: float = 0.3,
         keep: bool = True,
-    ):
+    ) -> None:
         self.total, self._quiet, self._stream, self._keep = total, quiet, stream or sys.stderr, keep
         # a notebook's
         self._in_place = self._stream.isatty() or "ipykernel" in type(self._stream).__module__
@@ -82,7 +82,7 @@ class Progress(Bar):
 
     def __init__(
         self, steps: int, dt: float, quiet: bool = False, until_rest_from: int | None = None
-    ):
+    ) -> None:
         """`steps` to be made; from step `until_rest_from` on, where it is given, these are the most
         that are, and rest may come before.
         """
@@ -120,7 +120,7 @@ class Progress(Bar):
 class CountProgress(Bar):
     """How many of a number of things are done, and the time left."""
 
-    def __init__(self, total: int, things: str, quiet: bool = False):
+    def __init__(self, total: int, things: str, quiet: bool = False) -> None:
         """`total` of `things`, such as "pictures"."""
         super().__init__(total, quiet, keep=False)
         self._things = things
@@ -133,7 +133,7 @@ class CountProgress(Bar):
             )
 
 
-def _width(stream) -> int | None:
+def _width(stream: TextIO) -> int | None:
     """Columns of a terminal; None where it does not know, such as one without a screen."""
     try:
         return os.get_terminal_size(stream.fileno()).columns or None

@@ -11,6 +11,8 @@ import re
 import reprlib
 import types
 import typing
+from collections.abc import Iterable, Mapping
+from pathlib import Path
 
 _LONGEST_WORDS = 800  # of a message, in one of its parts
 # Magnitude of a number that is not 0: its fifth power, an inertia of a length, is still a number
@@ -28,7 +30,7 @@ class InputError(ValueError):
         message's lines.
     """
 
-    def __init__(self, file, key: str, value, allowed: str):
+    def __init__(self, file: Path | str, key: str, value: object, allowed: str) -> None:
         self.file, self.key, self.value, self.allowed = (
             in_text(str(file)),
             key,
@@ -58,13 +60,13 @@ class InputError(ValueError):
 class _Shown(reprlib.Repr):
     """Values for messages: long ones shortened."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         super().__init__()
         self.maxstring = self.maxother = 300
         self.maxlist = self.maxtuple = 12
         self.maxdict, self.maxlevel = 6, 4
 
-    def repr_int(self, value, level):
+    def repr_int(self, value: int, level: int) -> str:
         if value.bit_length() < 200:
             return repr(value)
         # Python writes no more than 4300 digits
@@ -74,7 +76,7 @@ class _Shown(reprlib.Repr):
 _repr = _Shown().repr
 
 
-def shown(value) -> str:
+def shown(value: object) -> str:
     """A value as Python writes it, in one line; long ones shortened."""
     return re.sub(r"\s*\n\s*", " ", _repr(value))
 
@@ -124,7 +126,7 @@ _NO_RULES = dict(low=None, high=None, above=None, choices=None, words=(), since=
 
 
 def parameter(
-    default=dataclasses.MISSING,
+    default: object = dataclasses.MISSING,
     *,
     doc: str,
     unit: str = "-",
@@ -154,12 +156,12 @@ def required(*, doc: str, unit: str = "-", **rules: typing.Unpack[Rules]) -> typ
     return parameter(doc=doc, unit=unit, **rules)
 
 
-def allowed_range(metadata) -> str:
+def allowed_range(metadata: Mapping[str, typing.Any]) -> str:
     """The allowed values of a parameter in words, with the unit."""
     return " or ".join([_number_range(metadata), *(f'"{word}"' for word in metadata["words"])])
 
 
-def wanted(kind, metadata) -> str:
+def wanted(kind: typing.Any, metadata: Mapping[str, typing.Any]) -> str:
     """As `allowed_range`, of a key of this type: of text, switches and lists, too."""
     kinds = [one for one in typing.get_args(kind) if one is not types.NoneType]
     kind = kinds[0] if isinstance(kind, types.UnionType) else kind
@@ -169,13 +171,13 @@ def wanted(kind, metadata) -> str:
     return allowed_range(metadata)
 
 
-def _word(kind) -> str:
+def _word(kind: typing.Any) -> str:
     return _WORDS.get(kind) or "a list of " + _ITEMS.get(
         typing.get_args(kind)[0], "lists of numbers"
     )
 
 
-def _number_range(metadata) -> str:
+def _number_range(metadata: Mapping[str, typing.Any]) -> str:
     unit = "" if metadata["unit"] == "-" else f" [{metadata['unit']}]"
     if metadata["choices"]:
         return "one of " + ", ".join(metadata["choices"])
@@ -189,13 +191,13 @@ def _number_range(metadata) -> str:
     return f"must be a number{unit}"
 
 
-def _typed(kind, value):
+def _typed(kind: typing.Any, value: typing.Any) -> typing.Any:
     """`value` as `kind`, or None where the TOML type does not fit."""
     if kind is float and isinstance(value, numbers.Real) and not isinstance(value, bool):
         try:
             return float(value)
         except OverflowError:
-            return math.inf if value > 0 else -math.inf
+            return -math.inf if value < 0 else math.inf
     if kind is int and isinstance(value, numbers.Integral) and not isinstance(value, bool):
         return int(value)
     if kind in (str, bool) and isinstance(value, kind):
@@ -206,7 +208,7 @@ def _typed(kind, value):
     return None
 
 
-def _items(typed):
+def _items(typed: typing.Any) -> tuple[typing.Any, ...]:
     """Single values of a key, those of lists of lists, too."""
     if not isinstance(typed, tuple):
         return (typed,)
@@ -217,7 +219,13 @@ _WORDS = {float: "a number", int: "a whole number", str: "text in quotes", bool:
 _ITEMS = {str: "texts", float: "numbers", int: "whole numbers"}
 
 
-def _checked(kind, metadata, value, file, key):
+def _checked(
+    kind: typing.Any,
+    metadata: Mapping[str, typing.Any],
+    value: typing.Any,
+    file: Path | str,
+    key: str,
+) -> typing.Any:
     """`value` as the type of a key.
 
     Raises
@@ -265,7 +273,7 @@ def _checked(kind, metadata, value, file, key):
 
 
 @functools.cache
-def _kinds(section) -> dict[str, tuple]:
+def _kinds(section: type) -> dict[str, tuple]:
     """Fields of a dataclass by name: (field, type, dataclass of a section or None, whether the
     section may be absent).
     """
@@ -308,7 +316,7 @@ class Section:
         )
         return f"{self.public_name()}({', '.join(given)})"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         """Check every key, and turn numbers into the key's own type.
 
         Raises
@@ -318,7 +326,8 @@ class Section:
         """
         name = self.section_name()
         prefix, errors = f"{name}." if name else "", []
-        for key, (field, kind, inner, optional) in _kinds(type(self)).items():
+        kinds = _kinds(type(self))  # type: ignore[arg-type]  # a class is hashable as such
+        for key, (field, kind, inner, optional) in kinds.items():
             value = getattr(self, key)
             try:
                 if inner is None:
@@ -344,7 +353,7 @@ def a_section(cls: type[Section]) -> str:
     return f"{'an' if name[0] in 'AEIO' else 'a'} {name}(...)"
 
 
-def build(section, table, file, prefix: str = ""):
+def build(section: type, table: typing.Any, file: Path | str, prefix: str = "") -> typing.Any:
     """Instance of the dataclass `section` from a TOML table, every key checked; a section that is
     `false` is as if it were absent.
 
@@ -390,7 +399,7 @@ def build(section, table, file, prefix: str = ""):
     return section(**values)
 
 
-def table_of(section, defaults: bool) -> dict:
+def table_of(section: typing.Any, defaults: bool) -> dict:
     """The table of a section: without keys that are left open, or that are not stated as they
     stand at their `defaults`.
     """
@@ -403,7 +412,7 @@ def table_of(section, defaults: bool) -> dict:
     return found
 
 
-def meant(name: str, known, prefix: str = "") -> str:
+def meant(name: str, known: Iterable[str], prefix: str = "") -> str:
     """The end of a message on an unknown name: "; did you mean ...?" with the nearest of the known
     ones, "" where none is near: of those that begin with its words, such as friction_coefficient
     for friction, else of those that are spelt alike.

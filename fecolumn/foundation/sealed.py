@@ -76,7 +76,7 @@ def open_whole(path: Path | str) -> Any:
         raise Unreadable(f"is no HDF5 file, or damaged ({error})") from None
 
 
-def hdf5_fault(path) -> str:
+def hdf5_fault(path: Path | str) -> str:
     """What keeps a file from being read as HDF5, in words; empty where nothing does."""
     try:
         status = os.stat(path)
@@ -89,7 +89,7 @@ def hdf5_fault(path) -> str:
 
 
 @functools.lru_cache(maxsize=256)
-def _fault(path: str, version) -> str:
+def _fault(path: str, version: tuple[int, int, int] | None) -> str:
     """As `hdf5_fault`; `version` tells whether the file is still the one read before."""
     content = read_bytes(path, _MOST_BYTES)
     if not content.startswith(_SIGNATURE):

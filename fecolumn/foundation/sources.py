@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+from collections.abc import Iterable
 from pathlib import Path
 
 from fecolumn.foundation.version import __version__
@@ -59,7 +60,7 @@ DECIDING = (
 )
 
 
-def digest_of(paths) -> str:
+def digest_of(paths: Iterable[Path]) -> str:
     """Sixteen hexadecimal digits that name the content of files."""
     digest = hashlib.sha256()
     for path in paths:
@@ -67,7 +68,7 @@ def digest_of(paths) -> str:
     return digest.hexdigest()[:16]
 
 
-def files_of(names) -> list[Path]:
+def files_of(names: Iterable[str]) -> list[Path]:
     """Sources that `names` mean, in a lasting order: files of the package, and the .py and .toml
     files of its folders.
 
@@ -103,7 +104,7 @@ def code() -> dict[str, str]:
     return {"version": __version__, "sources": package_digest()}
 
 
-def code_text(version, sources) -> str:
+def code_text(version: str | None, sources: str | None) -> str:
     """Code for a reader, such as "fecolumn 0.2.0 (sources 3f0c9a1b2d4e5f60)"."""
     return (
         f"fecolumn {version or 'of unknown version'} "

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import tomllib
 from pathlib import Path
+from typing import Any
 
 from fecolumn.foundation.files import Unreadable, read_bytes
 from fecolumn.foundation.paths import taken_over
@@ -16,7 +17,7 @@ _LONGEST_CHAIN = 50
 _LONGEST_FILE = 20_000_000  # [bytes]
 
 
-def read_toml(path, _heirs: tuple[Path, ...] = ()) -> dict:
+def read_toml(path: Path | str, _heirs: tuple[Path, ...] = ()) -> dict:
     """Tables of a TOML file; `extends = "other.toml"` is read first and overridden key by key, or
     by `section = false` as a whole.
 
@@ -98,7 +99,7 @@ def _tables(path: Path) -> dict:
     return tables
 
 
-def _depth(tables) -> int:
+def _depth(tables: dict | list) -> int:
     """Levels of tables and lists within one another."""
     depth, level = 0, [tables]
     while level:
@@ -121,7 +122,7 @@ def stated(tables: dict) -> dict:
     }
 
 
-def nested(key: str, value) -> dict:
+def nested(key: str, value: Any) -> dict:
     """Tables in which the dotted key has this value."""
     for part in reversed(key.split(".")):
         value = {part: value}

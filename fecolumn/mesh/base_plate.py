@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 from scipy.optimize import brentq
@@ -44,18 +45,21 @@ def depths(thickness: float, fine: float, largest: float) -> np.ndarray:
     return -_growing_line(fine, thickness, fine, largest)
 
 
-def plate_line(spans, low: float, high: float, fine: float, largest: float) -> np.ndarray:
+def plate_line(
+    spans: Iterable[tuple[float, float]], low: float, high: float, fine: float, largest: float
+) -> np.ndarray:
     """Grid line from `low` to `high` [m], with equal steps near `fine` over each of the spans
     (start, end), which come one after another and apart, and growing ones around them.
     """
-    spans = [[max(start, low), min(end, high)] for start, end in spans]
+    fine_spans = [[max(start, low), min(end, high)] for start, end in spans]
     # a margin below half a fine brick would be a sliver: the fine bricks stretch over it
-    if spans[0][0] - low < fine / 2:
-        spans[0][0] = low
-    if high - spans[-1][1] < fine / 2:
-        spans[-1][1] = high
-    pieces, last = [], low
-    for start, end in spans:
+    if fine_spans[0][0] - low < fine / 2:
+        fine_spans[0][0] = low
+    if high - fine_spans[-1][1] < fine / 2:
+        fine_spans[-1][1] = high
+    pieces: list[np.ndarray | list[float]] = []
+    last = low
+    for start, end in fine_spans:
         if pieces:
             half = (start - last) / 2
             steps = np.cumsum(growing_steps(half, fine, largest))[:-1]
@@ -83,7 +87,7 @@ def base_counts(case: Upright) -> tuple[int, int, int] | None:
     return x, y, 1 if below < fine / 2 else 1 + growing_count(below, fine, largest)
 
 
-def _symmetric_count(fine_width, length, fine, largest) -> int:
+def _symmetric_count(fine_width: float, length: float, fine: float, largest: float) -> int:
     """Steps of `_symmetric_line`."""
     if (length - fine_width) / 2 < fine / 2:
         return divisions(length, fine)
@@ -91,13 +95,13 @@ def _symmetric_count(fine_width, length, fine, largest) -> int:
     return divisions(fine_width, fine) + 2 * growing_count(outside, fine, largest)
 
 
-def _symmetric_line(fine_width, length, fine, largest) -> np.ndarray:
+def _symmetric_line(fine_width: float, length: float, fine: float, largest: float) -> np.ndarray:
     """Grid line from -length/2 to length/2, equal steps near `fine` in the middle."""
     span = -fine_width / 2, fine_width / 2
     return plate_line([span], -length / 2, length / 2, fine, largest)
 
 
-def _growing_line(first, length, fine, largest) -> np.ndarray:
+def _growing_line(first: float, length: float, fine: float, largest: float) -> np.ndarray:
     """Grid line from 0 to `length`: one step `first`, then growing ones."""
     if length - first < fine / 2:
         return np.array([0.0, length])
@@ -115,7 +119,7 @@ def growing_steps(length: float, fine: float, largest: float) -> np.ndarray:
     the length with g = GROWTH, and g is then lowered until the steps fit.
     """
 
-    def steps(growth, n):
+    def steps(growth: float, n: int) -> np.ndarray:
         return np.minimum(fine * growth ** np.arange(1.0, n + 1), largest)
 
     n = growing_count(length, fine, largest)

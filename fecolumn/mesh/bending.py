@@ -134,7 +134,7 @@ def free_free_frequency(
     r2 = second_moment / (area * length**2)
     s2 = youngs_modulus * second_moment / (shear * area * length**2)
 
-    def huang(b):
+    def huang(b: float) -> float:
         split = math.sqrt((r2 - s2) ** 2 + 4 / b**2)
         # Above the shear cut-off alpha turns imaginary, and the equation stays real.
         alpha, beta = cmath.sqrt((split - r2 - s2) / 2), math.sqrt((split + r2 + s2) / 2)

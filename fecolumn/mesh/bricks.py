@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -81,7 +82,7 @@ class BrickMesh:
         return np.unique(self.cells[self.part == part])
 
 
-def brick_mesh(points, cells, part: int) -> BrickMesh:
+def brick_mesh(points: np.ndarray, cells: np.ndarray, part: int) -> BrickMesh:
     """Mesh of one part, its elements turned to positive volume.
 
     Parameters
@@ -114,18 +115,23 @@ def brick_mesh(points, cells, part: int) -> BrickMesh:
     return BrickMesh(points, cells, np.full(len(cells), part, dtype=np.int8))
 
 
-def merged_mesh(meshes) -> BrickMesh:
+def merged_mesh(meshes: Sequence[BrickMesh]) -> BrickMesh:
     """One mesh of several; coincident points stay apart, so the parts stay disconnected."""
     meshes = list(meshes)
     offsets = np.cumsum([0] + [len(m.points) for m in meshes[:-1]])
-    shares = [m.relative_density for m in meshes]
-    if any(one is not None for one in shares):
-        shares = [np.ones(len(m.cells)) if s is None else s for m, s in zip(meshes, shares)]
+    shares = None
+    if any(m.relative_density is not None for m in meshes):
+        shares = np.concatenate(
+            [
+                np.ones(len(m.cells)) if m.relative_density is None else m.relative_density
+                for m in meshes
+            ]
+        )
     return BrickMesh(
         np.concatenate([m.points for m in meshes]),
         np.concatenate([m.cells + offset for m, offset in zip(meshes, offsets)]),
         np.concatenate([m.part for m in meshes]),
-        None if shares[0] is None else np.concatenate(shares),
+        shares,
     )
 
 

@@ -7,6 +7,7 @@ import io
 import re
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -14,6 +15,10 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from fecolumn.mesh.mesh_file import UnusableShape
+
+if TYPE_CHECKING:
+    import pyvista
+
 
 # Of the height: how uneven what the body stands on may be to be taken for a flat foot, and be made
 # one; what a scanner's noise leaves on a floor
@@ -111,7 +116,7 @@ def _check_whole(path: Path) -> None:
                 )
 
 
-def _read(path: Path):
+def _read(path: Path) -> pyvista.PolyData:
     """What a file holds, as a pyvista.PolyData."""
     import meshio
     import pyvista
@@ -161,7 +166,7 @@ def _of_obj(text: str) -> tuple[np.ndarray, list[np.ndarray]]:
     return np.array(points, float), faces
 
 
-def _cleaned(found, metres: float):
+def _cleaned(found: pyvista.PolyData, metres: float) -> pyvista.PolyData:
     """Triangles alone, in metres, points that coincide made one."""
     surface = found.triangulate()
     surface.points = np.asarray(surface.points, float) * metres
@@ -178,7 +183,7 @@ def _cleaned(found, metres: float):
     return surface
 
 
-def _cut(surface, height: float):
+def _cut(surface: pyvista.PolyData, height: float) -> pyvista.PolyData:
     """What lies higher than `height` [m] above the lowest point, closed by a level plane."""
     import pyvista
     import vtk
@@ -212,7 +217,7 @@ def _cut(surface, height: float):
     return cut.clean(tolerance=_SAME_POINT * tall, absolute=True, polys_to_lines=True)
 
 
-def _one_piece(surface):
+def _one_piece(surface: pyvista.PolyData) -> tuple[pyvista.PolyData, list[str]]:
     """The largest piece, where all others together are specks."""
     faces = surface.faces.reshape(-1, 4)[:, 1:]
     n = surface.n_points
@@ -242,7 +247,7 @@ def _one_piece(surface):
     return kept, [f"left out {pieces - 1} specks of {100 * others / of_piece.sum():.2g} % of area"]
 
 
-def _check_closed(surface, cut_foot: float | None) -> None:
+def _check_closed(surface: pyvista.PolyData, cut_foot: float | None) -> None:
     """Refuse holes and edges of three and more triangles, naming how many, where and how large."""
     kinds = dict(boundary_edges=False, non_manifold_edges=False, feature_edges=False)
     edges = surface.extract_feature_edges(
@@ -277,7 +282,7 @@ def _check_closed(surface, cut_foot: float | None) -> None:
         )
 
 
-def _outwards(surface):
+def _outwards(surface: pyvista.PolyData) -> tuple[pyvista.PolyData, list[str]]:
     """All triangles counter-clockwise seen from outside."""
     turned = surface.compute_normals(
         cell_normals=False,

@@ -88,6 +88,20 @@ def _spread(equal_area: float, layers: int, top: float | None) -> float:
 def section(case: Upright, part: int) -> Annulus | Disc | Rectangle:
     """Section of the flange, the lower or the upper part, its circles the true ones."""
     column, fine, coarse = case.column, case.mesh.fine_size_m, case.mesh.coarse_size_m
+    if part == FLANGE or column.shape != "block":
+        return round_section(case, part)
+    counts = [divisions(side, coarse) for side in (column.length_m, column.width_m)]
+    if part == LOWER:
+        counts = [
+            n * divisions(side / n, fine)
+            for side, n in zip((column.length_m, column.width_m), counts)
+        ]
+    return Rectangle(column.length_m, column.width_m, *counts)
+
+
+def round_section(case: Upright, part: int) -> Annulus | Disc:
+    """As `section`, of the flange or of a round column."""
+    column, fine, coarse = case.column, case.mesh.fine_size_m, case.mesh.coarse_size_m
     if part == FLANGE:
         outer, inner = case.flange.outer_diameter_m / 2, case.flange.inner_diameter_m / 2
         n_around = 4 * max(2, round(2 * math.pi * outer / (4 * fine)))
@@ -96,14 +110,6 @@ def section(case: Upright, part: int) -> Annulus | Disc | Rectangle:
             if inner
             else Disc(outer, n_around, divisions(outer / 2, fine))
         )
-    if column.shape == "block":
-        counts = [divisions(side, coarse) for side in (column.length_m, column.width_m)]
-        if part == LOWER:
-            counts = [
-                n * divisions(side / n, fine)
-                for side, n in zip((column.length_m, column.width_m), counts)
-            ]
-        return Rectangle(column.length_m, column.width_m, *counts)
     radius = column.outer_diameter_m / 2
     solid = is_solid(case.column)
     around = 2 * math.pi * (radius if solid else case.mean_radius_m)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import NoReturn
 
 from fecolumn.foundation.schema import InputError
@@ -179,14 +181,14 @@ def body_counts(case: Upright) -> tuple[dict[int, int], dict[int, int], int]:
     return bricks, nodes, foot
 
 
-def _cap_counts(case: Upright):
+def _cap_counts(case: Upright) -> tuple[int, ...] | None:
     cap, size = case.cap, case.mesh.cap_size_m
     return cap and tuple(
         divisions(side, size) for side in (cap.length_m, cap.width_m, cap.thickness_m)
     )
 
 
-def refuse_large_column(case: Upright, file) -> None:
+def refuse_large_column(case: Upright, file: Path | str) -> None:
     """Refuse a case of more degrees of freedom than `mesh.limit_dofs`, naming the size that makes
     it so and one that would fit.
     """
@@ -221,7 +223,12 @@ def refuse_large_column(case: Upright, file) -> None:
 
 
 def refuse_sizes(
-    file, sizes: dict[str, tuple[float, float]], dofs_with, limit: int, too_many: str, others: str
+    file: Path | str,
+    sizes: dict[str, tuple[float, float]],
+    dofs_with: Callable[[str, float], int],
+    limit: int,
+    too_many: str,
+    others: str,
 ) -> NoReturn:
     """Refuse a mesh, naming the size that makes it too large and one that would fit.
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 import tempfile
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 
 from fecolumn.mesh.bricks import BrickMesh
 
 
-def write_meshes(meshes: list[BrickMesh], folder) -> tuple[Path, ...]:
+def write_meshes(meshes: list[BrickMesh], folder: Path | str) -> tuple[Path, ...]:
     """Meshes together as `specimen.msh` (Gmsh 2.2) and `specimen.xdmf` with `specimen.h5`
     (ParaView).
 
@@ -65,13 +66,15 @@ def _write_xdmf(meshes: list[BrickMesh], path: Path) -> None:
     ).write(path)
 
 
-def _meshio():
+def _meshio() -> ModuleType:
     import meshio
 
     return meshio
 
 
-def _blocks(meshes: list[BrickMesh]):
+def _blocks(
+    meshes: list[BrickMesh],
+) -> tuple[list[tuple[str, np.ndarray, np.ndarray, int]], np.ndarray]:
     """Kind, cells, parts and number of the mesh of each block of elements of one kind, and all
     points.
     """

@@ -100,7 +100,8 @@ def _made(file: MeshFile) -> dict:
         if file.kind != "surface":
             return first
         file = dataclasses.replace(file, size=float(first["size"]))
-        best, reasons = (_LEAST, None), []
+        best: tuple[float, dict | None] = (_LEAST, None)
+        reasons = []
         for way in WAYS:
             try:
                 made = _run(file, way, surface, Path(folder) / "filled.npz")
@@ -138,7 +139,9 @@ def _judged(made: dict, volume: float) -> float:
     return quality
 
 
-def _run(file: MeshFile, way, surface: Path, result: Path) -> dict:
+def _run(
+    file: MeshFile, way: tuple[bool, float | None, bool] | None, surface: Path, result: Path
+) -> dict:
     """Arrays that `mesh.volume` makes in a process of its own."""
     job = result.with_suffix(".job")
     path = str(Path(file.path).resolve())

@@ -6,6 +6,8 @@ import contextlib
 import inspect
 import signal
 import threading
+from collections.abc import Iterator
+from types import ModuleType
 
 import numpy as np
 
@@ -21,7 +23,7 @@ _OPTIONS = {
 
 
 @contextlib.contextmanager
-def gmsh_model():
+def gmsh_model() -> Iterator[ModuleType]:
     """The gmsh module with an empty model, leaving a caller's Gmsh session as it was.
 
     Gmsh is imported here and not at the top: an analysis of an imported mesh can then run without
@@ -61,18 +63,18 @@ def gmsh_model():
 
 
 @contextlib.contextmanager
-def _signals_left_alone():
+def _signals_left_alone() -> Iterator[None]:
     """Keep Gmsh from setting signal handlers: in another thread than the main one, such as a dask
     worker's, Python refuses to.
     """
-    setter, signal.signal = signal.signal, lambda number, handler: signal.getsignal(number)
+    setter, signal.signal = signal.signal, lambda signalnum, handler: signal.getsignal(signalnum)
     try:
         yield
     finally:
         signal.signal = setter
 
 
-def _is_running(gmsh) -> bool:
+def _is_running(gmsh: ModuleType) -> bool:
     """Whether the caller has initialised Gmsh already; Gmsh 4.8 has no question for it."""
     if hasattr(gmsh, "isInitialized"):
         return bool(gmsh.isInitialized())
@@ -113,7 +115,7 @@ def extruded(
     return brick_mesh(points, cells, part).shifted(bottom)
 
 
-def swept_grid(x, y, z, part: int) -> BrickMesh:
+def swept_grid(x: np.ndarray, y: np.ndarray, z: np.ndarray, part: int) -> BrickMesh:
     """Tensor-product grid: a point swept along x, the line along y, the rectangle along z.
 
     Parameters
@@ -155,12 +157,12 @@ def swept_grid(x, y, z, part: int) -> BrickMesh:
     return brick_mesh(grid, number[cells], part)
 
 
-def _nearest(line, values):
+def _nearest(line: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Number of the grid line nearest to each value."""
     return np.searchsorted((line[1:] + line[:-1]) / 2, values)
 
 
-def generated(gmsh, dimension: int = 3) -> tuple[np.ndarray, np.ndarray]:
+def generated(gmsh: ModuleType, dimension: int = 3) -> tuple[np.ndarray, np.ndarray]:
     """Points (n, 3) [m] and bricks (m, 8), their nodes in VTK's order, of the current model; or
     quadrilaterals (m, 4) of a plane one, which has two dimensions.
 

@@ -6,8 +6,10 @@ import contextlib
 import functools
 import io
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any, NoReturn
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -22,6 +24,9 @@ from fecolumn.mesh.mass import MassProperties
 from fecolumn.mesh.mesh_file import MeshFile, UnusableShape
 from fecolumn.mesh.upright import Upright
 from fecolumn.mesh.weighing import NoSuchDensity, relative_densities
+
+# raises the InputError of a value and of what is allowed
+Refusal = Callable[[object, str], NoReturn]
 
 _DIMENSION_TOLERANCE = 0.01
 _BELOW_THREE_DIMENSIONS = {
@@ -81,7 +86,7 @@ class OwnMesh:
         ) + len(faces)
 
 
-def _count(groups) -> int:
+def _count(groups: np.ndarray) -> int:
     """Different sets of points among groups (n, m, k), of k points each."""
     return len(np.unique(np.sort(groups.reshape(-1, groups.shape[-1]), axis=1), axis=0))
 
@@ -111,7 +116,7 @@ def imported_column(case: Upright) -> BrickMesh:
         as of `own_mesh`, or the mesh does not fit the case.
     """
 
-    def refuse(value, allowed):
+    def refuse(value: object, allowed: str) -> NoReturn:
         raise InputError(case.column.mesh_file, "column.mesh_file", value, allowed)
 
     own = own_mesh(case.column.drawn)
@@ -146,7 +151,7 @@ def foot_hint(file: MeshFile) -> str:
 
 @functools.lru_cache(maxsize=32)
 def _own_mesh(file: MeshFile, mesh_content: str) -> OwnMesh:
-    def refuse(value, allowed):
+    def refuse(value: object, allowed: str) -> NoReturn:
         raise InputError(file.path, "column.mesh_file", value, allowed)
 
     exact = None
@@ -206,7 +211,7 @@ def _own_mesh(file: MeshFile, mesh_content: str) -> OwnMesh:
     )
 
 
-def _elements(path: Path, refuse) -> tuple[np.ndarray, np.ndarray]:
+def _elements(path: Path, refuse: Refusal) -> tuple[np.ndarray, np.ndarray]:
     """Points (n, 3) in the file's unit and elements (m, 8 or 4) of a file of elements."""
     found = _read(path, refuse)
     solids = {block.type: 0 for block in found.cells if len(block.data)}
@@ -248,7 +253,7 @@ def _elements(path: Path, refuse) -> tuple[np.ndarray, np.ndarray]:
     return points, cells
 
 
-def _read(path: Path, refuse):
+def _read(path: Path, refuse: Refusal) -> Any:
     """Meshio's mesh of a file."""
     import meshio
 
@@ -282,7 +287,7 @@ def _read(path: Path, refuse):
         refuse(None, f"cannot be read as a mesh by meshio: {said or type(error).__name__}")
 
 
-def _check_dimensions(own: OwnMesh, case: Upright, refuse) -> None:
+def _check_dimensions(own: OwnMesh, case: Upright, refuse: Refusal) -> None:
     column = case.column
     diameter = np.ptp(own.mesh.points[:, :2], axis=0).mean()
     for key, value, wanted in (
@@ -301,7 +306,7 @@ def _check_dimensions(own: OwnMesh, case: Upright, refuse) -> None:
         )
 
 
-def _check_elements(mesh: BrickMesh, height: float, refuse) -> None:
+def _check_elements(mesh: BrickMesh, height: float, refuse: Refusal) -> None:
     bad = np.flatnonzero(corner_jacobians(mesh).min(axis=1) <= 0)
     if len(bad):
         x, y, z = mesh.points[mesh.cells[bad[0]]].mean(axis=0)

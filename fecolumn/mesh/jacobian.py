@@ -41,12 +41,12 @@ def scaled_jacobian(mesh: BrickMesh) -> np.ndarray:
     return (np.linalg.det(edges) / np.maximum(lengths, 1e-300)).min(axis=1)
 
 
-def _corner_edges(mesh):
+def _corner_edges(mesh: BrickMesh) -> np.ndarray:
     corners = mesh.points[mesh.cells]
     return corners[:, _NEIGHBOURS] - corners[:, :, None]
 
 
-def _spokes(mesh):
+def _spokes(mesh: BrickMesh) -> np.ndarray:
     """(n_cells, 3, 3) edges of tetrahedra from their first corner."""
     corners = mesh.points[mesh.cells]
     return corners[:, 1:] - corners[:, :1]

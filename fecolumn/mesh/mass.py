@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -85,7 +86,7 @@ def element_moments(mesh: BrickMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray
     return _summed(_rule(mesh))
 
 
-def _rule(mesh: BrickMesh):
+def _rule(mesh: BrickMesh) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Weights (n,) [m3] and places (n, 3) [m] of a rule exact for x_i x_j in each element.
 
     Three Gauss points a direction are exact for bricks: the Jacobian is quadratic and x_i x_j
@@ -106,16 +107,20 @@ def _rule(mesh: BrickMesh):
         yield weight, np.einsum("a,cai->ci", shape, corners)
 
 
-def _rule_of_tetrahedra(corners: np.ndarray, volumes: np.ndarray):
+def _rule_of_tetrahedra(
+    corners: np.ndarray, volumes: np.ndarray
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """As `_rule`: 4/5 of the volume (n,) in the middle, 1/20 at each of the corners (n, 4, 3)."""
     yield 0.8 * volumes, corners.mean(axis=1)
     for corner in range(4):
         yield volumes / 20, corners[:, corner]
 
 
-def _summed(rule) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _summed(
+    rule: Iterable[tuple[np.ndarray, np.ndarray]],
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Integrals of 1, x_i and x_i x_j over each element by a rule."""
-    volumes, first, second = 0.0, 0.0, 0.0
+    volumes, first, second = np.zeros(()), np.zeros(()), np.zeros(())
     for weight, x in rule:
         volumes = volumes + weight
         first = first + weight[:, None] * x
@@ -136,7 +141,9 @@ def enclosed(triangles: np.ndarray) -> MassProperties:
     return MassProperties(found.volume, found.mass, found.centre + apex, found.inertia)
 
 
-def from_moments(volume, first, second, density) -> MassProperties:
+def from_moments(
+    volume: float, first: np.ndarray, second: np.ndarray, density: float
+) -> MassProperties:
     """Mass properties from the integrals of 1, x_i and x_i x_j over the volume."""
     centre = first / volume
     about_centre = second - volume * np.outer(centre, centre)

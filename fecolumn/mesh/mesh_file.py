@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 #: Metres of each unit of length in which a file may be.
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254, "ft": 0.3048}
 #: Endings of closed surfaces, of CAD bodies (which state their unit), and of Gmsh's own scripts.
@@ -18,7 +20,7 @@ _LIKELY, _POSSIBLE = (0.01, 100.0), (5e-3, 1e4)
 class UnusableShape(ValueError):
     """What is wrong with a file, and what to do: value, such as "12 holes", and allowed."""
 
-    def __init__(self, value: str | None, allowed: str):
+    def __init__(self, value: str | None, allowed: str) -> None:
         super().__init__(f"{value}: {allowed}" if value else allowed)
         self.value, self.allowed = value, allowed
 
@@ -58,7 +60,7 @@ class MeshFile:
         kinds = {"surface": SURFACES, "CAD": CAD, "script": SCRIPTS}
         return next((kind for kind, endings in kinds.items() if ending in endings), "elements")
 
-    def check_size(self, extents) -> None:
+    def check_size(self, extents: np.ndarray) -> None:
         """Refuse a body whose largest side of the three [m] tells of another unit.
 
         Raises

@@ -15,7 +15,7 @@ def foot_sides(case: Upright) -> tuple[float, float]:
     return foot_of_column(case.column, case.flange)
 
 
-def foot_of_column(column, flange) -> tuple[float, float]:
+def foot_of_column(column: Any, flange: Any) -> tuple[float, float]:
     """As `foot_sides`, of a [column] on its [flange] or None."""
     if flange:
         return flange.outer_diameter_m, flange.outer_diameter_m
@@ -24,7 +24,7 @@ def foot_of_column(column, flange) -> tuple[float, float]:
     return outline_sides(column)
 
 
-def outline_sides(column) -> tuple[float, float]:
+def outline_sides(column: Any) -> tuple[float, float]:
     """Length and width [m] of a built column's section."""
     return (
         (column.length_m, column.width_m)
@@ -40,6 +40,6 @@ def own_of(column: Any) -> OwnMesh:
     return own_mesh(column.drawn)
 
 
-def is_solid(column) -> bool:
+def is_solid(column: Any) -> bool:
     """Whether the round section of a [column] has no hole."""
     return column.shape == "solid" or column.wall_m >= column.outer_diameter_m / 2 * (1 - 1e-6)

@@ -70,7 +70,7 @@ def _area(corners: np.ndarray) -> float:
     return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
 
 
-def _counter_clockwise(corners) -> np.ndarray:
+def _counter_clockwise(corners: np.ndarray) -> np.ndarray:
     corners = np.asarray(corners, dtype=float)
     return corners if _area(corners) > 0 else corners[::-1]
 

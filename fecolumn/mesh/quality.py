@@ -7,6 +7,7 @@ from __future__ import annotations
 import functools
 import math
 import operator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -77,7 +78,9 @@ def exact_cap(case: Upright) -> MassProperties:
     )
 
 
-def ring_properties(outer, inner, height, bottom, density) -> MassProperties:
+def ring_properties(
+    outer: float, inner: float, height: float, bottom: float, density: float
+) -> MassProperties:
     """Of a tube, or of a solid cylinder with the inner radius 0, from a height `bottom` up [m]."""
     squares = outer**2 + inner**2
     volume = math.pi * (outer**2 - inner**2) * height
@@ -91,7 +94,7 @@ def ring_properties(outer, inner, height, bottom, density) -> MassProperties:
     )
 
 
-def box_properties(a, b, c, bottom, density) -> MassProperties:
+def box_properties(a: float, b: float, c: float, bottom: float, density: float) -> MassProperties:
     """Of a block of sides a, b, c from a height `bottom` up [m]."""
     mass = density * a * b * c
     inertia = np.diag([b * b + c * c, a * a + c * c, a * a + b * b]) * mass / 12
@@ -114,7 +117,11 @@ def quality_table(case: Upright, specimen: SpecimenMesh) -> tuple[QualityRow, ..
         "cap": body.part == CAP,
     }
     parts = {name: _part(body, mask) for name, mask in kept.items() if mask.any()}
-    exact = {"flange": exact_flange, "column": exact_column, "cap": exact_cap}
+    exact: dict[str, Callable[[Upright], MassProperties | None]] = {
+        "flange": exact_flange,
+        "column": exact_column,
+        "cap": exact_cap,
+    }
     rows = [QualityRow("smallest Jacobian of the body", "m3", float(corner_jacobians(body).min()))]
     shown = {**parts, "base": base} if len(base.cells) else parts
     rows += [
@@ -172,8 +179,8 @@ def _drawn_column(body: BrickMesh, case: Upright) -> MassProperties | None:
     )
 
 
-def _mass_rows(name, found, exact):
-    def row(what, unit, of):
+def _mass_rows(name: str, found: MassProperties, exact: MassProperties | None) -> list[QualityRow]:
+    def row(what: str, unit: str, of: Callable[[MassProperties], float]) -> QualityRow:
         return QualityRow(
             f"{name}: {what}", unit, float(of(found)), None if exact is None else float(of(exact))
         )
@@ -187,11 +194,15 @@ def _mass_rows(name, found, exact):
         row(
             f"inertia I_{axis}{axis} about the centre of mass",
             "kg m2",
-            lambda one, i=i: one.inertia[i, i],
+            functools.partial(_inertia, i),
         )
         for i, axis in enumerate("xyz")
     ]
 
 
-def _part(mesh, kept) -> BrickMesh:
+def _inertia(axis: int, one: MassProperties) -> float:
+    return one.inertia[axis, axis]
+
+
+def _part(mesh: BrickMesh, kept: np.ndarray) -> BrickMesh:
     return mesh.only(kept)

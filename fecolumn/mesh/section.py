@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -43,13 +45,13 @@ class Annulus:
         """Factor on the radii that gives the polygon of the nodes the area of the ring."""
         return equal_area(self.n_around)
 
-    def outline(self, points) -> np.ndarray:
+    def outline(self, points: np.ndarray) -> np.ndarray:
         """Distance (n,) of the polygon of its nodes from the middle at `points` (n, 2 or more) [m],
         over that of its corners.
         """
         return _polygon(points, self.n_around, 0.0)
 
-    def draw(self, geo) -> list[int]:
+    def draw(self, geo: Any) -> list[int]:
         """Tags of the four surfaces drawn in a `gmsh.model.geo`."""
         # An arc of Gmsh is shorter than pi, so four arcs share the bricks even where n_around is no
         # multiple of 4.
@@ -62,7 +64,7 @@ class Annulus:
         )
         return _ring(geo, centre, inner, outer, np.diff(split), self.n_wall, curved_inside=True)
 
-    def evened(self, points) -> np.ndarray:
+    def evened(self, points: np.ndarray) -> np.ndarray:
         """(n, 2) points [m] at exactly equal angles and radii."""
         radius, thickness = np.hypot(*points.T), self.outer_radius - self.inner_radius
         ring = np.round((radius - self.inner_radius) / thickness * self.n_wall)
@@ -104,12 +106,12 @@ class Disc:
         """Factor on the radius that gives the polygon of the nodes the area of the disc."""
         return equal_area(self.n_around)
 
-    def outline(self, points) -> np.ndarray:
+    def outline(self, points: np.ndarray) -> np.ndarray:
         """As of Annulus; 1 at points inside, which need not move with the rim."""
         rim = np.hypot(points[:, 0], points[:, 1]) > self.radius * (1 - 1e-6)
         return np.where(rim, _polygon(points, self.n_around, np.pi / 4), 1.0)
 
-    def draw(self, geo) -> list[int]:
+    def draw(self, geo: Any) -> list[int]:
         """Tags of the five surfaces drawn in a `gmsh.model.geo`."""
         n_side = self.n_around // 4
         angles = np.pi / 4 + np.arange(4) * np.pi / 2
@@ -118,7 +120,7 @@ class Disc:
             [geo.addPoint(r * np.cos(a), r * np.sin(a), 0) for a in angles]
             for r in (_SQUARE_CORNER * self.radius, self.radius)
         )
-        sides = []
+        sides: list[int] = []
         blocks = _ring(
             geo,
             centre,
@@ -131,7 +133,7 @@ class Disc:
         )
         return blocks + [_quadrilateral(geo, sides, square)]
 
-    def evened(self, points) -> np.ndarray:
+    def evened(self, points: np.ndarray) -> np.ndarray:
         """(n, 2) points [m], those on the rim at exactly equal angles."""
         rim = np.hypot(*points.T) > self.radius * (1 - 1e-6)
         on_rim = _polar(self.radius, _even_angle(points, self.n_around, np.pi / 4))
@@ -167,9 +169,9 @@ class Rectangle:
     @property
     def lines(self) -> tuple[np.ndarray, np.ndarray]:
         """Grid lines along x and y [m]."""
-        return tuple(
-            np.linspace(-side / 2, side / 2, n + 1)
-            for side, n in ((self.length, self.n_x), (self.width, self.n_y))
+        return (
+            np.linspace(-self.length / 2, self.length / 2, self.n_x + 1),
+            np.linspace(-self.width / 2, self.width / 2, self.n_y + 1),
         )
 
     @property
@@ -177,12 +179,12 @@ class Rectangle:
         """1: the grid has the rectangle's area."""
         return 1.0
 
-    def outline(self, points) -> np.ndarray:
+    def outline(self, points: np.ndarray) -> np.ndarray:
         """Ones (n,)."""
         return np.ones(len(points))
 
 
-def _polygon(points, n_around, first):
+def _polygon(points: np.ndarray, n_around: int, first: float) -> np.ndarray:
     """Distance of the sides of a regular polygon from its middle, in the direction of `points`,
     over that of its corners.
     """
@@ -202,7 +204,7 @@ def equal_area(n_around: int) -> float:
     return math.sqrt(step / math.sin(step))
 
 
-def _even_angle(points, n_around, first):
+def _even_angle(points: np.ndarray, n_around: int, first: float) -> np.ndarray:
     """Nearest of `n_around` equal angles; Gmsh spaces the points of an arc to 1e-9 rad only, which
     breaks the symmetry.
     """
@@ -210,16 +212,24 @@ def _even_angle(points, n_around, first):
     return first + step * np.round((np.arctan2(points[:, 1], points[:, 0]) - first) / step)
 
 
-def _polar(radius, angle):
+def _polar(radius: np.ndarray | float, angle: np.ndarray) -> np.ndarray:
     return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
 
 
 def _ring(
-    geo, centre, inner, outer, n_arcs, n_radial, *, curved_inside, inner_curves=None
+    geo: Any,
+    centre: int,
+    inner: Sequence[int],
+    outer: Sequence[int],
+    n_arcs: Sequence[int] | np.ndarray,
+    n_radial: int,
+    *,
+    curved_inside: bool,
+    inner_curves: list[int] | None = None,
 ) -> list[int]:
     """Surfaces of four blocks between four inner and four outer points."""
 
-    def curve(start, end, curved, n):
+    def curve(start: int, end: int, curved: bool, n: int) -> int:
         tag = geo.addCircleArc(start, centre, end) if curved else geo.addLine(start, end)
         geo.mesh.setTransfiniteCurve(tag, int(n) + 1)
         return tag
@@ -240,7 +250,7 @@ def _ring(
     ]
 
 
-def _quadrilateral(geo, curves, corners) -> int:
+def _quadrilateral(geo: Any, curves: Sequence[int], corners: Sequence[int]) -> int:
     surface = geo.addPlaneSurface([geo.addCurveLoop(curves)])
     geo.mesh.setTransfiniteSurface(surface, cornerTags=corners)
     geo.mesh.setRecombine(2, surface)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from fecolumn.mesh.base_plate import base_mesh
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh, boundary_faces, merged_mesh
 from fecolumn.mesh.cap_plate import cap_mesh
-from fecolumn.mesh.column import column_mesh, section
+from fecolumn.mesh.column import column_mesh, round_section
 from fecolumn.mesh.imported import imported_column
 from fecolumn.mesh.tie import Tie, adjust, tie
 from fecolumn.mesh.upright import Upright
@@ -76,7 +77,9 @@ def body_mesh(case: Upright) -> tuple[BrickMesh, tuple[Tie, ...]]:
     return body, tuple(ties)
 
 
-def _joints(case: Upright, column: BrickMesh, height: float):
+def _joints(
+    case: Upright, column: BrickMesh, height: float
+) -> Iterator[tuple[int, int, float, str]]:
     """Slave part, master part, height [m] and keys of each joint, from the foot upwards."""
     lowest = LOWER if column.has_part(LOWER) else UPPER
     if column.has_part(FLANGE):
@@ -99,12 +102,14 @@ def _reach(case: Upright) -> float:
     if case.column.mesh_file or case.column.shape == "block":
         return 0.1 * case.mesh.fine_size_m
     sagitta = (
-        case.column.outer_diameter_m / 2 * (1 - math.cos(math.pi / section(case, UPPER).n_around))
+        case.column.outer_diameter_m
+        / 2
+        * (1 - math.cos(math.pi / round_section(case, UPPER).n_around))
     )
     if case.flange:
         sagitta += (
             case.flange.outer_diameter_m
             / 2
-            * (1 - math.cos(math.pi / section(case, FLANGE).n_around))
+            * (1 - math.cos(math.pi / round_section(case, FLANGE).n_around))
         )
     return sagitta + 0.1 * case.mesh.fine_size_m

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from typing import NoReturn
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -33,7 +35,7 @@ class Tie:
     slave_nodes: np.ndarray
     master_quads: np.ndarray
 
-    def masters(self, points) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    def masters(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Where each slave sits: u_slave = sum of weights times u_master.
 
         Parameters
@@ -84,7 +86,7 @@ def tie(
         no faces in the plane, or a slave farther from the master surface than `reach`.
     """
 
-    def refuse(what):
+    def refuse(what: str) -> NoReturn:
         raise InputError(
             "mesh",
             names,
@@ -106,7 +108,7 @@ def tie(
     return found
 
 
-def adjust(mesh: BrickMesh, ties) -> BrickMesh:
+def adjust(mesh: BrickMesh, ties: Iterable[Tie]) -> BrickMesh:
     """Mesh with every slave moved onto its master surface (Abaqus: ADJUST=YES).
 
     A slave that stays off the surface it moves with (the arc off its chord) makes the tie resist
@@ -119,12 +121,14 @@ def adjust(mesh: BrickMesh, ties) -> BrickMesh:
     return replace(mesh, points=points)
 
 
-def shape_functions(xi) -> np.ndarray:
+def shape_functions(xi: np.ndarray) -> np.ndarray:
     """(n, 4) bilinear shape functions at `xi` (n, 2) in [-1, 1]^2."""
     return np.prod(1 + xi[:, None, :] * _CORNERS, axis=2) / 4
 
 
-def project_to_quads(points, quads) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def project_to_quads(
+    points: np.ndarray, quads: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Closest points on a set of bilinear quadrilaterals.
 
     A quadrilateral lies within its own half-diagonal of its centre, so the nearest one is among
@@ -159,7 +163,7 @@ def project_to_quads(points, quads) -> tuple[np.ndarray, np.ndarray, np.ndarray,
     return quad[best], xi[best], projected, np.linalg.norm(points - projected, axis=1)
 
 
-def _closest_on_quad(points, quads) -> tuple[np.ndarray, np.ndarray]:
+def _closest_on_quad(points: np.ndarray, quads: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Local coordinates (n, 2) and squared distance (n,) of the closest point on one bilinear
     quadrilateral each.
 
@@ -185,7 +189,7 @@ def _closest_on_quad(points, quads) -> tuple[np.ndarray, np.ndarray]:
     return np.stack(candidates)[best, each], np.stack(squared)[best, each]
 
 
-def _foot_of_normal(points, quads) -> np.ndarray:
+def _foot_of_normal(points: np.ndarray, quads: np.ndarray) -> np.ndarray:
     """Newton's solution (n, 2) of (x(xi) - p) . x_xi = 0; values outside the square mark a foot
     outside.
     """

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, ClassVar
+
+if TYPE_CHECKING:
+    import dataclasses
 
 
 class Upright:
@@ -16,6 +19,8 @@ class Upright:
         plates at foot and top, or None.
     base, material
         below it and of it; only the mesh of a whole case asks for them.
+    integration
+        of a whole case; only an estimate asks for it.
     """
 
     __slots__ = ()
@@ -25,6 +30,10 @@ class Upright:
     cap: Any
     base: Any
     material: Any
+    integration: Any
+
+    if TYPE_CHECKING:  # whatever states them is a dataclass
+        __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[Any]]]
 
     @property
     def mean_radius_m(self) -> float:

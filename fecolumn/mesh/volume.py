@@ -6,12 +6,17 @@ others drew may bring Gmsh down or keep it busy for ever.
 
 from __future__ import annotations
 
+import functools
 import json
 import math
+import operator
 import re
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,6 +27,10 @@ from fecolumn.mesh.closed_surface import (
 )
 from fecolumn.mesh.mass import MassProperties, enclosed
 from fecolumn.mesh.mesh_file import MeshFile, UnusableShape
+
+if TYPE_CHECKING:
+    import pyvista
+
 
 # Elements through the cube root of the volume, where no size is asked for
 _THROUGH = 8
@@ -66,7 +75,7 @@ def main(job: str, result: str) -> None:
         else:
             with np.load(asked["surface"]) as known:
                 surface = ClosedSurface(known["points"], known["triangles"], ())
-            made = _filled_so(surface, tuple(way), file.size)
+            made = _filled_so(surface, tuple(way), asked["file"]["size"])
     except UnusableShape as error:
         Path(result).write_text(json.dumps([error.value, error.allowed]))
         return
@@ -104,10 +113,10 @@ def _meshed(file: MeshFile) -> dict:
 class _Gmsh:
     """Gmsh begun and ended, without a word to the console."""
 
-    def __init__(self, gmsh):
+    def __init__(self, gmsh: ModuleType) -> None:
         self.gmsh = gmsh
 
-    def __enter__(self):
+    def __enter__(self) -> None:
         self.gmsh.initialize()
         for name, value in (
             ("General.Terminal", 0),
@@ -121,7 +130,7 @@ class _Gmsh:
         ):
             self.gmsh.option.setNumber(name, value)
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.gmsh.finalize()
 
 
@@ -176,13 +185,15 @@ def _thinned(surface: ClosedSurface, count: int, longest: float, anew: bool) -> 
     return ClosedSurface(points, triangles, surface.notes)
 
 
-def _poly(surface: ClosedSurface):
+def _poly(surface: ClosedSurface) -> pyvista.PolyData:
     import pyvista
 
     return pyvista.PolyData(surface.points, np.insert(surface.triangles, 0, 3, axis=1).ravel())
 
 
-def _filled(gmsh, surface: ClosedSurface, anew: bool, size: float):
+def _filled(
+    gmsh: ModuleType, surface: ClosedSurface, anew: bool, size: float
+) -> tuple[np.ndarray, np.ndarray]:
     with tempfile.NamedTemporaryFile(suffix=".stl") as draft:
         _write_stl(surface, draft.name)
         gmsh.merge(draft.name)
@@ -222,7 +233,9 @@ def _smoothed(surface: ClosedSurface) -> ClosedSurface:
     return ClosedSurface(points, surface.triangles, surface.notes)
 
 
-def _of_cad(gmsh, file: MeshFile):
+def _of_cad(
+    gmsh: ModuleType, file: MeshFile
+) -> tuple[np.ndarray, np.ndarray, MassProperties | None]:
     gmsh.option.setString("Geometry.OCCTargetUnit", "M")
     _opened(lambda: gmsh.model.occ.importShapes(file.path), "a STEP or IGES file")
     gmsh.model.occ.synchronize()
@@ -240,10 +253,7 @@ def _of_cad(gmsh, file: MeshFile):
         gmsh.model.occ.removeAllDuplicates()
         gmsh.model.occ.synchronize()
         solids = gmsh.model.getEntities(3)
-    exact = None
-    for solid in solids:
-        one = _properties(gmsh, solid)
-        exact = one if exact is None else exact + one
+    exact = functools.reduce(operator.add, (_properties(gmsh, solid) for solid in solids))
     area = sum(gmsh.model.occ.getMass(*face) for face in gmsh.model.getEntities(2))
     if not exact.volume > 0 or not area > 0:
         raise UnusableShape(f"{exact.volume:.3g} m3", "must hold a solid of some volume")
@@ -257,7 +267,7 @@ def _of_cad(gmsh, file: MeshFile):
     return *_elements(gmsh), exact
 
 
-def _properties(gmsh, solid) -> MassProperties:
+def _properties(gmsh: ModuleType, solid: tuple[int, int]) -> MassProperties:
     """Of a solid as OpenCASCADE knows them, at a density of 1."""
     volume = gmsh.model.occ.getMass(*solid)
     centre = np.array(gmsh.model.occ.getCenterOfMass(*solid))
@@ -265,7 +275,9 @@ def _properties(gmsh, solid) -> MassProperties:
     return MassProperties(volume, volume, centre, inertia)
 
 
-def _of_script(gmsh, file: MeshFile):
+def _of_script(
+    gmsh: ModuleType, file: MeshFile
+) -> tuple[np.ndarray, np.ndarray, MassProperties | None]:
     text = Path(file.path).read_text(errors="replace")
     if found := re.search(r"SystemCall|NonBlockingSystemCall|OnelabRun", text):
         raise UnusableShape(found[0], "must not call other programs")
@@ -284,7 +296,7 @@ def _of_script(gmsh, file: MeshFile):
     return points * file.metres, cells, None
 
 
-def _opened(act, what: str) -> None:
+def _opened(act: Callable[[], object], what: str) -> None:
     try:
         act()
     except Exception as error:  # Gmsh raises plain exceptions
@@ -292,7 +304,7 @@ def _opened(act, what: str) -> None:
         raise UnusableShape(None, f"must be {what}; Gmsh says: {said}") from None
 
 
-def _elements(gmsh) -> tuple[np.ndarray, np.ndarray]:
+def _elements(gmsh: ModuleType) -> tuple[np.ndarray, np.ndarray]:
     """Points (n, 3) and elements (m, 4 or 8) of what Gmsh has meshed."""
     kinds, _, nodes = gmsh.model.mesh.getElements(3)
     found = {int(kind): one for kind, one in zip(kinds, nodes)}

@@ -71,7 +71,7 @@ def _of_largest_entropy(terms: np.ndarray, wanted: np.ndarray, shares: np.ndarra
     """
     factors = np.zeros(len(terms))
 
-    def value(trial):
+    def value(trial: np.ndarray) -> float:
         power = trial @ terms
         return np.inf if power.max() > 50 else shares @ np.exp(power) - trial @ wanted
 

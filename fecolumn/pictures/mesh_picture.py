@@ -5,7 +5,10 @@ alone in the colours of its parts, and its foot magnified.
 from __future__ import annotations
 
 import io
+from collections.abc import Sequence
 from pathlib import Path
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +16,15 @@ from fecolumn.contact.points import GROUND
 from fecolumn.foundation.atomic import write_bytes
 from fecolumn.mesh.bricks import BASE, CAP, FLANGE, LOWER, PART_NAMES, UPPER
 from fecolumn.pictures.off_screen import projection_axes, rendered
+
+if TYPE_CHECKING:
+    import pyvista
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from fecolumn.engines.scene.scene import Scene
+    from fecolumn.structures.model import Joint, Link, Part, StructureModel
+
 
 _COLOURS = ("#c67b5c", "#9fb2c1", "#d8c08a", "#7f9a75", "#b58fa8", "#8c8fb5", "#c9a27e", "#86aeb0")
 _OF_PARTS = {FLANGE: "#7f9a75", LOWER: "#c67b5c", UPPER: "#9fb2c1", CAP: "#d8c08a", BASE: "#cfd1cc"}
@@ -29,7 +41,7 @@ _LINE_MM = 3.6
 _ON_LINK = 0.3
 
 
-def mesh_picture(scene, structure, path) -> Path:
+def mesh_picture(scene: Scene, structure: StructureModel, path: Path | str) -> Path:
     """PNG of a structure at its start, in parallel projection; names of bodies or of the parts of
     one body, of joints and of links stand beside it.
 
@@ -94,7 +106,7 @@ def mesh_picture(scene, structure, path) -> Path:
     return Path(path)
 
 
-def _surfaces(scene, structure) -> list[tuple[np.ndarray, np.ndarray, str]]:
+def _surfaces(scene: Scene, structure: StructureModel) -> list[tuple[np.ndarray, np.ndarray, str]]:
     """Points (n, 3) [m], faces and colour of all that is drawn, where it stands at the start: of
     each body, of each part of a body alone, and of each elastic ground.
     """
@@ -115,7 +127,7 @@ def _surfaces(scene, structure) -> list[tuple[np.ndarray, np.ndarray, str]]:
     return found
 
 
-def _parts_of(scene, number: int) -> np.ndarray | None:
+def _parts_of(scene: Scene, number: int) -> np.ndarray | None:
     """Part of a column (n_faces,) to which each face of a piece belongs; None where some belong to
     none, such as floors.
     """
@@ -124,7 +136,9 @@ def _parts_of(scene, number: int) -> np.ndarray | None:
     return parts if cells.min() >= 0 and parts.all() else None
 
 
-def _parts(scene, surfaces) -> list[tuple[str, np.ndarray]]:
+def _parts(
+    scene: Scene, surfaces: Sequence[tuple[np.ndarray, np.ndarray, str]]
+) -> list[tuple[str, np.ndarray]]:
     """Name with the number of elements, and a point (3,) [m], of each part of a body alone; none of
     several bodies.
     """
@@ -142,7 +156,7 @@ def _parts(scene, surfaces) -> list[tuple[str, np.ndarray]]:
     ]
 
 
-def _foot(scene, structure) -> np.ndarray | None:
+def _foot(scene: Scene, structure: StructureModel) -> np.ndarray | None:
     """Points (n, 3) [m] of the only foot of a body alone, where it stands; else None."""
     feet = [contact for contact in scene.contacts if contact.on_ground]
     if len(scene.bodies) > 1 or len(feet) != 1:
@@ -155,11 +169,20 @@ def _foot(scene, structure) -> np.ndarray | None:
 class _Panels:
     """Pictures of the same surfaces in one figure."""
 
-    def __init__(self, figure, size, surfaces, structure, level):
+    def __init__(
+        self,
+        figure: Figure,
+        size: np.ndarray,
+        surfaces: Sequence[tuple[np.ndarray, np.ndarray, str]],
+        structure: StructureModel,
+        level: float | None,
+    ) -> None:
         self.figure, self.size, self.surfaces = figure, size, surfaces
         self.structure, self.level = structure, level
 
-    def panel(self, corner, millimetres, centre, half):
+    def panel(
+        self, corner: np.ndarray, millimetres: np.ndarray, centre: np.ndarray, half: np.ndarray
+    ) -> Axes:
         """Axes [m] of a picture `millimetres` large, around `centre` (2,) in the projection."""
         axes = self.figure.add_axes([*(corner / self.size), *(millimetres / self.size)])
         spans = [(centre[k] - half[k], centre[k] + half[k]) for k in range(2)]
@@ -171,13 +194,13 @@ class _Panels:
         )
         return axes
 
-    def _image(self, centre, half_height, millimetres) -> np.ndarray:
+    def _image(self, centre: np.ndarray, half_height: float, millimetres: np.ndarray) -> np.ndarray:
         """(height, width, 3) pixels at twice the figure's resolution."""
         points = np.concatenate([points for points, _, _ in self.surfaces])
         low, high = _ground(points)
         links = self.structure.links
 
-        def fill(plotter, pyvista):
+        def fill(plotter: pyvista.Plotter, pyvista: ModuleType) -> None:
             if self.level is not None:
                 plane = pyvista.Plane(
                     center=(*(low + high) / 2, self.level - 1e-3 * half_height),
@@ -216,7 +239,7 @@ class _Panels:
         )
 
 
-def _magnify(draw: _Panels, whole, foot: np.ndarray, size: np.ndarray) -> None:
+def _magnify(draw: _Panels, whole: Axes, foot: np.ndarray, size: np.ndarray) -> None:
     """The foot (n, 3) [m] beside the whole; in the lower half, so that the change from fine to
     coarse elements shows above it.
     """
@@ -245,16 +268,22 @@ def _ground(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return low - margin, high + margin
 
 
-def link_ends(link, parts) -> np.ndarray:
+def link_ends(link: Link, parts: Sequence[Part]) -> np.ndarray:
     """Both ends (2, 3) [m] of a link where its parts are."""
 
-    def at(place, arm):
+    def at(place: int, arm: np.ndarray) -> np.ndarray:
         return arm if place == GROUND else parts[place].center + parts[place].rotation @ arm
 
     return np.array([at(link.a, link.arm_a), at(link.b, link.arm_b)])
 
 
-def _labels(structure, along: np.ndarray, middle: float, width: float, parts=()) -> list:
+def _labels(
+    structure: StructureModel,
+    along: np.ndarray,
+    middle: float,
+    width: float,
+    parts: Sequence[tuple[str, np.ndarray]] = (),
+) -> list:
     """(text, point (3,), colour, side) of every body, link and interface; the side is that to which
     it is nearer, so that no line crosses the structure.
 
@@ -262,7 +291,7 @@ def _labels(structure, along: np.ndarray, middle: float, width: float, parts=())
     the right. along: (3,) direction to the right; parts: names and points instead of the bodies'.
     """
 
-    def side(point, otherwise):
+    def side(point: np.ndarray, otherwise: str) -> str:
         return (
             otherwise
             if abs(point @ along - middle) < _MIDDLE * width
@@ -308,7 +337,7 @@ def _fitted(labels: list, most: int) -> tuple[list, list]:
     ], numbers
 
 
-def _meeting_point(structure, joint) -> np.ndarray:
+def _meeting_point(structure: StructureModel, joint: Joint) -> np.ndarray:
     """Middle (3,) [m] of a joint's slave surface."""
     part = structure.parts[joint.slave]
     surface = part.model.surfaces[joint.slave_surface]
@@ -318,7 +347,15 @@ def _meeting_point(structure, joint) -> np.ndarray:
     )
 
 
-def _write(axes, labels, view_axes, centre, half, millimetres, side) -> None:
+def _write(
+    axes: Axes,
+    labels: Sequence[tuple[str, np.ndarray, str, str]],
+    view_axes: tuple[np.ndarray, np.ndarray],
+    centre: np.ndarray,
+    half: np.ndarray,
+    millimetres: np.ndarray,
+    side: str,
+) -> None:
     """Labels one below the other beside the picture, each with a line to what it names."""
     if not labels:
         return

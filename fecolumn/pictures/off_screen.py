@@ -6,8 +6,15 @@ It needs no X server but Debian's libegl1, libegl-mesa0 and libgl1-mesa-dri.
 from __future__ import annotations
 
 import os
+from collections.abc import Callable, Sequence
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    import pyvista
+
 
 _AZIMUTH, _ELEVATION = np.radians(-62), np.radians(24)
 
@@ -27,7 +34,13 @@ def projection_axes() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def rendered(
-    fill, pixels, focus, view, half_height: float, reach: float, depth: float
+    fill: Callable[[pyvista.Plotter, ModuleType], None],
+    pixels: Sequence[int],
+    focus: np.ndarray,
+    view: Sequence[np.ndarray],
+    half_height: float,
+    reach: float,
+    depth: float,
 ) -> np.ndarray:
     """(height, width, 3) image in parallel projection, without a screen.
 
@@ -59,7 +72,7 @@ def rendered(
         plotter.close()
 
 
-def off_screen_plotter(pixels):
+def off_screen_plotter(pixels: Sequence[int]) -> pyvista.Plotter:
     """A pyvista.Plotter of so many pixels (width, height), white and dark, without a screen."""
     # VTK asks for an X server first and complains where there is none
     if not os.environ.get("DISPLAY"):
@@ -71,7 +84,14 @@ def off_screen_plotter(pixels):
     return plotter
 
 
-def light_and_look(plotter, focus, view, half_height: float, reach: float, depth: float) -> None:
+def light_and_look(
+    plotter: pyvista.Plotter,
+    focus: np.ndarray,
+    view: Sequence[np.ndarray],
+    half_height: float,
+    reach: float,
+    depth: float,
+) -> None:
     """Two lights, and a camera in parallel projection; arguments as of `rendered`."""
     import pyvista
 

@@ -14,7 +14,8 @@ from fecolumn.pictures.figures.cdf_figure import (
     overturn_text,
 )
 from fecolumn.pictures.figures.energy_figure import energy_figure
-from fecolumn.pictures.figures.history_figures import HistoryCurves, history_figures
+from fecolumn.pictures.figures.history_curves import HistoryCurves
+from fecolumn.pictures.figures.history_figures import history_figures
 from fecolumn.pictures.figures.specimen_figure import specimen_figure
 from fecolumn.pictures.figures.specimen_outline import specimen_outline
 from fecolumn.pictures.figures.style import BLUE, PURPLE, VERMILION

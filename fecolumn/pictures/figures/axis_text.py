@@ -25,7 +25,7 @@ _WORDS = {
 }
 
 
-def axis_text(key: str, value) -> str:
+def axis_text(key: str, value: object) -> str:
     r"""Text such as "$\Delta t$ = 0.001 s" for the dotted key `integration.dt_s`."""
     if isinstance(value, dict):
         return ", ".join(axis_text(f"{key}.{inner}", item) for inner, item in value.items())
@@ -46,7 +46,7 @@ def axis_words(key: str) -> str:
     return f"{section} {name}" if section in _NAMED else name
 
 
-def level_number(value) -> str:
+def level_number(value: object) -> str:
     """Value of an axis: numbers to six digits at most, sampled ones of more to three."""
     if not isinstance(value, (int, float)) or isinstance(value, bool):
         return str(value)

@@ -5,8 +5,10 @@ axes, a line for each level of one.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,6 +22,11 @@ from fecolumn.pictures.figures.style import (
     styled,
 )
 from fecolumn.statistics.ecdf import Ecdf, proportion_interval
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.patches import Patch
+
 
 _PANELS_A_ROW = 3
 _ROOM = 1.08  # of an axis over the largest peak, so that the level of what overturned is seen
@@ -43,7 +50,10 @@ class CdfPanel:
 
 
 def cdf_figure(
-    panels: list[CdfPanel], path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN
+    panels: list[CdfPanel],
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
+    width_in: float = PAGE_WIDTH_IN,
 ) -> list[Path]:
     """Write the figure, as PNG and PDF unless told otherwise.
 
@@ -117,7 +127,7 @@ def cdf_figure(
         return save(figure, path, formats)
 
 
-def axis_end(peaks) -> float:
+def axis_end(peaks: Iterable[float]) -> float:
     """Where an axis of displacements ends [m]: a little beyond the largest of the peaks; 1 where
     there is none above 0.
     """
@@ -125,7 +135,7 @@ def axis_end(peaks) -> float:
     return _ROOM * largest if largest > 0 else 1.0
 
 
-def common(peaks) -> list[float]:
+def common(peaks: Iterable[float]) -> list[float]:
     """The peaks without those so far beyond 95 % of all that they would leave the others no room on
     an axis.
     """
@@ -144,7 +154,7 @@ def _beyond(panel: CdfPanel, limit_mm: float) -> str:
     return f"\n{len(beyond)} beyond the axis, up to {max(beyond):.0f} mm" if beyond else ""
 
 
-def _draw(axes, panel: CdfPanel, looks: dict, limit_mm: float) -> str:
+def _draw(axes: Axes, panel: CdfPanel, looks: dict, limit_mm: float) -> str:
     """Bands below, lines above; what the bands are."""
     shaded = len(panel.lines) <= SHADED
     for number, (label, distribution) in enumerate(panel.lines):
@@ -179,7 +189,7 @@ def _draw(axes, panel: CdfPanel, looks: dict, limit_mm: float) -> str:
     return SHADES if shaded else BARS
 
 
-def _nothing():
+def _nothing() -> Patch:
     from matplotlib.patches import Patch
 
     return Patch(facecolor="none", edgecolor="none", label="")

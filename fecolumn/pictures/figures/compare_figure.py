@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.patches import Patch
@@ -22,6 +23,10 @@ from fecolumn.pictures.figures.style import (
 from fecolumn.statistics.bands import dkw, dkw_distance
 from fecolumn.statistics.ecdf import censored, ecdf, proportion_interval
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
 _STRIP = 0.09  # beyond the axes' ends, where overturned runs are drawn; as a share of the axis
 
 
@@ -32,7 +37,7 @@ def compare_figure(
     *,
     paired: bool,
     correlation: float | None,
-    path,
+    path: Path | str,
     slides: bool = False,
 ) -> list[Path]:
     """Write the figure as PNG and PDF.
@@ -68,7 +73,9 @@ def compare_figure(
         return save(figure, path)
 
 
-def _distributions(axes, a, b, labels, limit_mm: float, word: str) -> None:
+def _distributions(
+    axes: Axes, a: tuple, b: tuple, labels: tuple[str, str], limit_mm: float, word: str
+) -> None:
     for sample, label, colour, dashes in (
         (b, labels[1], VERMILION, "--"),
         (a, labels[0], BLUE, "-"),
@@ -134,7 +141,15 @@ def _whole(edge: np.ndarray, first: float = 0.0) -> np.ndarray:
     return np.concatenate([[first], edge, edge[-1:] if edge.size else [first]])
 
 
-def _pairs(axes, a, b, labels, limit_mm: float, correlation, slides: bool) -> None:
+def _pairs(
+    axes: Axes,
+    a: np.ndarray,
+    b: np.ndarray,
+    labels: tuple[str, str],
+    limit_mm: float,
+    correlation: float | None,
+    slides: bool,
+) -> None:
     end, fallen = limit_mm * (1 + _STRIP), limit_mm * (1 + _STRIP / 2)
     x, y = (
         np.where(np.isinf(u), fallen, np.minimum(1e3 * np.where(np.isinf(u), 0, u), limit_mm))

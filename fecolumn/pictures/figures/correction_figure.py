@@ -21,7 +21,7 @@ from fecolumn.pictures.figures.style import (
 _ROWS = (("$a$ [g]", 1 / GRAVITY), ("$v$ [cm/s]", 100.0), ("$d$ [cm]", 100.0))
 
 
-def correction_figure(before: GroundMotion, after: GroundMotion, folder) -> list[Path]:
+def correction_figure(before: GroundMotion, after: GroundMotion, folder: Path | str) -> list[Path]:
     """Write acceleration, velocity and displacement of both, a component a column, and the Fourier
     amplitudes below, as correction.png and .pdf.
     """

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,6 +22,10 @@ from fecolumn.pictures.figures.style import (
     save,
     styled,
 )
+
+if TYPE_CHECKING:
+    from fecolumn.pictures.figures.history_curves import HistoryCurves
+
 
 # Terms of the ledger as a reader knows them, with colour and dash, panel by panel. A strain of 1e-5
 # stores thousandths of what moves.
@@ -42,7 +48,9 @@ _CLOSURE = {"closure": ("closure error", BLACK, "-")}
 _NIL = 1e-6  # share of the largest term of a panel below which a term is left out
 
 
-def energy_figure(history, path, formats=("png", "pdf")) -> list[Path]:
+def energy_figure(
+    history: HistoryCurves, path: Path | str, formats: Sequence[str] = ("png", "pdf")
+) -> list[Path]:
     """Energy stored and put in, strain energy, what each loss has taken so far, and the closure
     error; terms that stay nil are left out.
 
@@ -52,7 +60,7 @@ def energy_figure(history, path, formats=("png", "pdf")) -> list[Path]:
     Parameters
     ----------
     history
-        of `history_figures`.
+        of `history_curves`.
     path
         file name without suffix.
     formats

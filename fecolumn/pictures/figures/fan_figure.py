@@ -5,8 +5,10 @@ setting, on the same axes.
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -24,6 +26,11 @@ from fecolumn.pictures.figures.style import (
 )
 from fecolumn.pictures.figures.thinning import thinned
 
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.figure import Figure
+
+
 #: How motions are drawn by their end: colour, marker where the analysis stopped, name. "" is one
 #: that stood.
 LOOKS = {
@@ -36,14 +43,28 @@ _STRIP_IN = 0.17
 _FINE = 0.003  # of an axis, what a line may be off: half of its width
 
 
+class DrawnTrace(Protocol):
+    """A history as the figures need it; `report.histories.Trace` is one."""
+
+    @property
+    def time(self) -> np.ndarray:
+        """(n,) [s]."""
+
+    @property
+    def u_top(self) -> np.ndarray:
+        """(n, 2) [m], displacement of the top along x and y."""
+
+    @property
+    def end(self) -> str:
+        """One of LOOKS."""
+
+
 @dataclass(frozen=True, slots=True)
 class Fan:
-    """Panel of a fan figure: its title, lines of it parted by newlines, and
-    `report.histories.Trace`s or what has their attributes.
-    """
+    """Panel of a fan figure: its title, lines of it parted by newlines, and its traces."""
 
     title: str
-    traces: list
+    traces: Sequence[DrawnTrace]
 
 
 def fan_figure(
@@ -51,8 +72,8 @@ def fan_figure(
     limit_m: float,
     critical_m: float | None,
     across: int,
-    path,
-    formats=("png", "pdf"),
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
     width_in: float = PAGE_WIDTH_IN,
 ) -> list[Path]:
     """Write |u_top|(t) of all motions; those that were lost in another colour, with a marker where
@@ -141,14 +162,14 @@ def fan_figure(
         return save(figure, path, formats)
 
 
-def _line(trace, limit_m: float) -> tuple[np.ndarray, np.ndarray]:
+def _line(trace: DrawnTrace, limit_m: float) -> tuple[np.ndarray, np.ndarray]:
     """Time [s] and displacement [mm], up to where what was lost leaves the axes."""
     top = np.hypot(*trace.u_top[: rows_within(trace, limit_m)].T)
     rows = thinned(trace.time[: len(top)], top[:, None], (_FINE * limit_m,))
     return trace.time[rows], 1e3 * top[rows]
 
 
-def rows_within(trace, limit_m: float) -> int:
+def rows_within(trace: DrawnTrace, limit_m: float) -> int:
     """Number of rows up to the first beyond the limit of what was lost; all of what stood."""
     if not trace.end:
         return len(trace.time)
@@ -156,7 +177,12 @@ def rows_within(trace, limit_m: float) -> int:
     return int(beyond[0]) + 1 if len(beyond) else len(trace.time)
 
 
-def end_legend(figure, ends, critical_m: float | None = None, more=()) -> None:
+def end_legend(
+    figure: Figure,
+    ends: Collection[str],
+    critical_m: float | None = None,
+    more: Iterable[Artist] = (),
+) -> None:
     """Legend of the ends of motions, of the critical displacement [m] and what else is drawn, in a
     strip of its own at the top of the figure.
     """

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,18 +18,22 @@ from fecolumn.pictures.figures.style import (
     styled,
 )
 
+if TYPE_CHECKING:
+    from fecolumn.statistics.fragility import Probability
+
+
 _LEVELS = (0.1, 0.5, 0.9)
 _DASHES = (":", "-", "--")
 _DECADE = 10.0  # an axis of logarithms needs as much to have its numbers
 
 
 def contour_figure(
-    names,
-    measures,
-    overturned,
-    probability,
-    path,
-    formats=("png", "pdf"),
+    names: Sequence[str],
+    measures: np.ndarray,
+    overturned: np.ndarray,
+    probability: Callable[[np.ndarray], Probability],
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
     width_in: float = COLUMN_WIDTH_IN,
 ) -> list[Path]:
     """Runs as points, contours of P(overturn) = 0.1, 0.5, 0.9, and the 95 % band of the middle one

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -26,8 +27,8 @@ def incremental_figure(
     curves: list[IncrementalCurve],
     label: str,
     u_critical_m: float | None,
-    path,
-    formats=("png", "pdf"),
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
     width_in: float = PAGE_WIDTH_IN,
 ) -> list[Path]:
     """Write the figure; intensity upwards, as Vamvatsikos and Cornell (2002) draw it, so that an

@@ -4,6 +4,7 @@ parameters.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -54,8 +55,8 @@ class Scale:
 
 def interval_figure(
     columns: list[tuple[Scale, list[IntervalRow]]],
-    path,
-    formats=("png", "pdf"),
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
     width_in: float = PAGE_WIDTH_IN,
 ) -> list[Path]:
     """Write the figure; the columns share their rows, and stand one above the other in a figure of

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +17,10 @@ from fecolumn.pictures.figures.style import (
     save,
     styled,
 )
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 
 # shades of more curves would hide each other: these get bars, of each curve at places of its own
 _SHADED = 2
@@ -53,7 +58,10 @@ class CurvePanel:
 
 
 def line_figure(
-    panels: list[CurvePanel], path, formats=("png", "pdf"), width_in: float = PAGE_WIDTH_IN
+    panels: list[CurvePanel],
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
+    width_in: float = PAGE_WIDTH_IN,
 ) -> list[Path]:
     """Write the figure.
 
@@ -111,7 +119,7 @@ def line_figure(
         return save(figure, path, formats)
 
 
-def _band(axes, curve: Curve, colour: str, number: int, banded: int) -> None:
+def _band(axes: Axes, curve: Curve, colour: str, number: int, banded: int) -> None:
     """Shade of a curve's band, or where many curves have one, bars of it: at its points, or at
     places of its own.
     """

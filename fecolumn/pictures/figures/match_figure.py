@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,8 +20,16 @@ from fecolumn.pictures.figures.style import (
     styled,
 )
 
+if TYPE_CHECKING:
+    from fecolumn.motions.spectral_match import TargetSpectrum
 
-def match_figure(target, spectra: np.ndarray, path, formats=("png", "pdf")) -> list[Path]:
+
+def match_figure(
+    target: TargetSpectrum,
+    spectra: np.ndarray,
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
+) -> list[Path]:
     """Each spectrum thin, their mean of logarithms and its standard deviation over the target's,
     and beside it the standard deviations.
 

@@ -4,7 +4,9 @@ ensemble.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -21,6 +23,11 @@ from fecolumn.pictures.figures.style import (
 from fecolumn.pictures.figures.top_figure import ground_panel
 from fecolumn.statistics.ecdf import ecdf
 
+if TYPE_CHECKING:
+    from fecolumn.engines.rocking.model import Model, ModelResponse
+    from fecolumn.motions.record import GroundMotion
+
+
 _STATES = (
     ("kinetic", "kinetic"),
     ("gravity", "gravity"),
@@ -31,7 +38,9 @@ _STATES = (
 )
 
 
-def response_figure(motion, response, model, path, title: str = "") -> list[Path]:
+def response_figure(
+    motion: GroundMotion, response: ModelResponse, model: Model, path: Path | str, title: str = ""
+) -> list[Path]:
     """Ground acceleration, coordinates with impacts, displacement of the top, energy; PNG and PDF.
 
     Parameters
@@ -103,7 +112,12 @@ def response_figure(motion, response, model, path, title: str = "") -> list[Path
         return save(figure, path)
 
 
-def ensemble_figure(responses, model, name: str, path) -> list[Path]:
+def ensemble_figure(
+    responses: Sequence[tuple[GroundMotion, ModelResponse]],
+    model: Model,
+    name: str,
+    path: Path | str,
+) -> list[Path]:
     """Distribution of the peak displacement of the top; `responses`: (GroundMotion, Response) of
     one model.
     """

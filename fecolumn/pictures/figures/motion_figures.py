@@ -4,6 +4,7 @@ distributions, rocking.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -42,7 +43,11 @@ _SHORTEST_S = 0.03  # displacements of stiffer oscillators tell nothing
 
 
 def motion_figures(
-    ensemble: Ensemble, columns: dict[str, np.ndarray], folder, show=None, slenderness: float = 0.1
+    ensemble: Ensemble,
+    columns: dict[str, np.ndarray],
+    folder: Path | str,
+    show: Iterable[int] | None = None,
+    slenderness: float = 0.1,
 ) -> list[Path]:
     """Write samples, spectra, distributions and rocking spectra as PNG and PDF.
 
@@ -75,7 +80,7 @@ def motion_figures(
         ]
 
 
-def _samples(ensemble: Ensemble, numbers: list[int], path) -> list[Path]:
+def _samples(ensemble: Ensemble, numbers: list[int], path: Path | str) -> list[Path]:
     """Acceleration, velocity and displacement in rows, a motion a column, with one scale a row."""
     figure = new_figure(PAGE_WIDTH_IN, 4.2)
     grid = figure.subplots(3, len(numbers), squeeze=False, sharex="col", sharey="row")
@@ -113,7 +118,7 @@ def _samples(ensemble: Ensemble, numbers: list[int], path) -> list[Path]:
     return save(figure, path)
 
 
-def _spectra(ensemble: Ensemble, path) -> list[Path]:
+def _spectra(ensemble: Ensemble, path: Path | str) -> list[Path]:
     """Every spectrum thin, the median and the band between 16 and 84 % over them, the target as
     marks.
     """
@@ -176,7 +181,9 @@ def _spectra(ensemble: Ensemble, path) -> list[Path]:
     return save(figure, path)
 
 
-def _distributions(ensemble: Ensemble, columns: dict[str, np.ndarray], path) -> list[Path]:
+def _distributions(
+    ensemble: Ensemble, columns: dict[str, np.ndarray], path: Path | str
+) -> list[Path]:
     """Distribution of each measure with the band of Greenwood, its median, and the target as a
     line.
     """

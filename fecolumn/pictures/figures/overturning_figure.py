@@ -5,7 +5,9 @@ stands a pulse.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -20,6 +22,10 @@ from fecolumn.pictures.figures.style import (
     save,
     styled,
 )
+
+if TYPE_CHECKING:
+    from fecolumn.engines.rocking.overturning import Band
+
 
 _TOP = 14.0
 _KINDS = (
@@ -36,7 +42,9 @@ _WORDS = {
 }
 
 
-def overturning_figure(rows, slenderness: float, path) -> list[Path]:
+def overturning_figure(
+    rows: Sequence[tuple[str, float, Band]], slenderness: float, path: Path | str
+) -> list[Path]:
     """A panel a pulse: amplitudes that overturn, by the impacts before, over frequency; what is
     white is safe. PNG and PDF.
 
@@ -101,7 +109,7 @@ def overturning_figure(rows, slenderness: float, path) -> list[Path]:
         return save(figure, path)
 
 
-def slenderness_figure(path) -> list[Path]:
+def slenderness_figure(path: Path | str) -> list[Path]:
     """phi(p T_p) of tan(alpha) = (a_p/g) phi: the least slenderness of a column that stands a
     pulse. PNG and PDF; `path` without suffix.
     """

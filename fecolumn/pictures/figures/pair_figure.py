@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -23,6 +25,10 @@ from fecolumn.pictures.figures.style import (
 )
 from fecolumn.statistics.correlation import correlation
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
 _STRIP = 1.14  # the overturned lie beyond the largest peak, in a strip of their own
 _ALL_PAIRS = 4  # settings of which every pair is drawn; of more only neighbours
 
@@ -39,8 +45,8 @@ class Variable:
 def pair_figure(
     variables: list[Variable],
     limit_m: float,
-    path,
-    formats=("png", "pdf"),
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
     width_in: float = PAGE_WIDTH_IN,
 ) -> list[Path]:
     """Write the figure: a panel for each pair of up to four settings, of more for each pair of
@@ -86,7 +92,7 @@ def pair_figure(
         return save(figure, path, formats)
 
 
-def _pair(axes, a: Variable, b: Variable, end: float, limit_m: float, fallen: bool) -> None:
+def _pair(axes: Axes, a: Variable, b: Variable, end: float, limit_m: float, fallen: bool) -> None:
     middle = (1 + _STRIP) / 2 * end
     # where many overturn in both, points of one place would hide each other: spread along the
     # strip, always the same way

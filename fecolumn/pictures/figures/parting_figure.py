@@ -4,7 +4,9 @@ side by side.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from matplotlib.ticker import LogLocator
@@ -20,6 +22,12 @@ from fecolumn.pictures.figures.style import (
     save,
     styled,
 )
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from fecolumn.pictures.figures.quantity import Quantity
+
 
 # Terms of the ledger as a reader knows them
 _TERMS = {
@@ -43,8 +51,61 @@ _NIL, _STILL, _ROUNDING = 1e-3, 1e-2, 1e-10
 _MOST_POINTS = 6000
 
 
+class DrawnPair(Protocol):
+    """One quantity of both analyses; `results.parting.QuantityPair` is one."""
+
+    @property
+    def a(self) -> np.ndarray:
+        """(n, k) in SI units, of A."""
+
+    @property
+    def b(self) -> np.ndarray:
+        """(n, k) in SI units, of B."""
+
+    @property
+    def peak(self) -> float:
+        """The larger of both largest magnitudes."""
+
+    @property
+    def difference(self) -> np.ndarray:
+        """(n,) magnitude of a - b."""
+
+    @property
+    def parted(self) -> int | None:
+        """Row at which they part; None where they do not."""
+
+
+class DrawnParting(Protocol):
+    """Two analyses as the figure needs them; `results.parting.Parting` is one."""
+
+    @property
+    def time(self) -> np.ndarray:
+        """(n,) [s]."""
+
+    @property
+    def tolerance(self) -> float:
+        """Of a difference over the larger peak [-]."""
+
+    @property
+    def quantities(self) -> Mapping[str, DrawnPair]:
+        """By name."""
+
+    @property
+    def energy(self) -> Mapping[str, DrawnPair]:
+        """By the terms of the ledger [J]."""
+
+    @property
+    def first(self) -> tuple[str, float] | None:
+        """The quantity that parts first and the time [s]; None where none does."""
+
+
 def parting_figure(
-    found, quantities: dict, symbols: dict, labels: tuple[str, str], path, formats=("png", "pdf")
+    found: DrawnParting,
+    quantities: Mapping[str, Quantity],
+    symbols: Mapping[str, str],
+    labels: tuple[str, str],
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
 ) -> list[Path]:
     """Write the figure.
 
@@ -54,10 +115,8 @@ def parting_figure(
 
     Parameters
     ----------
-    found
-        `results.parting.Parting`.
     quantities
-        render.quantity.Quantity by name, of "energy", too.
+        by name, of "energy", too.
     symbols
         of each, for mathtext.
     labels
@@ -92,7 +151,9 @@ def parting_figure(
         return save(figure, path, formats)
 
 
-def _panels(found, quantities, symbols) -> list:
+def _panels(
+    found: DrawnParting, quantities: Mapping[str, Quantity], symbols: Mapping[str, str]
+) -> list:
     """(label, (values of A, of B) in its unit, row of the parting) of each panel: both components
     of the top, unless one hardly moves.
     """
@@ -117,12 +178,12 @@ def _panels(found, quantities, symbols) -> list:
     return panels
 
 
-def _mark(axes, time, parted) -> None:
+def _mark(axes: Axes, time: np.ndarray, parted: int | None) -> None:
     if parted is not None:
         axes.axvline(time[parted], color=BLACK, linewidth=0.8, linestyle=":")
 
 
-def _differences(axes, found, symbols, every) -> None:
+def _differences(axes: Axes, found: DrawnParting, symbols: Mapping[str, str], every: int) -> None:
     for (name, pair), colour, dashes in zip(
         found.quantities.items(), (BLACK, GREEN, VERMILION), ("-", "-.", ":")
     ):
@@ -166,14 +227,15 @@ def _differences(axes, found, symbols, every) -> None:
     )
 
 
-def _positive(found) -> np.ndarray:
+def _positive(found: DrawnParting) -> np.ndarray:
     shares = np.concatenate(
-        [pair.difference / pair.peak for pair in found.quantities.values() if pair.peak] or [[1.0]]
+        [pair.difference / pair.peak for pair in found.quantities.values() if pair.peak]
+        or [np.ones(1)]
     )
     return shares[shares > 0] if (shares > 0).any() else np.ones(1)
 
 
-def _energies(axes, found, quantity) -> None:
+def _energies(axes: Axes, found: DrawnParting, quantity: Quantity) -> None:
     """Bars of the terms that are not nil, at the end of the common time."""
     ends = {
         name: max(abs(pair.a[-1, 0]), abs(pair.b[-1, 0])) for name, pair in found.energy.items()

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,18 +19,30 @@ from fecolumn.pictures.figures.style import (
     styled,
 )
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.collections import LineCollection
+
+    from fecolumn.pictures.figures.history_curves import EndingMark, HistoryCurves
+
+
 # A path smaller than this share of the foot gets a panel of its own
 _SMALL = 0.45
 
 
-def path_figure(history, ending, path, formats=("png", "pdf")) -> list[Path]:
+def path_figure(
+    history: HistoryCurves,
+    ending: EndingMark,
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
+) -> list[Path]:
     """Path of the top coloured by time, to one scale with the outline of the foot; a small path is
     drawn once more, enlarged.
 
     Parameters
     ----------
     history, ending
-        of `history_figures`.
+        of `history_curves`.
     path
         file name without suffix.
     formats
@@ -79,7 +93,7 @@ def path_figure(history, ending, path, formats=("png", "pdf")) -> list[Path]:
         return save(figure, path, formats)
 
 
-def _circle(axes, radius: float) -> None:
+def _circle(axes: Axes, radius: float) -> None:
     angle = np.linspace(0, 2 * np.pi, 181)
     axes.plot(
         radius * np.cos(angle),
@@ -92,7 +106,7 @@ def _circle(axes, radius: float) -> None:
     )
 
 
-def _path(axes, u, time, ending):
+def _path(axes: Axes, u: np.ndarray, time: np.ndarray, ending: EndingMark) -> LineCollection:
     from matplotlib.collections import LineCollection
 
     lines = LineCollection(

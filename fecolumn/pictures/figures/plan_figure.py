@@ -4,8 +4,9 @@ columns were lost.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,6 +23,12 @@ from fecolumn.pictures.figures.style import (
     styled,
 )
 from fecolumn.pictures.figures.thinning import thinned
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from fecolumn.pictures.figures.fan_figure import DrawnTrace
+
 
 _SECTORS = 12
 # times the reach of the paths: a foot or a critical displacement farther off would shrink them
@@ -46,13 +53,13 @@ class LostDirections(NamedTuple):
 
 
 def plan_figure(
-    traces: list,
+    traces: Sequence[DrawnTrace],
     lost: LostDirections,
-    foot,
-    critical_m,
+    foot: np.ndarray | None,
+    critical_m: float | None,
     limit_m: float,
-    path,
-    formats=("png", "pdf"),
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
     width_in: float = PAGE_WIDTH_IN,
 ) -> list[Path]:
     """Write the paths of the top, and beside them the rose of directions where any column was lost.
@@ -60,7 +67,7 @@ def plan_figure(
     Parameters
     ----------
     traces
-        `report.histories.Trace`s or what has their attributes, of one setting.
+        of one setting.
     lost
         where columns went that were lost.
     foot
@@ -96,7 +103,13 @@ def plan_figure(
         return save(figure, path, formats)
 
 
-def _paths(axes, traces, foot, critical_m, limit_m) -> tuple[float | None, list]:
+def _paths(
+    axes: Axes,
+    traces: Sequence[DrawnTrace],
+    foot: np.ndarray | None,
+    critical_m: float | None,
+    limit_m: float,
+) -> tuple[float | None, list]:
     """Draw them; the critical displacement [m] where it is drawn, and what else the legend
     names.
     """
@@ -147,13 +160,13 @@ def _paths(axes, traces, foot, critical_m, limit_m) -> tuple[float | None, list]
     return critical, more
 
 
-def _path(trace, limit_m: float) -> np.ndarray:
+def _path(trace: DrawnTrace, limit_m: float) -> np.ndarray:
     """(n, 2) [mm], up to where what was lost is a limit away."""
     stop = rows_within(trace, limit_m)
     return 1e3 * trace.u_top[thinned(trace.time[:stop], trace.u_top[:stop], (_FINE * limit_m,) * 2)]
 
 
-def _rose(axes, own, every, word: str) -> None:
+def _rose(axes: Axes, own: np.ndarray, every: np.ndarray, word: str) -> None:
     """Shares of sectors centred on x, so that what falls along an axis is in one."""
     from matplotlib.patheffects import withStroke
     from matplotlib.ticker import MaxNLocator

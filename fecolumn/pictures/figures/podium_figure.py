@@ -4,24 +4,32 @@ band of CRV.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.case.model_sections import CAV, CRV
 from fecolumn.pictures.figures.style import BLUE, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
 from fecolumn.statistics.bands import greenwood
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
 _NARROW_IN = 5.0  # below this width panels stand one below the other
 
 
 def podium_figure(
-    found,
+    found: Mapping[tuple[str, int, str], Mapping[str, np.ndarray]],
     name: str,
     label: str,
     limits: tuple[float, float],
-    path,
-    formats=("png", "pdf"),
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
     width_in: float = PAGE_WIDTH_IN,
-):
+) -> list[Path]:
     """One figure of a response.
 
     Parameters
@@ -68,7 +76,13 @@ def podium_figure(
         return save(figure, path, formats)
 
 
-def _panel(axes, crv, cav, name: str, limits) -> None:
+def _panel(
+    axes: Axes,
+    crv: Mapping[str, np.ndarray],
+    cav: Mapping[str, np.ndarray],
+    name: str,
+    limits: tuple[float, float],
+) -> None:
     stood = np.isfinite(crv["tilt"]) & np.isfinite(cav["tilt"])
     for law, one, colour, dashes in ((CRV, crv, BLUE, "-"), (CAV, cav, VERMILION, "--")):
         values = np.sort(one[name][stood] if name == "shear" else one[name])

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.colors import Normalize
+
 
 # Prefixes that readers of each unit know, from small to large
 _PREFIXES = {
@@ -60,7 +65,7 @@ class Quantity:
         largest = self.largest or 1e-30
         return (largest / 10.0**self.decades if self.decades else 0.0), largest
 
-    def norm(self):
+    def norm(self) -> Normalize:
         """The range in the unit as written, as matplotlib maps it to colours."""
         from matplotlib.colors import LogNorm, Normalize
 

@@ -8,6 +8,7 @@ import math
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.spectrum import larger_rocking_spectrum, tilt_quantile
@@ -28,7 +29,7 @@ _HALF_DIAGONALS = (0.05, 0.2, 1, 5)
 _TOP = 1.1
 
 
-def rocking_figure(ensemble: Ensemble, slenderness: float, path) -> list[Path]:
+def rocking_figure(ensemble: Ensemble, slenderness: float, path: Path | str) -> list[Path]:
     """Peak tilts of all motions with median and 16-84 % band, and the share of motions that
     overturn; PNG and PDF.
 
@@ -95,14 +96,14 @@ def rocking_figure(ensemble: Ensemble, slenderness: float, path) -> list[Path]:
     return save(figure, path)
 
 
-def _ended(peaks):
+def _ended(peaks: np.ndarray) -> np.ndarray:
     return np.where(np.isinf(peaks), np.nan, peaks)
 
 
-def _half_diagonal(period):
+def _half_diagonal(period: ArrayLike) -> np.ndarray:
     """R [m] of a rectangular block with p^2 = 3 g/(4 R)."""
     return 3 * GRAVITY / 4 * (np.asarray(period) / (2 * math.pi)) ** 2
 
 
-def _period(half_diagonal):
+def _period(half_diagonal: np.ndarray) -> np.ndarray:
     return 2 * math.pi * np.sqrt(4 * np.maximum(half_diagonal, 0) / (3 * GRAVITY))

@@ -4,7 +4,9 @@ glance.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.patches import Polygon, Rectangle
@@ -22,15 +24,21 @@ from fecolumn.pictures.figures.style import (
     styled,
 )
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from fecolumn.motions.record import GroundMotion
+
+
 _FILL, _WALL, _BASE = "#E4E9ED", "#8FA3B3", "#CFD1CC"
 
 
 def specimen_figure(
     outline: Outline | None,
     tilt_rad: float | None,
-    motion,
-    path,
-    formats=("png", "pdf"),
+    motion: GroundMotion | None,
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
     width_in: float = PAGE_WIDTH_IN,
 ) -> list[Path]:
     """Write the figure: the specimen to scale, dashed at its critical tilt, the plan of its foot,
@@ -67,7 +75,7 @@ def specimen_figure(
         return save(figure, path, formats)
 
 
-def _specimen(axes, outline: Outline, tilt_rad: float | None) -> None:
+def _specimen(axes: Axes, outline: Outline, tilt_rad: float | None) -> None:
     top, half = outline.parts[-1].top_m, np.abs(outline.foot[:, 0]).max()
     for part in outline.parts:
         base = part is outline.parts[0]
@@ -172,7 +180,7 @@ def _specimen(axes, outline: Outline, tilt_rad: float | None) -> None:
     axes.set_axis_off()
 
 
-def _motion(axes, motion) -> None:
+def _motion(axes: Axes, motion: GroundMotion) -> None:
     time = np.arange(len(motion.acceleration)) * motion.dt
     for component, label, colour in zip(
         motion.acceleration.T, ("$a_x$", "$a_y$", "$a_z$"), (BLUE, VERMILION, GREY)

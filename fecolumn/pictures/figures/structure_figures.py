@@ -4,7 +4,9 @@ storeys, tension and elongation of its links, stress and failure of its glued jo
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,6 +21,10 @@ from fecolumn.pictures.figures.style import (
     styled,
 )
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
 # Quantities of an interface: column of the history, words, symbol, SI unit
 _OF_INTERFACE = (
     ("tilt", "tilt", r"$\theta$", "rad"),
@@ -32,7 +38,7 @@ _ABREAST, _APART = 3, len(LINES)
 
 
 def structure_figures(
-    columns: dict[str, np.ndarray], folder: Path, formats=("png", "pdf")
+    columns: dict[str, np.ndarray], folder: Path, formats: Sequence[str] = ("png", "pdf")
 ) -> list[Path]:
     """Write interfaces.png, more of them where there are more interfaces than go side by side,
     storeys.png of a structure with storeys and likewise links.png of one with links and bonds.png
@@ -66,7 +72,7 @@ def _numbered(stem: str, count: int) -> list[str]:
     ]
 
 
-def figure_names(columns) -> list[str]:
+def figure_names(columns: Iterable[str]) -> list[str]:
     """Names of the files of `structure_figures` without their suffix, from the names of a history's
     columns.
     """
@@ -78,7 +84,7 @@ def figure_names(columns) -> list[str]:
     )
 
 
-def interface_names(columns) -> list[str]:
+def interface_names(columns: Iterable[str]) -> list[str]:
     """Interfaces of which a history has columns, in their order."""
     return list(
         dict.fromkeys(
@@ -89,7 +95,7 @@ def interface_names(columns) -> list[str]:
     )
 
 
-def link_names(columns) -> list[str]:
+def link_names(columns: Iterable[str]) -> list[str]:
     """Links of which a history has columns, in their order; copies such as "tendon 1" and "tendon
     2" go by one name.
     """
@@ -98,7 +104,7 @@ def link_names(columns) -> list[str]:
     )
 
 
-def bond_names(columns) -> list[str]:
+def bond_names(columns: Iterable[str]) -> list[str]:
     """Glued joints of which a history has columns, in their order."""
     return list(dict.fromkeys(name.split("/")[1] for name in columns if name.startswith("bond/")))
 
@@ -109,7 +115,7 @@ def _copied(name: str) -> str:
     return first if number.isdigit() and first else name
 
 
-def storey_names(columns) -> list[str]:
+def storey_names(columns: Iterable[str]) -> list[str]:
     """Storeys such as "building 1" of which a history has columns, from below."""
     found = [
         name.split("/")[1]
@@ -126,7 +132,11 @@ def _in_unit(values: list[np.ndarray], unit: str) -> tuple[list[np.ndarray], str
 
 
 def _drawn(
-    axes, places: list[np.ndarray], values: list[np.ndarray], names: list[str], kind: str = "joints"
+    axes: Axes,
+    places: list[np.ndarray],
+    values: list[np.ndarray],
+    names: list[str],
+    kind: str = "joints",
 ) -> None:
     """Lines told apart by colour and dash; where there are too many all are grey and the one with
     the largest peak is drawn on them.
@@ -142,7 +152,12 @@ def _drawn(
     axes.plot(places[peak], values[peak], color=LINES[0][0], linewidth=0.9, label=names[peak])
 
 
-def interface_figure(columns, path, interfaces: list[str], formats=("png", "pdf")) -> list[Path]:
+def interface_figure(
+    columns: Mapping[str, np.ndarray],
+    path: Path | str,
+    interfaces: list[str],
+    formats: Sequence[str] = ("png", "pdf"),
+) -> list[Path]:
     """Tilt of the slave from the master, rise of the middle of its foot, slide and normal force at
     the joints of some interfaces; a column of panels each.
 
@@ -196,7 +211,9 @@ def interface_figure(columns, path, interfaces: list[str], formats=("png", "pdf"
         return save(figure, path, formats)
 
 
-def storey_figure(columns, path, formats=("png", "pdf")) -> list[Path]:
+def storey_figure(
+    columns: Mapping[str, np.ndarray], path: Path | str, formats: Sequence[str] = ("png", "pdf")
+) -> list[Path]:
     """Drift and shear of each storey over time, along the axes along which any storey moves; beside
     them the largest ones over the storeys' numbers.
 
@@ -267,7 +284,12 @@ def storey_figure(columns, path, formats=("png", "pdf")) -> list[Path]:
         return save(figure, path, formats)
 
 
-def link_figure(columns, path, links: list[str], formats=("png", "pdf")) -> list[Path]:
+def link_figure(
+    columns: Mapping[str, np.ndarray],
+    path: Path | str,
+    links: list[str],
+    formats: Sequence[str] = ("png", "pdf"),
+) -> list[Path]:
     """Tension of some links over time, and beside it over their elongation until they break, there
     a cross: the area of a loop is the energy taken, which is told. A row for each, a line for each
     copy.
@@ -308,7 +330,9 @@ def link_figure(columns, path, links: list[str], formats=("png", "pdf")) -> list
             ]
             if broke:
                 loops.scatter(*zip(*broke), marker="x", s=30, color=GREY, zorder=3)
-            taken, energy = _in_unit([sum(columns[f"link/{name}/work"] for name in copies)], "J")
+            taken, energy = _in_unit(
+                [np.sum([columns[f"link/{name}/work"] for name in copies], axis=0)], "J"
+            )
             energy_taken = f"; {taken[0][-1]:.3g} {energy} taken" if taken[0][-1] else ""
             over_time.set(xlim=(time[0], time[-1]), ylabel=f"{link}\ntension $T$ [{force}]")
             over_time.tick_params(labelbottom=over_time is grid[-1, 0])
@@ -321,7 +345,12 @@ def link_figure(columns, path, links: list[str], formats=("png", "pdf")) -> list
         return save(figure, path, formats)
 
 
-def bond_figure(columns, path, joints: list[str], formats=("png", "pdf")) -> list[Path]:
+def bond_figure(
+    columns: Mapping[str, np.ndarray],
+    path: Path | str,
+    joints: list[str],
+    formats: Sequence[str] = ("png", "pdf"),
+) -> list[Path]:
     """Largest tension and shear of some glued joints over time, and below them the share of the
     area that has failed, a column of two for each.
 

@@ -6,12 +6,16 @@ from __future__ import annotations
 
 import contextlib
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextvars import ContextVar
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import matplotlib
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 
 # a newer matplotlib in a venv over Debian's finds Debian's 3D toolkit; it is not used here
 with warnings.catch_warnings():
@@ -108,7 +112,7 @@ def figures_saved() -> Iterator[list[SavedFigure]]:
         _SAVED.reset(token)
 
 
-def save(figure: Figure, path, formats=("png", "pdf")) -> list[Path]:
+def save(figure: Figure, path: Path | str, formats: Sequence[str] = ("png", "pdf")) -> list[Path]:
     """Write PNG (200 dpi) and PDF, or what `formats` says, beside each other; the same data gives
     the same bytes.
     """
@@ -130,6 +134,6 @@ def save(figure: Figure, path, formats=("png", "pdf")) -> list[Path]:
     return files
 
 
-def legend_beside(axes) -> None:
+def legend_beside(axes: Axes) -> None:
     """Legend to the right of the axes, where it hides nothing."""
     axes.legend(loc="upper left", bbox_to_anchor=(1.005, 1.0), borderaxespad=0, framealpha=0)

@@ -5,11 +5,12 @@ would miss it.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.foundation._compiled import njit
 
 
-def thinned(time, values, tolerance) -> np.ndarray:
+def thinned(time: np.ndarray, values: np.ndarray, tolerance: ArrayLike) -> np.ndarray:
     """Rows of a history that suffice to draw it; straight lines between them miss no row by more
     than the tolerance.
 
@@ -28,7 +29,7 @@ def thinned(time, values, tolerance) -> np.ndarray:
 
 
 @njit(alone=True)
-def _kept(time, values):
+def _kept(time: np.ndarray, values: np.ndarray) -> np.ndarray:
     """Whether each row is kept; `values` in tolerances.
 
     From the row kept last, lines through all rows since, each missed by 1 at most, have slopes in

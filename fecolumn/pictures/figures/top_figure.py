@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,11 +20,22 @@ from fecolumn.pictures.figures.style import (
     styled,
 )
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from fecolumn.pictures.figures.history_curves import EndingMark, HistoryCurves
+
+
 # An axis reaches up to the critical displacement where the peak is above this share of it
 _NEAR = 0.4
 
 
-def top_figure(history, ending, path, formats=("png", "pdf")) -> list[Path]:
+def top_figure(
+    history: HistoryCurves,
+    ending: EndingMark,
+    path: Path | str,
+    formats: Sequence[str] = ("png", "pdf"),
+) -> list[Path]:
     """Ground acceleration (where there is one), both components of the top's displacement, and its
     magnitude with its peak.
 
@@ -32,7 +45,7 @@ def top_figure(history, ending, path, formats=("png", "pdf")) -> list[Path]:
     Parameters
     ----------
     history, ending
-        of `history_figures`.
+        of `history_curves`.
     path
         file name without suffix.
     formats
@@ -63,7 +76,7 @@ def top_figure(history, ending, path, formats=("png", "pdf")) -> list[Path]:
         return save(figure, path, formats)
 
 
-def ground_panel(axes, time: np.ndarray, ground: np.ndarray) -> None:
+def ground_panel(axes: Axes, time: np.ndarray, ground: np.ndarray) -> None:
     """Draw the components of a ground acceleration (n, 3) [m/s2] that are not 0 over time [s]."""
     for component, label, colour in zip(
         ground.T, ("$a_x$", "$a_y$", "$a_z$"), (BLUE, VERMILION, GREY)
@@ -73,7 +86,9 @@ def ground_panel(axes, time: np.ndarray, ground: np.ndarray) -> None:
     axes.set_ylabel("ground\n[m/s$^2$]")
 
 
-def _magnitude(axes, history, ending, magnitude) -> None:
+def _magnitude(
+    axes: Axes, history: HistoryCurves, ending: EndingMark, magnitude: np.ndarray
+) -> None:
     peak = int(np.argmax(magnitude))
     axes.plot(history.time, magnitude, color=BLACK, label=r"$|u| = \sqrt{u_x^2 + u_y^2}$")
     word = f"{ending.words}, stopped at" if ending.lost else r"$u_{\max}$ ="

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from fecolumn.pictures.render.result import Result
+
 
 #: Azimuth of the viewer from x to y, and elevation [deg]; None: across the largest lean
 VIEWS = {
@@ -36,7 +41,9 @@ class Camera:
     natural: float
 
 
-def camera(result, view: str, times: np.ndarray, aspect: float = 1.0, below: float = 0.0) -> Camera:
+def camera(
+    result: Result, view: str, times: np.ndarray, aspect: float = 1.0, below: float = 0.0
+) -> Camera:
     """The camera of a view that shows the column, or the structure, at all `times` [s], on pictures
     `aspect` times as wide as high.
 
@@ -81,7 +88,7 @@ def camera(result, view: str, times: np.ndarray, aspect: float = 1.0, below: flo
     )
 
 
-def _across_lean(result, times: np.ndarray) -> float:
+def _across_lean(result: Result, times: np.ndarray) -> float:
     """Azimuth [deg] from which the largest lean, or where it never leans the longest way, is seen
     at full length; from -x to x or from the front.
     """

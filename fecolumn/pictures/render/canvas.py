@@ -14,6 +14,10 @@ from fecolumn.pictures.render.overlay import Overlay, alike
 from fecolumn.pictures.render.sharp_edges import sharp_edges
 
 if TYPE_CHECKING:
+    import pyvista
+
+    from fecolumn.engines.scene.scene import Outside
+    from fecolumn.pictures.render.frame import Thrust
     from fecolumn.pictures.render.frames import Frames
 
 #: Colour maps from light to dark, which all eyes tell apart and print in grey keeps (Brewer,
@@ -52,7 +56,9 @@ class Canvas:
         each pixel; and draw nothing anew that nobody sees move.
     """
 
-    def __init__(self, frames: Frames, camera: Camera, size: tuple[int, int], quick: bool = False):
+    def __init__(
+        self, frames: Frames, camera: Camera, size: tuple[int, int], quick: bool = False
+    ) -> None:
         pixels = [round(_FINER * side) for side in size] if quick else list(size)
         self._plotter = off_screen_plotter(pixels)
         import pyvista
@@ -111,7 +117,7 @@ class Canvas:
         """Points (..., 3) [m] a little before the face that they lie on."""
         return points + self._camera.toward * _LIFT * 2 * self._camera.half_height
 
-    def _add_lines(self, ends, color, width):
+    def _add_lines(self, ends: np.ndarray, color: str, width: float) -> pyvista.PolyData:
         """Straight lines with ends (n, 2, 3) [m]."""
         import pyvista
 
@@ -124,7 +130,7 @@ class Canvas:
         )
         return mesh
 
-    def _add(self, surface, frame: Frame, colour):
+    def _add(self, surface: Outside, frame: Frame, colour: np.ndarray) -> pyvista.PolyData:
         """A surface coloured by values of its faces or of its points."""
         mesh = _mesh_of(surface, frame)
         quantity = self._frames.colour_quantity
@@ -158,7 +164,7 @@ class Canvas:
             diffuse=0.5,
         )
 
-    def _add_base(self, first: Frame):
+    def _add_base(self, first: Frame) -> pyvista.PolyData | None:
         import pyvista
 
         look = dict(color=_BASE, **self._bricks())
@@ -215,7 +221,9 @@ class Canvas:
         self._last = (frame.points, frame.colour, frame.thrust), image
         return image
 
-    def _looks_like(self, points: np.ndarray, colour: np.ndarray, thrust, frame: Frame) -> bool:
+    def _looks_like(
+        self, points: np.ndarray, colour: np.ndarray, thrust: Thrust | None, frame: Frame
+    ) -> bool:
         """Whether a frame differs from what was drawn by less than is seen."""
         if self._frames.from_fields:
             return False
@@ -232,13 +240,13 @@ class Canvas:
             )
         )
 
-    def _coloured(self, mesh):
+    def _coloured(self, mesh: pyvista.PolyData) -> pyvista.DataSetAttributes:
         """Where a surface keeps its colour: stress belongs to faces, displacement to points; a tube
         has as many of the ones as of the others.
         """
         return mesh.cell_data if self._frames.colour == "stress" else mesh.point_data
 
-    def _move(self, mesh, points, colour) -> None:
+    def _move(self, mesh: pyvista.PolyData, points: np.ndarray, colour: np.ndarray | None) -> None:
         mesh.points = np.asarray(points, np.float32)
         if colour is not None and self._frames.coloured:
             self._coloured(mesh)["colour"] = np.asarray(colour, np.float32)
@@ -250,11 +258,11 @@ class Canvas:
     def __enter__(self) -> Canvas:
         return self
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
 
-def _mesh_of(surface, frame: Frame):
+def _mesh_of(surface: Outside, frame: Frame) -> pyvista.PolyData:
     import pyvista
 
     return pyvista.PolyData.from_regular_faces(

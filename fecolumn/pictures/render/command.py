@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import sys
+from argparse import ArgumentParser, Namespace
 
 VIEW_NAMES = ("lean", "front", "side", "iso", "foot", "plan")
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: ArgumentParser) -> None:
     """Arguments of `fecolumn render`."""
     parser.add_argument(
         "folder", metavar="DIR", help="result folder of fecolumn run; pictures go to DIR/render"
@@ -110,7 +111,7 @@ def add_arguments(parser) -> None:
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress line")
 
 
-def main(args) -> int:
+def main(args: Namespace) -> int:
     """Draw; 0 when all is written, 130 after Ctrl-C, which leaves what was there before.
 
     Raises

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,6 +15,13 @@ from fecolumn.pictures.render.render_options import RenderOptions, check_option
 from fecolumn.pictures.render.result import read_result
 from fecolumn.pictures.render.thrust import arrow_length
 
+if TYPE_CHECKING:
+    from fecolumn.pictures.render.camera import Camera
+    from fecolumn.pictures.render.canvas import Canvas
+    from fecolumn.pictures.render.frames import Frames
+    from fecolumn.pictures.render.result import Result
+
+
 # A picture's resolution, that of post.style, twice as fine for what VTK draws
 _DPI = 400
 # Frames that are looked at for the range of colours, and for the exaggeration "auto"
@@ -23,7 +31,7 @@ _MOST_PICTURES = 100_000
 _ALL = RenderOptions()
 
 
-def render(folder, options: RenderOptions = _ALL, quiet: bool = False) -> list[Path]:
+def render(folder: Path | str, options: RenderOptions = _ALL, quiet: bool = False) -> list[Path]:
     """Write what the options ask for into `folder`/render; returns the files.
 
     Raises
@@ -51,7 +59,7 @@ def render(folder, options: RenderOptions = _ALL, quiet: bool = False) -> list[P
     return files
 
 
-def _page(result, options: RenderOptions, target: Path) -> Path:
+def _page(result: Result, options: RenderOptions, target: Path) -> Path:
     from fecolumn.pictures.render.page.document import PAGE_FILE, page_of
 
     page = page_of(result, _window(result, options), options.view, options.speed)
@@ -60,7 +68,7 @@ def _page(result, options: RenderOptions, target: Path) -> Path:
     return target / PAGE_FILE
 
 
-def _window(result, options: RenderOptions) -> tuple[float, float]:
+def _window(result: Result, options: RenderOptions) -> tuple[float, float]:
     time = result.time
     first, last = float(time[0]), float(time[-1])
     start, end = (
@@ -83,8 +91,13 @@ def _window(result, options: RenderOptions) -> tuple[float, float]:
 
 
 def _frames(
-    result, options: RenderOptions, start: float, end: float, times: np.ndarray, interval: float
-):
+    result: Result,
+    options: RenderOptions,
+    start: float,
+    end: float,
+    times: np.ndarray,
+    interval: float,
+) -> Frames:
     """Frames at `times` that range over the same colours, whichever they are of those from start to
     end [s].
     """
@@ -97,12 +110,16 @@ def _frames(
     return Frames(result, times, interval, options.exaggerate, options.color, whole, options.forces)
 
 
-def _camera(result, options: RenderOptions, times: np.ndarray, aspect: float = 1.0):
+def _camera(
+    result: Result, options: RenderOptions, times: np.ndarray, aspect: float = 1.0
+) -> Camera:
     below = arrow_length(result.scene) if options.forces else 0.0
     return camera(result, options.view, times, aspect, below)
 
 
-def _pictures(result, options: RenderOptions, start: float, end: float, target: Path) -> list[Path]:
+def _pictures(
+    result: Result, options: RenderOptions, start: float, end: float, target: Path
+) -> list[Path]:
     """Stills, and the sequence figure of them."""
     from fecolumn.pictures.render.canvas import Canvas
     from fecolumn.pictures.render.sequence import beside, picture_size, sequence_figure
@@ -118,7 +135,7 @@ def _pictures(result, options: RenderOptions, start: float, end: float, target: 
     frames = _frames(result, options, start, end, instants, interval)
     drawn = list(frames)
 
-    def scene(size):
+    def scene(size: tuple[int, int]) -> Canvas:
         return Canvas(frames, _camera(result, options, frames.times, size[0] / size[1]), size)
 
     with written(target, "render pictures", names=("sequence.png", "sequence.pdf")) as draft:
@@ -149,7 +166,7 @@ def _pictures(result, options: RenderOptions, start: float, end: float, target: 
 
 
 def _movie(
-    result, options: RenderOptions, start: float, end: float, target: Path, quiet: bool
+    result: Result, options: RenderOptions, start: float, end: float, target: Path, quiet: bool
 ) -> list[Path]:
     from fecolumn.pictures.render.canvas import Canvas
     from fecolumn.pictures.render.movie import GIF_RATE, Gif, Movie
@@ -175,7 +192,7 @@ def _movie(
         with Canvas(frames, view, size, quick=True) as scene:
             panel.place_legend(scene.legend)
 
-            def picture(k):
+            def picture(k: int) -> np.ndarray:
                 frame = frames.frame(k)
                 return panel.picture(frame, scene.image(frame))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +17,7 @@ from fecolumn.pictures.render.pose import nearest_rigid
 from fecolumn.pictures.render.thrust import JointForces
 
 if TYPE_CHECKING:
+    from fecolumn.engines.scene.scene import Outside, Scene
     from fecolumn.pictures.render.result import Result
 
 _COLOURS = ("stress", "displacement", "none")
@@ -65,7 +67,7 @@ class Frames:
         colour: str = "",
         like: Frames | None = None,
         forces: bool = False,
-    ):
+    ) -> None:
         """Frames at `times` (k,) [s], each for `interval` [s]; exaggerate: elastic displacements by
         this factor, or "auto"; colour: of _COLOURS, "" for what there is; like: others whose
         exaggeration, forces and ranges of colours these have; forces: of the joints are drawn.
@@ -163,7 +165,7 @@ class Frames:
     def __len__(self) -> int:
         return len(self.times)
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[Frame]:
         return (self.frame(k) for k in range(len(self)))
 
     def frame(self, k: int) -> Frame:
@@ -265,7 +267,7 @@ class Frames:
     def _links(self, k: int) -> np.ndarray:
         """Ends (n, 2, 3) [m] of the links at frame `k`."""
 
-        def at(body, arm):
+        def at(body: int, arm: np.ndarray) -> np.ndarray:
             poses = self._poses[body]
             return arm if body == GROUND else poses.foot[k] + poses.rotation[k] @ arm
 
@@ -327,7 +329,7 @@ class Frames:
         return times, self._pressure_centres(times)
 
 
-def _of_faces(scene, surface, stress: np.ndarray) -> np.ndarray:
+def _of_faces(scene: Scene, surface: Outside, stress: np.ndarray) -> np.ndarray:
     """Stress (n_faces,) [Pa] of the faces of a surface, nan of pieces that have none."""
     stressed = np.array([piece.stressed for piece in scene.pieces])
     return np.where(stressed[surface.part], stress[surface.cells], np.nan)

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from fecolumn.pictures.render.result import Result
+
 
 #: How many are chosen where none are given
 CHOSEN = 5
@@ -13,7 +19,7 @@ _APART, _PEAK = 1 / 25, 0.15
 _BEGUN = 0.01
 
 
-def chosen_instants(result, start: float, end: float) -> np.ndarray:
+def chosen_instants(result: Result, start: float, end: float) -> np.ndarray:
     """The peaks of the top's displacement between two times [s], the largest first to be taken, and
     the end where the column was lost; in order of time.
 

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.scene.scene import JointFace
 from fecolumn.pictures.render.pose import Poses
 
+if TYPE_CHECKING:
+    from fecolumn.engines.scene.scene import Scene
+
 
 def moved_from_master(
-    contact: JointFace, places: np.ndarray, rest: np.ndarray, poses: tuple[Poses, ...], k
+    contact: JointFace,
+    places: np.ndarray,
+    rest: np.ndarray,
+    poses: tuple[Poses, ...],
+    k: int | slice | np.ndarray,
 ) -> np.ndarray:
     """Displacement (..., n, 3) [m] relative to the master of points of the slave that are at
     `places` (..., n, 3) [m] and were at `rest` (n, 3) [m].
@@ -33,7 +42,9 @@ def gaps(contact: JointFace, moved: np.ndarray, rest: np.ndarray) -> np.ndarray:
     return (contact.origin - rest - moved) @ contact.axes[:, 2]
 
 
-def motion(scene, contact: JointFace, poses: tuple[Poses, ...]) -> tuple[np.ndarray, np.ndarray]:
+def motion(
+    scene: Scene, contact: JointFace, poses: tuple[Poses, ...]
+) -> tuple[np.ndarray, np.ndarray]:
     """Uplift (n,) [m] of the point of the edge that is lifted most, and slide (n, 2) [m] of the
     face's middle, at n poses.
     """

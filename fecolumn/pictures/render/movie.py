@@ -34,7 +34,7 @@ class Movie:
         the disk is full, or the file cannot be written.
     """
 
-    def __init__(self, file: Path, size: tuple[int, int], fps: float):
+    def __init__(self, file: Path, size: tuple[int, int], fps: float) -> None:
         import av
 
         self.file, self._av = file, av
@@ -57,7 +57,7 @@ class Movie:
     def __enter__(self) -> Movie:
         return self
 
-    def __exit__(self, kind, *_) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         try:
             if kind is None:
                 for packet in self._stream.encode():
@@ -79,7 +79,9 @@ class Gif:
         pictures that have the colours of all.
     """
 
-    def __init__(self, file: Path, size: tuple[int, int], fps: float, samples: list[np.ndarray]):
+    def __init__(
+        self, file: Path, size: tuple[int, int], fps: float, samples: list[np.ndarray]
+    ) -> None:
         import av
 
         self.file, self._av = file, av
@@ -98,7 +100,7 @@ class Gif:
         self._stream.pix_fmt = "pal8"
 
     @staticmethod
-    def _image(picture: np.ndarray, size: tuple[int, int]):
+    def _image(picture: np.ndarray, size: tuple[int, int]) -> Image.Image:
         from PIL import Image
 
         return Image.fromarray(picture).resize(size, Image.Resampling.BOX)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +14,9 @@ from fecolumn.pictures.render.frame import Thrust
 from fecolumn.pictures.render.thrust import scene_size
 
 if TYPE_CHECKING:
+    import pyvista
+    from matplotlib.axes import Axes
+
     from fecolumn.pictures.render.frames import Frames
 
 #: Colour of the thrust line by what colours the bodies, and of arrows
@@ -29,7 +33,9 @@ _LEGEND_IN, _DIGITS = 0.5, (1, 2, 5)
 class Overlay:
     """The parts of a `Thrust`, flat towards the viewer and before all bodies."""
 
-    def __init__(self, plotter, frames: Frames, camera: Camera, first: Thrust):
+    def __init__(
+        self, plotter: pyvista.Plotter, frames: Frames, camera: Camera, first: Thrust
+    ) -> None:
         import pyvista
 
         self._camera, self._nearer, self._meshes = camera, 2 * frames.result.height, []
@@ -45,7 +51,7 @@ class Overlay:
         for mesh, (_, points) in zip(self._meshes, self._parts(thrust)):
             mesh.points = points.reshape(-1, 3)
 
-    def _parts(self, thrust: Thrust):
+    def _parts(self, thrust: Thrust) -> Iterator[tuple[str, np.ndarray]]:
         """Colour and polygons (n, k, 3) [m] of each part, the last before all."""
         size, half = self._size, thrust.lines.reshape(-1, 2, 3)
         tips = thrust.centers
@@ -125,7 +131,7 @@ def legend_force(newton_per_inch: float, largest: float) -> float:
     return max(digit * power for digit in _DIGITS if digit * power <= most)
 
 
-def draw_legend(axes, frames: Frames, newton_per_inch: float) -> None:
+def draw_legend(axes: Axes, frames: Frames, newton_per_inch: float) -> None:
     """What arrows, line and circles are, along axes that this fills; their unit becomes an inch."""
     width, height = axes.get_figure().get_size_inches() * axes.get_position().size
     axes.set(xlim=(0, width), ylim=(-height / 2, height / 2))

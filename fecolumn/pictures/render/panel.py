@@ -28,6 +28,9 @@ from fecolumn.pictures.render.plans import Plans, square
 from fecolumn.pictures.render.strips import strips_of
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
     from fecolumn.pictures.render.frames import Frames
 
 # Places of the parts in the picture, as shares of its width and height: left, bottom, width, height
@@ -58,7 +61,7 @@ class Panel:
         seconds of motion in a second of the movie.
     """
 
-    def __init__(self, frames: Frames, size: tuple[int, int], speed: float = 1.0):
+    def __init__(self, frames: Frames, size: tuple[int, int], speed: float = 1.0) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
         self.frames, self.size = frames, size
@@ -106,7 +109,7 @@ class Panel:
             draw_legend(axes, self.frames, legend / (height * _HEIGHT_IN))
             self._draw_still()
 
-    def _place_strips(self, figure) -> None:
+    def _place_strips(self, figure: Figure) -> None:
         from matplotlib.patches import Rectangle
 
         strips = strips_of(self.frames.result, self.frames.times)
@@ -135,7 +138,7 @@ class Panel:
             self._cursors.append((axes, veil, cursor))
         self._end = strips[0].time[-1]
 
-    def _place_top(self, figure) -> None:
+    def _place_top(self, figure: Figure) -> None:
         """Plan view of the way of the top."""
         axes, top = figure.add_axes(_TOP), self.frames.result.u_top[:, :2]
         quantity = Quantity.of("", "m", np.abs(top).max())
@@ -149,7 +152,7 @@ class Panel:
         (self._top,) = axes.plot([], [], "o", color=VERMILION, markersize=4, animated=True)
         self._moving += [(axes, self._trace), (axes, self._top)]
 
-    def _place_words(self, figure, speed: float) -> None:
+    def _place_words(self, figure: Figure, speed: float) -> None:
         from matplotlib.cm import ScalarMappable
 
         frames = self.frames
@@ -203,7 +206,7 @@ class Panel:
         return 2 if len(times) < 2 or times[1] - times[0] > 9e-3 else 3
 
 
-def draw_strip(axes, strip: Strip, last: bool) -> None:
+def draw_strip(axes: Axes, strip: Strip, last: bool) -> None:
     """Lines of a strip over time, with their names above it; the axis of time has its label below
     the last one.
     """

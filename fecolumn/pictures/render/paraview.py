@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,12 +14,16 @@ from fecolumn.pictures.render.camera import camera
 from fecolumn.pictures.render.field_frames import FieldFrames
 from fecolumn.pictures.render.state_frames import write_fields
 
+if TYPE_CHECKING:
+    from fecolumn.pictures.render.result import Result
+
+
 #: Name of the script
 PARAVIEW_FILE = "view.py"
 _TEMPLATE = Path(__file__).with_name("view.txt")
 
 
-def write_view(result, folder: Path, view: str = "lean", quiet: bool = True) -> None:
+def write_view(result: Result, folder: Path, view: str = "lean", quiet: bool = True) -> None:
     """Write view.py into a folder, and where the analysis wrote no fields, those made from its
     states into fields/ beside it.
 

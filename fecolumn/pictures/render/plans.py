@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +12,10 @@ from fecolumn.pictures.figures.style import BLACK, BLUE
 from fecolumn.pictures.render.frame import Frame
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from fecolumn.engines.scene.scene import JointFace
     from fecolumn.pictures.render.frames import Frames
 
 #: Places in the picture, as shares of its width and height: left, bottom, width, height; and of the
@@ -38,7 +43,7 @@ class Plans:
         (axes, artist) that are drawn anew for each frame.
     """
 
-    def __init__(self, frames: Frames, figure):
+    def __init__(self, frames: Frames, figure: Figure) -> None:
         from matplotlib.collections import PolyCollection
 
         self._frames, self._contacts = frames, frames.scene.contacts
@@ -105,7 +110,7 @@ class Plans:
         leans = {k: 1 - poses[self._contacts[k].piece].rotation[:, 2, 2].min() for k in shown}
         return sorted(sorted(shown, key=lambda k: (-leans[k], k))[:_MOST])
 
-    def _alone_axes(self, figure):
+    def _alone_axes(self, figure: Figure) -> Axes:
         axes, frames = figure.add_axes(PLAN), self._frames
         points = frames.scene.points[self._contacts[0].points]
         poses = frames.result.poses[0].at(frames.times)
@@ -118,7 +123,7 @@ class Plans:
         axes.set_title("foot in plan", loc="left")
         return axes
 
-    def _many_axes(self, figure):
+    def _many_axes(self, figure: Figure) -> Axes:
         left, bottom, width, height = PLAN
         bottom, height = bottom - 0.045, height + 0.055
         size = width * figure.get_figwidth(), height * figure.get_figheight()
@@ -127,7 +132,7 @@ class Plans:
         self._find_places(axes, size, _TITLE * figure.get_figheight())
         return axes
 
-    def _find_places(self, axes, size, title: float) -> None:
+    def _find_places(self, axes: Axes, size: tuple[float, float], title: float) -> None:
         """Middle of each joint's face in its plan [m], middle of its place [in], and scale [in/m];
         and write the titles.
         """
@@ -152,7 +157,7 @@ class Plans:
         """Points of the scene in the plan of contact k [m]."""
         return self._contacts[k].plan(self._frames.scene.points[points])
 
-    def _add_outlines(self, axes) -> None:
+    def _add_outlines(self, axes: Axes) -> None:
         from matplotlib.collections import LineCollection
 
         ends = [self._drawn(k, self._at_rest(k, self._contacts[k].outline)) for k in self._kept]
@@ -184,7 +189,7 @@ class Plans:
         self._centre.set_data(*np.array([self._drawn(k, frame.centres[k]) for k in self._kept]).T)
 
 
-def square(axes, points: np.ndarray, wider: float) -> None:
+def square(axes: Axes, points: np.ndarray, wider: float) -> None:
     """Equal scales, and a square that holds points (n, 2) with some room."""
     low, high = points.min(axis=0), points.max(axis=0)
     half = wider / 2 * max(float((high - low).max()), 1e-9)
@@ -192,7 +197,9 @@ def square(axes, points: np.ndarray, wider: float) -> None:
     axes.set(xlim=(x - half, x + half), ylim=(y - half, y + half), aspect="equal")
 
 
-def _rows(contacts, kept: list[int], abreast: int):
+def _rows(
+    contacts: Sequence[JointFace], kept: list[int], abreast: int
+) -> Iterator[tuple[str, list[int]]]:
     """(title, numbers of contacts) of each row: joints of one interface, `abreast` at most; the
     title names the interface and its slaves.
     """

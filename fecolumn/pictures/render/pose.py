@@ -39,7 +39,7 @@ class Poses:
     foot: np.ndarray
     origin: np.ndarray
 
-    def move(self, points: np.ndarray, k) -> np.ndarray:
+    def move(self, points: np.ndarray, k: int | slice | np.ndarray) -> np.ndarray:
         """Positions (..., n_points, 3) [m] of points (n_points, 3) of the reference configuration
         at pose `k`, a number or several.
         """

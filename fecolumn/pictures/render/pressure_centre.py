@@ -45,7 +45,7 @@ def pressure_centre(
     end = np.clip(np.searchsorted(time, times + interval / 2), 1, last - 1)
     shaken = cumulative_trapezoid(ground, time, axis=0, initial=0.0)
 
-    def momentum(k):
+    def momentum(k: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Of rows k: momentum per mass (., 3) and angular momentum (., 3), from the rows before and
         after.
         """

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from argparse import Namespace
 from dataclasses import dataclass
 
 from fecolumn.foundation.schema import InputError
@@ -64,7 +65,7 @@ class RenderOptions:
     forces: bool = False
     html: bool = False
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not self.view:
             object.__setattr__(self, "view", "iso" if self.html else "lean")
         if self.html:
@@ -123,7 +124,7 @@ class RenderOptions:
             )
 
     @classmethod
-    def of(cls, args) -> RenderOptions:
+    def of(cls, args: Namespace) -> RenderOptions:
         """The options of the command line."""
         size = re.fullmatch(r"(\d{1,5})x(\d{1,5})", args.size)
         check_option(size, "--size", args.size, "must be two numbers of pixels such as 1280x720")
@@ -168,7 +169,7 @@ def _number(option: str, word: str, allowed: str) -> float:
     return value
 
 
-def check_option(holds, option: str, value, allowed: str) -> None:
+def check_option(holds: object, option: str, value: object, allowed: str) -> None:
     """Refuse the value of an option, in words that say what is `allowed`, unless it `holds`."""
     if not holds:
         raise InputError(COMMAND, option, value, allowed)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -136,7 +137,7 @@ class Result:
             found.append((np.append(low, level), np.append(high, level), square))
         return found
 
-    def _reached(self, times: np.ndarray, numbers) -> np.ndarray:
+    def _reached(self, times: np.ndarray, numbers: Iterable[int]) -> np.ndarray:
         """Corners (n, 3) [m] of the boxes around bodies of these numbers at `times` [s]."""
         found = []
         for number in numbers:
@@ -181,7 +182,7 @@ class Result:
         return (moved * [1, 1, 0] + corners + level).reshape(-1, 3), size
 
 
-def read_result(folder, body: str = "") -> Result:
+def read_result(folder: Path | str, body: str = "") -> Result:
     """The analysis in a folder of `fecolumn run`.
 
     Parameters

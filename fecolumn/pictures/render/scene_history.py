@@ -4,13 +4,20 @@ analysis.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fecolumn.engines.scene.scene import Scene
 from fecolumn.foundation.schema import InputError, meant
 from fecolumn.pictures.render.pose import Poses
+
+if TYPE_CHECKING:
+    from fecolumn.case.case import Case
+    from fecolumn.structures.model import StructureModel
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +50,9 @@ class SceneHistory:
     floors: dict[int, np.ndarray] = field(default_factory=dict)
 
 
-def read_scene_history(case, folder, history: dict[str, np.ndarray], body: str) -> SceneHistory:
+def read_scene_history(
+    case: Case, folder: Path, history: dict[str, np.ndarray], body: str
+) -> SceneHistory:
     """Motion of a scene from the history of an analysis.
 
     Raises
@@ -91,7 +100,7 @@ def read_scene_history(case, folder, history: dict[str, np.ndarray], body: str) 
     )
 
 
-def _place(structure, body: str) -> int:
+def _place(structure: StructureModel, body: str) -> int:
     if not body:
         return structure.observed[0]
     names = [part.name for part in structure.parts]
@@ -105,7 +114,9 @@ def _place(structure, body: str) -> int:
     return names.index(body)
 
 
-def _floors(scene: Scene, structure, history: dict, moves) -> dict[int, np.ndarray]:
+def _floors(
+    scene: Scene, structure: StructureModel, history: dict, moves: Sequence[Poses]
+) -> dict[int, np.ndarray]:
     """As of `SceneHistory`: from the marks of the floors, and the drift of the lowest from the
     slab.
     """

@@ -4,7 +4,9 @@ papers.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +15,10 @@ from fecolumn.pictures.render.canvas import COLOUR_MAPS
 from fecolumn.pictures.render.overlay import draw_legend
 from fecolumn.pictures.render.panel import draw_strip
 from fecolumn.pictures.render.strips import strips_of
+
+if TYPE_CHECKING:
+    from fecolumn.pictures.render.frames import Frames
+
 
 # Heights of the strips below the pictures, least and largest of the pictures, and gap between
 # these; the colour bar's width [in]
@@ -27,7 +33,7 @@ _LETTERS_SHARE = 0.25
 _END = 0.02
 
 
-def beside(frames) -> float:
+def beside(frames: Frames) -> float:
     """Width [in] of what stands beside the pictures: the scale of colours, and of deformation."""
     return _RIGHT_IN if frames.coloured or frames.exaggeration != 1 else 0.0
 
@@ -41,12 +47,12 @@ def picture_size(count: int, natural: float, dpi: int, right: float = _RIGHT_IN)
 
 
 def sequence_figure(
-    frames,
+    frames: Frames,
     images: list[np.ndarray],
     dpi: int,
     times: np.ndarray,
     path: Path,
-    formats=("png", "pdf"),
+    formats: Sequence[str] = ("png", "pdf"),
     legend: float = 0.0,
 ) -> list[Path]:
     """Write the figure as PNG and PDF.

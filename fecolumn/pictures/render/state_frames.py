@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +15,10 @@ from fecolumn.engines.summary import check_owner
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.field_frames import FrameSeries
 from fecolumn.pictures.render.frame import Fields
+
+if TYPE_CHECKING:
+    from fecolumn.structures.model import BodyModel
+
 
 #: Modes of a model made anew are those of the analysis when frequencies and signatures agree to
 #: this share: states are kept in single precision
@@ -41,7 +47,7 @@ class StateFrames(FrameSeries):
         the file is damaged, or of other bodies than those of the scene.
     """
 
-    def __init__(self, file: Path, scene: Scene):
+    def __init__(self, file: Path, scene: Scene) -> None:
         check_owner(file)
         try:
             self._arrays = read_states(file)
@@ -95,7 +101,7 @@ class StateFrames(FrameSeries):
             self._expand = expand
         return self._expand
 
-    def _check(self, models) -> None:
+    def _check(self, models: Sequence[BodyModel]) -> None:
         for name, made in (
             ("frequencies", [model.frequencies for model in models]),
             ("signature", [signature(model) for model in models]),
@@ -115,7 +121,9 @@ class StateFrames(FrameSeries):
                     )
 
 
-def write_fields(frames: StateFrames, folder: Path, tell=lambda done: None) -> None:
+def write_fields(
+    frames: StateFrames, folder: Path, tell: Callable[[int], object] = lambda done: None
+) -> None:
     """Write the fields of all states into a folder, as `post.fields.FieldWriter` does."""
     from fecolumn.engines.scene.fields import FieldWriter
 

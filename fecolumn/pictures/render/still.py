@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -10,6 +12,10 @@ from fecolumn.pictures.figures.style import COLUMN_WIDTH_IN, new_figure, save, s
 from fecolumn.pictures.render.canvas import COLOUR_MAPS
 from fecolumn.pictures.render.frame import Frame
 from fecolumn.pictures.render.overlay import draw_legend
+
+if TYPE_CHECKING:
+    from fecolumn.pictures.render.frames import Frames
+
 
 # Beside and above the picture; least and largest height of the picture [in]
 _RIGHT_IN, _ABOVE_IN, _HEIGHTS_IN = 0.75, 0.25, (1.8, 4.5)
@@ -26,7 +32,13 @@ def still_size(natural: float, dpi: int, coloured: bool = True) -> tuple[int, in
 
 
 def still_figure(
-    frames, frame: Frame, image: np.ndarray, dpi: int, path: Path, formats=("png",), legend=0.0
+    frames: Frames,
+    frame: Frame,
+    image: np.ndarray,
+    dpi: int,
+    path: Path,
+    formats: Sequence[str] = ("png",),
+    legend: float = 0.0,
 ) -> list[Path]:
     """Write the picture (height, width, 3) of a frame, of `still_size`, with its time and the scale
     of its colours; `path` without suffix; legend: force [N] whose arrow is as long as the picture

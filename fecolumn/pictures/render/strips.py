@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -39,10 +40,10 @@ def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
     moved = [motion(scene, contact, poses) for contact in contacts]
     names = [contact.interface for contact in contacts]
 
-    def strip(title, symbol, unit, lines):
+    def strip(title: str, symbol: str, unit: str, lines: Iterable[tuple[np.ndarray, str]]) -> Strip:
         return strip_of(time[rows], title, symbol, unit, lines)
 
-    def by_kind(values):
+    def by_kind(values: np.ndarray) -> list[tuple[np.ndarray, str]]:
         return _largest([piece.kind for piece in scene.bodies], values)
 
     widths = [np.ptp(scene.points[contact.points], axis=0).max() for contact in contacts]
@@ -104,7 +105,9 @@ def rows_between(time: np.ndarray, values: np.ndarray, times: np.ndarray) -> np.
     return _told_apart(values, rows if len(rows) > 1 else np.arange(len(time)))
 
 
-def strip_of(time: np.ndarray, title: str, symbol: str, unit: str, lines) -> Strip:
+def strip_of(
+    time: np.ndarray, title: str, symbol: str, unit: str, lines: Iterable[tuple[np.ndarray, str]]
+) -> Strip:
     """Strip of lines (values (n,) [SI], name) at `time` (n,) [s] in a unit that fits them."""
     quantity = Quantity.of("", unit, max(np.abs(values).max() for values, _ in lines))
     return Strip(

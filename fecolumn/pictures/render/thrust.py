@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.engines.scene.scene import JointFace, Scene
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.frame import Thrust
 from fecolumn.pictures.render.result import Result
+
+if TYPE_CHECKING:
+    from fecolumn.pictures.render.pose import Poses
+
 
 # Columns of an interface that are needed
 _COLUMNS = ("force", "resultant", "center", "tilt")
@@ -52,7 +59,7 @@ class JointForces:
         of slave from master [rad] from which on a joint is a hinge wherever its thrust is.
     """
 
-    def __init__(self, result: Result, interval: float):
+    def __init__(self, result: Result, interval: float) -> None:
         """Forces in the mean over `interval` [s], so that those of impacts are their impulse over
         it.
 
@@ -113,7 +120,7 @@ class JointForces:
         force, resultants, centers = self._mean(time)
         return np.where((force > CARRIES * self.largest)[:, None], resultants, 0.0), centers
 
-    def at(self, time: float, poses, k: int) -> Thrust:
+    def at(self, time: float, poses: Sequence[Poses], k: int) -> Thrust:
         """Forces at a time [s], when each body is at pose `k` of its `poses`."""
         resultants, centers = self.carried(time)
         carries = np.any(resultants != 0.0, axis=1)
@@ -140,7 +147,7 @@ class JointForces:
         hinges = flat & (tilts > np.where(at_edges, LEAST_TURN, self.turn))
         return Thrust(centers, resultants, lines, hinges, at_edges & ~hinges)
 
-    def _on_edge(self, joint: int, center: np.ndarray, poses, k: int) -> bool:
+    def _on_edge(self, joint: int, center: np.ndarray, poses: Sequence[Poses], k: int) -> bool:
         """Whether a centre of pressure (3,) [m] is on an edge of either face of a joint."""
         for face, edges, extent in self._edges[joint]:
             own = poses[face.piece]
@@ -170,7 +177,7 @@ def _distance(point: np.ndarray, edges: np.ndarray) -> float:
     return float(np.linalg.norm(nearest - point, axis=1).min())
 
 
-def _inside(middle: np.ndarray, centers: np.ndarray, forces) -> list[np.ndarray]:
+def _inside(middle: np.ndarray, centers: np.ndarray, forces: np.ndarray) -> list[np.ndarray]:
     """Ends (3,) [m] of the thrust line's parts from centres of pressure (n, 3) [m] into a body with
     its centre of mass in the `middle` (3,) [m].
 

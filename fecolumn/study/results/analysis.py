@@ -235,7 +235,7 @@ class AnalysisPlots:
 
     def top(self) -> Picture:
         """Displacement of the top against time, below the ground motion."""
-        from fecolumn.pictures.figures.history_figures import HistoryCurves, read_ending
+        from fecolumn.pictures.figures.history_curves import HistoryCurves, read_ending
         from fecolumn.pictures.figures.top_figure import top_figure
 
         return Picture(
@@ -246,7 +246,7 @@ class AnalysisPlots:
 
     def path(self) -> Picture:
         """Path of the top in plan."""
-        from fecolumn.pictures.figures.history_figures import HistoryCurves, read_ending
+        from fecolumn.pictures.figures.history_curves import HistoryCurves, read_ending
         from fecolumn.pictures.figures.path_figure import path_figure
 
         return Picture(
@@ -293,7 +293,7 @@ class AnalysisPlots:
     def energy(self) -> Picture:
         """The energy ledger against time."""
         from fecolumn.pictures.figures.energy_figure import energy_figure
-        from fecolumn.pictures.figures.history_figures import HistoryCurves
+        from fecolumn.pictures.figures.history_curves import HistoryCurves
 
         return Picture(
             lambda path: energy_figure(HistoryCurves.read(self.folder / "history.h5"), path)

@@ -6,6 +6,7 @@ import json
 import re
 from html import escape
 from importlib.resources import files
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,6 +24,10 @@ from fecolumn.pictures.render.page.rods import Rod, rods_of_links, rods_of_store
 from fecolumn.pictures.render.render_options import COMMAND
 from fecolumn.pictures.render.result import Result
 from fecolumn.pictures.render.strips import strips_of
+
+if TYPE_CHECKING:
+    from fecolumn.pictures.render.frame import Strip
+
 
 #: The file
 PAGE_FILE = "motion.html"
@@ -173,7 +178,7 @@ def _family(kind: str) -> str:
     return re.sub(r"[ _]?\d+$", "", kind) or kind
 
 
-def _strip(strip) -> dict:
+def _strip(strip: Strip) -> dict:
     """A strip, its title and unit without the marks of mathematics."""
     every = max(1, -(-len(strip.time) // _STRIP_POINTS))
     unit = re.search(r"\[(.*)\]", strip.label)

@@ -93,7 +93,14 @@ def _quaternions(pose: Poses) -> np.ndarray:
     return Rotation.from_matrix(pose.rotation).as_quat()
 
 
-def _shape(points, faces, origin, own, budget: float, lined: bool) -> tuple:
+def _shape(
+    points: np.ndarray,
+    faces: np.ndarray,
+    origin: np.ndarray,
+    own: np.ndarray,
+    budget: float,
+    lined: bool,
+) -> tuple:
     """Points from `origin`, triangles, sharp edges and other edges of the faces `own`."""
     nodes, corners = np.unique(faces[own], return_inverse=True)
     faces, points = corners.reshape(-1, faces.shape[1]), points[nodes] - origin
@@ -114,7 +121,7 @@ def _shape(points, faces, origin, own, budget: float, lined: bool) -> tuple:
     return _coarser(points, triangles, edges, budget)
 
 
-def _coarser(points, triangles, edges, budget: float) -> tuple:
+def _coarser(points: np.ndarray, triangles: np.ndarray, edges: np.ndarray, budget: float) -> tuple:
     """A surface of fewer triangles, with the edges of the fine one."""
     import pyvista
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import base64
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.pictures.render.page.arrows import Arrows
 from fecolumn.pictures.render.page.flexure import Deformation, PressedFace
@@ -31,12 +33,12 @@ _BOX += tuple((k, (k + 1) % 4, 4 + (k + 1) % 4) for k in range(4))
 _BOX += tuple((k, 4 + (k + 1) % 4, 4 + k) for k in range(4))
 
 
-def base64_of(values) -> str:
+def base64_of(values: ArrayLike) -> str:
     """Numbers in single precision, as base64."""
     return base64.b64encode(np.ascontiguousarray(values, "<f4").tobytes()).decode()
 
 
-def bytes_of(values) -> str:
+def bytes_of(values: ArrayLike) -> str:
     """Whole numbers from 0 to 255, as base64."""
     return base64.b64encode(np.ascontiguousarray(values, np.uint8).tobytes()).decode()
 
@@ -71,7 +73,7 @@ class MotionPlot:
         of the scene [m], to which rods and arrows fit.
     """
 
-    def __init__(self, result: Result, times: np.ndarray, field_of_view: float):
+    def __init__(self, result: Result, times: np.ndarray, field_of_view: float) -> None:
         """The empty plot of a motion at `times` (t,) [s]; field_of_view: vertical angle [deg]."""
         import k3d
 
@@ -98,7 +100,7 @@ class MotionPlot:
         """The page, which runs a script when all is loaded."""
         return self._plot.get_snapshot(compression_level=9, additional_js_code=script)
 
-    def _surface(self, points, triangles, colour: int, name: str) -> int:
+    def _surface(self, points: ArrayLike, triangles: ArrayLike, colour: int, name: str) -> int:
         drawn = self._k3d.mesh(
             np.asarray(points, np.float32),
             np.asarray(triangles, np.uint32),
@@ -210,7 +212,7 @@ def _squares(low: np.ndarray, high: np.ndarray, square: float) -> np.ndarray:
     return np.array(found)
 
 
-def _round(rings) -> tuple[np.ndarray, np.ndarray]:
+def _round(rings: Sequence[tuple[float, float]]) -> tuple[np.ndarray, np.ndarray]:
     """Points and triangles of a round body along z, given by its rings (radius, z)."""
     angle = 2 * np.pi * np.arange(_SIDES) / _SIDES
     points = np.concatenate(
