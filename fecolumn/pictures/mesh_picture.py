@@ -72,7 +72,7 @@ def mesh_picture(scene: Scene, structure: StructureModel, path: Path | str) -> P
     figure = Figure(figsize=size / 25.4, dpi=_DPI, facecolor="white")
     FigureCanvasAgg(figure)
     draw = _Panels(figure, size, surfaces, structure, min(planes, default=None))
-    axes = draw.panel([_LABELS_MM, 0.0], millimetres, centre, half)
+    axes = draw.panel(np.array([_LABELS_MM, 0.0]), millimetres, centre, half)
     labels, numbers = _fitted(
         _labels(structure, right, centre[0], half[0], _parts(scene, surfaces)),
         int(millimetres[1] / _LINE_MM) - 1,
@@ -234,7 +234,7 @@ class _Panels:
             view[0] * centre[0] + view[1] * centre[1],
             view,
             half_height,
-            10 * (np.linalg.norm(np.ptp(points, axis=0)) + half_height),
+            10 * (float(np.linalg.norm(np.ptp(points, axis=0))) + half_height),
             0.5,
         )
 
@@ -248,7 +248,7 @@ def _magnify(draw: _Panels, whole: Axes, foot: np.ndarray, size: np.ndarray) -> 
     right, up, _ = projection_axes()
     half = _FOOT_SHARE * np.ptp(foot @ right) * np.array([1.0, _FOOT_MM[1] / _FOOT_MM[0]])
     centre = np.array([foot.mean(axis=0) @ right, foot.mean(axis=0) @ up + 0.3 * half[1]])
-    axes = draw.panel([size[0] - _FOOT_MM[0] - 0.5, 0.5], _FOOT_MM, centre, half)
+    axes = draw.panel(np.array([size[0] - _FOOT_MM[0] - 0.5, 0.5]), _FOOT_MM, centre, half)
     frame = dict(fill=False, edgecolor=_EDGE, linewidth=0.8, clip_on=False)
     for place in (whole, axes):
         place.add_patch(Rectangle(centre - half, *(2 * half), **frame))

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.case.bodies import Meshed, Plate
+from fecolumn.case.bodies import Block, Cylinder, Meshed, Plate, Tube
 from fecolumn.case.column_keys import Column
 from fecolumn.case.ground import Ground
 from fecolumn.case.sections import Cap, Flange, Material
@@ -34,7 +36,15 @@ from fecolumn.structures.shapes import shape_of
 from fecolumn.structures.size import expected, made_of
 from fecolumn.structures.store import kept_body
 from fecolumn.structures.structure import assembled, standing_of
-from fecolumn.structures.tied import built_of
+from fecolumn.structures.tied import OfGrids, built_of
+
+if TYPE_CHECKING:
+    from fecolumn.case.case import Case
+    from fecolumn.engines.scene.scene import Piece, Scene
+    from fecolumn.structures.layout import Layout
+    from fecolumn.structures.model import BodyModel, StructureModel
+    from fecolumn.structures.tied import OfGrids
+
 
 #: Files that the report writes.
 FILES = "specimen.msh", "specimen.xdmf", "specimen.h5", "mesh.png", "table.txt"
@@ -55,7 +65,12 @@ class Made(Upright):
     material: Material
 
 
-def mesh_report(case, file, folder, say=lambda text: None) -> str:
+def mesh_report(
+    case: Case,
+    file: Path | str,
+    folder: Path | str,
+    say: Callable[[str], object] = lambda text: None,
+) -> str:
     """Write .msh, .xdmf, picture and tables of the meshes of a case into `folder`; returns the
     tables.
 
@@ -89,7 +104,7 @@ def mesh_report(case, file, folder, say=lambda text: None) -> str:
     return text
 
 
-def _parts(scene) -> list[str]:
+def _parts(scene: Scene) -> list[str]:
     """Table of the parts of bodies of several grids, and of elastic grounds."""
     rows = []
     for piece, mesh in {piece.kind: (piece, mesh) for piece, mesh in _each(scene)}.values():
@@ -106,13 +121,13 @@ def _parts(scene) -> list[str]:
     return ["", *_table(columns, rows)] if rows else []
 
 
-def _each(scene):
+def _each(scene: Scene) -> Iterator[tuple[Piece, BrickMesh]]:
     """Pieces and their meshes, last of all copies the first; without those of matrices."""
     pairs = [pair for pair in zip(scene.pieces, scene.meshes) if pair[1].cells.shape[1] > 3]
     return reversed(pairs)
 
 
-def _closed_forms(drawings: dict[str, Drawing], scene) -> list[str]:
+def _closed_forms(drawings: dict[str, Drawing], scene: Scene) -> list[str]:
     """Masses of bodies and grounds, and the first bending of bodies, beside closed forms."""
     rows = [(name, row) for name, drawing in drawings.items() for row in closed_form_rows(drawing)]
     for piece, mesh in _each(scene):
@@ -141,6 +156,8 @@ def closed_form_rows(drawing: Drawing) -> list[QualityRow]:
         return []
     if getattr(body, "turned_deg", 0.0):
         return []
+    assert isinstance(body, Plate | OfGrids)
+    assert drawing.shape is not None and drawing.material is not None
     made, mesh = _made(body, drawing.material), drawing.shape.mesh
     low = mesh.points[:, 2].min()
     foot = np.flatnonzero(mesh.points[:, 2] < low + 1e-6 * np.ptp(mesh.points[:, 2]))
@@ -153,7 +170,7 @@ def closed_form_rows(drawing: Drawing) -> list[QualityRow]:
     return rows
 
 
-def _made(body, material: Material) -> Made:
+def _made(body: Plate | OfGrids, material: Material) -> Made:
     if isinstance(body, Plate):
         column = Column(
             shape="block",
@@ -166,7 +183,7 @@ def _made(body, material: Material) -> Made:
     return Made(built.column, built.flange, built.cap, material)
 
 
-def bending_theory(case: Made) -> float | None:
+def bending_theory(case: Upright) -> float | None:
     """First free-free bending frequency [Hz] of the bare column as a Timoshenko beam; None of a
     user's mesh and of a stubby column.
     """
@@ -202,10 +219,11 @@ def _bending(drawing: Drawing, made: Made) -> tuple[float, float | None, str]:
     shape, name = drawing.shape, f"{made.column.shape} alone"
     if isinstance(drawing.body, Meshed):
         name = "mesh of the file" + (" with cap" if made.cap else "")
-    elif made.cap or made.flange:
+    elif isinstance(drawing.body, Tube | Cylinder | Block) and (made.cap or made.flange):
         bare = dataclasses.replace(drawing.body, cap=None, flange=None)
         shape = shape_of(drawing.key, bare, drawing.file)
-    body = body_of(shape, drawing.material)
+    assert shape is not None
+    body = body_of(shape, made.material)
     modes = free_modes(body, 14)
     height = np.ptp(body.X[:, 2])
     along = (body.X[:, 2] - body.center[2]) / height
@@ -215,7 +233,7 @@ def _bending(drawing: Drawing, made: Made) -> tuple[float, float | None, str]:
     return float(modes.frequencies[6 + int(np.argmax(bent))]), bending_theory(made), name
 
 
-def _table(columns: str, rows) -> list[str]:
+def _table(columns: str, rows: Iterable[Sequence[object]]) -> list[str]:
     """Lines of a table, the head and a line each row; columns: format and head of each column, such
     as "<16 body; >14.6g mass [kg]". No lines where there are no rows.
     """
@@ -229,7 +247,7 @@ def _table(columns: str, rows) -> list[str]:
     return plain if len(plain) > 1 else []
 
 
-def _bodies(case, layout, models) -> list[str]:
+def _bodies(case: Case, layout: Layout, models: Mapping[str, BodyModel]) -> list[str]:
     rows = []
     for name, model in models.items():
         shape, hertz = layout.drawings[name].shape, model.frequencies[:4] / (2 * np.pi)
@@ -255,7 +273,7 @@ def _bodies(case, layout, models) -> list[str]:
     return _table(columns, rows)
 
 
-def _interfaces(case, structure) -> list[str]:
+def _interfaces(case: Case, structure: StructureModel) -> list[str]:
     rows, standing = [], standing_of(case, structure)
     for joint in structure.joints:
         if joint.pair >= 0:
@@ -279,7 +297,7 @@ def _interfaces(case, structure) -> list[str]:
     return _table(columns, rows)
 
 
-def _grounds(case, structure) -> list[str]:
+def _grounds(case: Case, structure: StructureModel) -> list[str]:
     """What stands on each ground, and how it gives."""
     if all(ground == Ground() for ground in case.grounds.values()):
         return []
@@ -311,7 +329,7 @@ def _grounds(case, structure) -> list[str]:
     return ["", *_table(columns, rows)]
 
 
-def _links(case, structure) -> list[str]:
+def _links(case: Case, structure: StructureModel) -> list[str]:
     rows, standing, grounds = [], standing_of(case, structure), list(case.grounds)
     for link in structure.links:
         held = grounds[link.ground] if link.b == GROUND else structure.parts[link.b].name

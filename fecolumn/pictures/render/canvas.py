@@ -71,7 +71,9 @@ class Canvas:
             np.asarray(path[::every] + 2 * frames.result.height * camera.toward, np.float32),
             frames.result.time[::every],
         )
-        self._size, self._quick, self._last = size, quick, None
+        self._size, self._quick = size, quick
+        # what was drawn of the last frame, and its image
+        self._last: tuple[tuple[np.ndarray, np.ndarray, Thrust | None], np.ndarray] | None = None
         if quick:
             self._plotter.render_window.SetMultiSamples(0)
         self._line_width = max(1.0, size[1] / 720)
@@ -198,7 +200,7 @@ class Canvas:
             return self._last[1]
         scene = self._frames.scene
         self._move(self._bodies, frame.points[scene.surface.nodes], frame.colour)
-        if self._base is not None and self._frames.from_fields:
+        if self._base is not None and scene.base is not None and self._frames.from_fields:
             self._move(self._base, frame.points[scene.base.nodes], frame.base_colour)
         for name, lines in self._lines:
             lines.points = np.asarray(getattr(frame, name), np.float32).reshape(-1, 3)
@@ -210,7 +212,7 @@ class Canvas:
         if self._outlines is not None:
             lifted = self._lifted(frame.points[self._edges])
             self._outlines.points = np.asarray(lifted, np.float32).reshape(-1, 3)
-        if self._overlay:
+        if self._overlay and frame.thrust:
             self._overlay.move(frame.thrust)
         self._plotter.render()
         image = self._plotter.screenshot(None, return_img=True)
@@ -227,7 +229,8 @@ class Canvas:
         """Whether a frame differs from what was drawn by less than is seen."""
         if self._frames.from_fields:
             return False
-        pixel, (_, largest) = (
+        forces, pixel, (_, largest) = (
+            self._frames.forces,
             2 * self._camera.half_height / self._size[1],
             self._frames.colour_quantity.range,
         )
@@ -236,7 +239,9 @@ class Canvas:
             and np.abs(frame.colour - colour).max() < _ALIKE * largest
             and (
                 thrust is None
-                or alike(thrust, frame.thrust, self._frames.forces.scale, _UNSEEN * pixel)
+                or frame.thrust is None
+                or forces is None
+                or alike(thrust, frame.thrust, forces.scale, _UNSEEN * pixel)
             )
         )
 

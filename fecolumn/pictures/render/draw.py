@@ -196,6 +196,7 @@ def _movie(
                 frame = frames.frame(k)
                 return panel.picture(frame, scene.image(frame))
 
+            movie: Gif | Movie
             if options.gif:
                 movie = Gif(
                     draft / name,

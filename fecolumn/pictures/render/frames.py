@@ -58,6 +58,11 @@ class Frames:
         JointForces; None where they are not drawn.
     """
 
+    exaggeration: float
+    colour_quantity: Quantity
+    pressure_quantity: Quantity | None
+    forces: JointForces | None
+
     def __init__(
         self,
         result: Result,
@@ -177,7 +182,8 @@ class Frames:
             true = scene.points + fields.displacement
             if self.colour == "stress":
                 colour = _of_faces(scene, scene.surface, fields.stress)
-                base_colour = scene.base and _of_faces(scene, scene.base, fields.stress)
+                if scene.base is not None:
+                    base_colour = _of_faces(scene, scene.base, fields.stress)
         else:
             true = self._rigid(k)
         if colour is None:
@@ -312,8 +318,7 @@ class Frames:
         from fecolumn.pictures.render.pressure_centre import pressure_centre
 
         poses, mass, contacts = self.result.poses[0], self.scene.mass, self.scene.contacts
-        alone = mass is not None and [one.on_ground for one in contacts] == [True]
-        if not alone:
+        if mass is None or [one.on_ground for one in contacts] != [True]:
             return None
         if len(poses.time) != len(self.result.time):
             return np.full((len(times), 2), np.nan)
@@ -326,7 +331,9 @@ class Frames:
         centre of the pressure (n, 2) [m] at each.
         """
         times = np.linspace(self.times[0], self.times[-1], _FINER * len(self))
-        return times, self._pressure_centres(times)
+        centres = self._pressure_centres(times)
+        assert centres is not None  # of a body alone
+        return times, centres
 
 
 def _of_faces(scene: Scene, surface: Outside, stress: np.ndarray) -> np.ndarray:

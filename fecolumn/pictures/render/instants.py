@@ -38,7 +38,8 @@ def chosen_instants(result: Result, start: float, end: float) -> np.ndarray:
     )
     lost = result.summary.get("overturned") or result.summary.get("slid_off")
     ranked = [*([len(rows) - 1] if lost else []), *peaks[np.argsort(-reach[peaks], kind="stable")]]
-    apart, found = _APART * (end - start), []
+    apart = _APART * (end - start)
+    found: list[int] = []
     begun = int(np.argmax(reach > _BEGUN * reach.max()))
     even = np.linspace(begun, len(rows) - 1, CHOSEN).round().astype(int)
     for row in (*ranked, *even):

@@ -5,8 +5,14 @@ from __future__ import annotations
 import os
 from fractions import Fraction
 from pathlib import Path
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
+
+if TYPE_CHECKING:
+    import PIL.Image
+    from av.container import OutputContainer
+    from av.video.stream import VideoStream
 
 # Constant quality of x264: 18 is taken for lossless by the eye, 23 is its default
 _QUALITY = "20"
@@ -16,7 +22,28 @@ _COLOURS = 255
 GIF_RATE, GIF_WIDTH = 12.5, 800
 
 
-class Movie:
+class _PictureFile:
+    """A file of pictures, complete once its `with` block ends."""
+
+    file: Path
+    _container: OutputContainer
+    _stream: VideoStream
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        try:
+            if kind is None:
+                for packet in self._stream.encode():
+                    self._container.mux(packet)
+        finally:
+            self._container.close()
+        if kind is None:
+            _settle(self.file)
+
+
+class Movie(_PictureFile):
     """An MP4 file that takes pictures one by one; complete once the `with` block ends.
 
     Parameters
@@ -54,21 +81,8 @@ class Movie:
         ):
             self._container.mux(packet)
 
-    def __enter__(self) -> Movie:
-        return self
 
-    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        try:
-            if kind is None:
-                for packet in self._stream.encode():
-                    self._container.mux(packet)
-        finally:
-            self._container.close()
-        if kind is None:
-            _settle(self.file)
-
-
-class Gif:
+class Gif(_PictureFile):
     """A GIF as `Movie` is an MP4; pictures are reduced to GIF_WIDTH and to one palette.
 
     Parameters
@@ -100,7 +114,7 @@ class Gif:
         self._stream.pix_fmt = "pal8"
 
     @staticmethod
-    def _image(picture: np.ndarray, size: tuple[int, int]) -> Image.Image:
+    def _image(picture: np.ndarray, size: tuple[int, int]) -> PIL.Image.Image:
         from PIL import Image
 
         return Image.fromarray(picture).resize(size, Image.Resampling.BOX)
@@ -118,8 +132,6 @@ class Gif:
             self._av.VideoFrame.from_ndarray((numbers, self._colours), format="pal8")
         ):
             self._container.mux(packet)
-
-    __enter__, __exit__ = Movie.__enter__, Movie.__exit__
 
 
 def _settle(file: Path) -> None:

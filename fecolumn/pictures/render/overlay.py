@@ -39,6 +39,7 @@ class Overlay:
         import pyvista
 
         self._camera, self._nearer, self._meshes = camera, 2 * frames.result.height, []
+        assert frames.forces is not None
         self._size, self._length = scene_size(frames.scene), frames.forces.scale
         self._thrust = _THRUST[frames.colour]
         for colour, points in self._parts(first):
@@ -136,6 +137,7 @@ def draw_legend(axes: Axes, frames: Frames, newton_per_inch: float) -> None:
     width, height = axes.get_figure().get_size_inches() * axes.get_position().size
     axes.set(xlim=(0, width), ylim=(-height / 2, height / 2))
     axes.axis("off")
+    assert frames.forces is not None
     force = legend_force(newton_per_inch, frames.forces.largest)
     quantity, long = Quantity.of("", "N", force), force / newton_per_inch
     look = dict(arrowstyle="-|>,head_width=0.13,head_length=0.3", color=ARROW, linewidth=1.1)

@@ -187,9 +187,9 @@ class Panel:
         first, last = np.searchsorted(
             self.frames.result.time, [self.frames.times[0] - 1e-9, frame.time + 1e-9]
         )
-        top = self._top_path[min(first, last - 1) : last]
-        self._trace.set_data(*top.T)
-        self._top.set_data(*top[-1:].T)
+        way = self._top_path[min(first, last - 1) : last]
+        self._trace.set_data(*way.T)
+        self._top.set_data(*way[-1:].T)
         self._plan.show(frame)
         for axes, artist in self._moving:
             axes.draw_artist(artist)

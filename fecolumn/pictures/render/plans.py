@@ -47,7 +47,8 @@ class Plans:
         from matplotlib.collections import PolyCollection
 
         self._frames, self._contacts = frames, frames.scene.contacts
-        self._alone, self._places = frames.centres is not None, {}
+        self._alone = frames.centres is not None
+        self._places: dict[int, tuple[np.ndarray, np.ndarray, float]] = {}
         samples = [
             frames.frame(k) for k in np.unique(np.linspace(0, len(frames) - 1, 24).astype(int))
         ]

@@ -127,7 +127,10 @@ class RenderOptions:
     def of(cls, args: Namespace) -> RenderOptions:
         """The options of the command line."""
         size = re.fullmatch(r"(\d{1,5})x(\d{1,5})", args.size)
-        check_option(size, "--size", args.size, "must be two numbers of pixels such as 1280x720")
+        if size is None:
+            raise InputError(
+                COMMAND, "--size", args.size, "must be two numbers of pixels such as 1280x720"
+            )
         instants = (
             tuple(
                 _number("--instants", word, "must be times [s] such as 0.5,1.2")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.case.case import Case
 from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.reduced.states import STATES_FILE as STATES
@@ -15,7 +16,7 @@ from fecolumn.engines.scene.scene import JointFace, Scene
 from fecolumn.engines.summary import SUMMARY_FILE, check_owner, read_summary
 from fecolumn.foundation.files import Unreadable, is_file, read_json
 from fecolumn.foundation.schema import InputError
-from fecolumn.pictures.render.field_frames import FieldFrames, FrameSeries
+from fecolumn.pictures.render.field_frames import FieldFrames
 from fecolumn.pictures.render.pose import Poses
 from fecolumn.pictures.render.scene_history import SceneHistory, read_scene_history
 from fecolumn.pictures.render.state_frames import StateFrames
@@ -64,7 +65,7 @@ class Result:
     """
 
     folder: Path
-    case: object
+    case: Case
     summary: dict
     history: dict[str, np.ndarray]
     scene_history: SceneHistory
@@ -107,7 +108,7 @@ class Result:
         return self.scene.height
 
     @property
-    def frames(self) -> FrameSeries:
+    def frames(self) -> FieldFrames | StateFrames:
         """Fields as often as they are known: as they were written, or made from states where these
         are closer to one another.
         """
@@ -150,8 +151,8 @@ class Result:
     def shown(self, view: str, times: np.ndarray) -> np.ndarray:
         """Points (n, 3) [m] that a picture of these times [s] must show."""
         if view == "foot":
-            around, size = self._around(self._foot(), times)
-            return np.concatenate([around, around + [0, 0, _ABOVE_FOOT * size]])
+            corners, size = self._around(self._foot(), times)
+            return np.concatenate([corners, corners + [0, 0, _ABOVE_FOOT * size]])
         contacts = [one for one in self.scene.contacts if one.on_ground]
         plates = [one for one in contacts if one.ground not in self.scene.planes]
         around = [self._around(one, times)[0] for one in plates] + [

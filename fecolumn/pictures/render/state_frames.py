@@ -70,7 +70,8 @@ class StateFrames(FrameSeries):
                 f"has the states of {', '.join(kept)}, not of {', '.join(names)}; run the case "
                 "into a new folder",
             )
-        self._file, self._scene, self._expand = file, scene, None
+        self._file, self._scene = file, scene
+        self._expand: StateFields | None = None
         super().__init__(self._arrays["time"])
 
     def state(self, k: int) -> Snapshot:

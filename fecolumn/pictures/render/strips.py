@@ -43,7 +43,7 @@ def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
     def strip(title: str, symbol: str, unit: str, lines: Iterable[tuple[np.ndarray, str]]) -> Strip:
         return strip_of(time[rows], title, symbol, unit, lines)
 
-    def by_kind(values: np.ndarray) -> list[tuple[np.ndarray, str]]:
+    def by_kind(values: list[np.ndarray]) -> list[tuple[np.ndarray, str]]:
         return _largest([piece.kind for piece in scene.bodies], values)
 
     widths = [np.ptp(scene.points[contact.points], axis=0).max() for contact in contacts]

@@ -177,7 +177,9 @@ def _distance(point: np.ndarray, edges: np.ndarray) -> float:
     return float(np.linalg.norm(nearest - point, axis=1).min())
 
 
-def _inside(middle: np.ndarray, centers: np.ndarray, forces: np.ndarray) -> list[np.ndarray]:
+def _inside(
+    middle: np.ndarray, centers: np.ndarray, forces: Sequence[np.ndarray]
+) -> list[np.ndarray]:
     """Ends (3,) [m] of the thrust line's parts from centres of pressure (n, 3) [m] into a body with
     its centre of mass in the `middle` (3,) [m].
 

@@ -100,7 +100,7 @@ def _shape(
     own: np.ndarray,
     budget: float,
     lined: bool,
-) -> tuple:
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Points from `origin`, triangles, sharp edges and other edges of the faces `own`."""
     nodes, corners = np.unique(faces[own], return_inverse=True)
     faces, points = corners.reshape(-1, faces.shape[1]), points[nodes] - origin
@@ -121,7 +121,9 @@ def _shape(
     return _coarser(points, triangles, edges, budget)
 
 
-def _coarser(points: np.ndarray, triangles: np.ndarray, edges: np.ndarray, budget: float) -> tuple:
+def _coarser(
+    points: np.ndarray, triangles: np.ndarray, edges: np.ndarray, budget: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """A surface of fewer triangles, with the edges of the fine one."""
     import pyvista
 

@@ -28,7 +28,7 @@ _THICK, _LIFT, _SQUARES = 0.012, 0.0015, 60
 _WHOLE = 32767
 # How dark every other body is: neighbours are told apart
 _DARKER = 0.88
-_BOX = ((0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7))
+_BOX: tuple[tuple[int, int, int], ...] = ((0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7))
 _BOX += tuple((k, (k + 1) % 4, 4 + (k + 1) % 4) for k in range(4))
 _BOX += tuple((k, 4 + (k + 1) % 4, 4 + k) for k in range(4))
 
@@ -180,7 +180,7 @@ class MotionPlot:
             "id": self._surface(*_round(rings), colour, rod.name),
             "parts": rod.parts,
             "arms": rod.arms.tolist(),
-            "tension": base64_of(rod.tension) if link else None,
+            "tension": None if rod.tension is None else base64_of(rod.tension),
         }
 
     def add_arrows(self, arrows: Arrows) -> dict:
