@@ -69,7 +69,7 @@ def mesh_report(
     case: Case,
     file: Path | str,
     folder: Path | str,
-    say: Callable[[str], object] = lambda text: None,
+    say: Callable[[str], None] = lambda text: None,
 ) -> str:
     """Write .msh, .xdmf, picture and tables of the meshes of a case into `folder`; returns the
     tables.
@@ -139,7 +139,9 @@ def _closed_forms(drawings: dict[str, Drawing], scene: Scene) -> list[str]:
     for name, row in rows:
         what = row.name.removeprefix("column: ").removesuffix(" of the column")
         exact = (
-            ("", "") if row.exact is None else (float(row.exact), f"{100 * row.difference:.3f}%")
+            ("", "")
+            if row.exact is None or row.difference is None
+            else (float(row.exact), f"{100 * row.difference:.3f}%")
         )
         table.append((f"{name}: {what}", row.unit, float(row.mesh), *exact))
     columns = "<74 quantity; <8 unit; >14.6g mesh; >14.6g closed form; >12 difference"
@@ -192,10 +194,10 @@ def bending_theory(case: Upright) -> float | None:
         return None
     elastic = material.youngs_modulus_pa, material.poissons_ratio, material.density_kg_m3
     if column.shape == "block":
-        sides = sorted((column.length_m, column.width_m))
+        thin, wide = sorted((column.length_m, column.width_m))
         return (
-            rectangle_bending_frequency(*sides, column.height_m, *elastic)
-            if column.height_m > _STUBBY * sides[0]
+            rectangle_bending_frequency(thin, wide, column.height_m, *elastic)
+            if column.height_m > _STUBBY * thin
             else None
         )
     outer = column.outer_diameter_m / 2

@@ -7,17 +7,19 @@ from rigid blocks, by linear programming.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from scipy.optimize import linprog
 
-from fecolumn.case.case import case_from_tables
+from fecolumn.case.case import Case, case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
+from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.foundation.schema import InputError
@@ -25,6 +27,10 @@ from fecolumn.structures.model import StructureModel
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.boxes import sine_pulse
 from fecolumn.verification.result import Row
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 #: Least thickness over the mean radius of semicircular arches of N equal voussoirs, mu 0.7
 LEAST = {9: 0.102134, 11: 0.104910, 13: 0.102836, 17: 0.105593, 27: 0.106776}
@@ -47,7 +53,7 @@ _STANDS, _TURNED = 1e-4, 0.02
 _HINGE = 0.1
 
 
-def arch_rows(engine: str, long: bool = False):
+def arch_rows(engine: str, long: bool = False) -> Iterator[Row]:
     """Rows of one engine. Stone of 30 GPa is strained by a millionth by its weight: elastic arches
     have the limits of rigid ones. Begun as drawn, though, they fall into their strain, and those of
     1.005 of the least thickness on to the ground: they begin at rest.
@@ -58,8 +64,12 @@ def arch_rows(engine: str, long: bool = False):
 
 
 def arch_case(
-    thickness: float, voussoirs: int, pier=None, start: str = "rest", engine: str = "rigid"
-):
+    thickness: float,
+    voussoirs: int,
+    pier: tuple[float, float, int] | None = None,
+    start: str = "rest",
+    engine: str = "rigid",
+) -> Case:
     """Case of a semicircular arch of radius 1 m on the ground, or on piers (width, height, blocks)
     whose axes are below its springings.
     """
@@ -116,7 +126,9 @@ class Statics(NamedTuple):
     joints: list[tuple[int, int, np.ndarray, np.ndarray, float]]
 
 
-def limit_analysis(blocks: Statics, push: float | None = None):
+def limit_analysis(
+    blocks: Statics, push: float | None = None
+) -> tuple[float, np.ndarray | None, np.ndarray | None]:
     """Forces of joints within friction that hold blocks, by a linear programme (Livesley 1978).
 
     push: horizontal acceleration [g]; left out: the largest that can be held is looked for.
@@ -181,7 +193,9 @@ def _faces(model: StructureModel) -> list:
     return [joint for joint in model.joints if joint.pair < 0]
 
 
-def sectors(thickness: float, voussoirs: int, pier=None) -> Statics:
+def sectors(
+    thickness: float, voussoirs: int, pier: tuple[float, float, int] | None = None
+) -> Statics:
     """Blocks of `arch_case` with true curved outlines and a radius of 1 m; of a pier one."""
     inner, outer, half = 1 - thickness / 2, 1 + thickness / 2, np.pi / voussoirs / 2
     radius = 2 / 3 * np.sin(half) / half * (outer**3 - inner**3) / (outer**2 - inner**2)
@@ -217,12 +231,12 @@ def hinges(blocks: Statics, turns: np.ndarray) -> dict[int, int]:
     return {int(k): int(np.sign(found[k])) for k in large}
 
 
-def _rotations(made) -> np.ndarray:
+def _rotations(made: Engine) -> np.ndarray:
     """Rotation of each body about y [rad]."""
     return np.arctan2(made.motion.rotation[:, 0, 2], made.motion.rotation[:, 2, 2])
 
 
-def _collapses(made, grounds: np.ndarray) -> tuple[bool, np.ndarray]:
+def _collapses(made: Engine, grounds: np.ndarray) -> tuple[bool, np.ndarray]:
     """Whether bodies that had not moved do, and their rotations [rad] when one has turned by
     _TURNED.
     """
@@ -250,7 +264,7 @@ def _standing(thickness: float, voussoirs: int, engine: str) -> bool:
     return True
 
 
-def _thickness_rows(engine: str, long: bool):
+def _thickness_rows(engine: str, long: bool) -> Iterator[Row]:
     wrong, falls, edges, limits, elastic = 0, 0, 0, [], engine == "reduced"
     for voussoirs, least in LEAST.items():
         wrong += _standing(0.995 * least, voussoirs, engine)
@@ -312,6 +326,7 @@ def thrust_at_edges(voussoirs: int) -> frozenset[int]:
     """
     case = arch_case(LEAST[voussoirs] * 1.0002, voussoirs, start="drawn")
     _, shares, _ = limit_analysis(statics_of(structure_model(case)), 0.0)
+    assert shares is not None
     return frozenset(np.flatnonzero(shares.min(axis=1) < 0.01).tolist())
 
 
@@ -322,7 +337,7 @@ def push(acceleration: float) -> np.ndarray:
     return np.outer(-acceleration * GRAVITY * level, [1.0, 0.0, 0.0])
 
 
-def _pushed_rows(engine: str):
+def _pushed_rows(engine: str) -> Iterator[Row]:
     for thickness, pier, exact in PUSHED:
         case = arch_case(thickness, 11, pier, engine=engine)
         model = structure_model(case)
@@ -345,6 +360,7 @@ def _pushed_rows(engine: str):
         yield Row(
             f"{label}: stands at 0.99 of it and falls at 1.01; outcomes that differ", 0, differ, 0.5
         )
+        assert turning is not None
         exact_hinges, found = hinges(blocks, turning), hinges(blocks, turns)
         sign = 1 if sum(one == found.get(k) for k, one in exact_hinges.items()) else -1
         yield Row(
@@ -356,7 +372,7 @@ def _pushed_rows(engine: str):
         )
 
 
-def _shaken_rows(engine: str):
+def _shaken_rows(engine: str) -> Iterator[Row]:
     """An arch on piers of four blocks, 2.5 times as large as those above, under a sine pulse."""
     case = arch_case(0.2, 11, (0.4, 1.0, 4), engine=engine)
     made = engine_of(case, structure_model(case), "verify")
@@ -378,7 +394,7 @@ def _shaken_rows(engine: str):
     )
 
 
-def draw_arches(figure) -> None:
+def draw_arches(figure: Figure) -> None:
     """Hinges of limit analysis on arches as they collapse."""
     for axes, (thickness, pier, exact) in zip(
         figure.subplots(1, 3), (PUSHED[1], PUSHED[3], PUSHED[5])
@@ -389,6 +405,7 @@ def draw_arches(figure) -> None:
         for _, _, ends, *_ in blocks.joints:
             axes.plot(*ends.T, color="0.6", linewidth=0.8)
         _, shares, turning = limit_analysis(blocks)
+        assert shares is not None and turning is not None
         for k in hinges(blocks, turning):
             axes.plot(*blocks.joints[k][2][np.argmax(shares[k])], "o", color="C3", markersize=4)
         axes.set_aspect("equal")

@@ -5,10 +5,12 @@ corner; and a column that leans and is caught.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.verification.joint_bodies import engines
 from fecolumn.verification.result import Row
@@ -21,7 +23,7 @@ _ON = {"a face": (0.0, 0.0), "an edge": (0.1, 0.0), "a corner": (0.1, 30.0)}
 _COLUMN, _LEANS, _STOP = (0.3, 2.0), 0.17, 0.45
 
 
-def drop_rows(engine: str):
+def drop_rows(engine: str) -> Iterator[Row]:
     """Rows of an engine; in the reduced one a block is elastic and springs back, so that of it only
     the energy is known.
     """
@@ -46,7 +48,7 @@ def drop_rows(engine: str):
         yield from _caught_rows()
 
 
-def _landing_rows(label: str, plate: bool):
+def _landing_rows(label: str, plate: bool) -> Iterator[Row]:
     """How high a rigid block rises from a face, and its velocities after each kind of landing."""
     for restitution, allowed in ((0.0, 1e-6), (0.5, 1e-3), (0.8, 1e-3)):
         made = _falls("rigid", restitution, *_ON["a face"], plate)
@@ -68,7 +70,9 @@ def _landing_rows(label: str, plate: bool):
         )
 
 
-def _falls(engine: str, restitution: float, lean: float, direction: float, plate: bool, dt=1e-3):
+def _falls(
+    engine: str, restitution: float, lean: float, direction: float, plate: bool, dt: float = 1e-3
+) -> Engine:
     """Engine of a block above the ground, or above a plate on it."""
     length, width, height = map(float, _SIDES)
     level = _PLATE if plate else 0.0
@@ -104,7 +108,7 @@ def _falls(engine: str, restitution: float, lean: float, direction: float, plate
     return _begun(tables)
 
 
-def _begun(tables: dict):
+def _begun(tables: dict) -> Engine:
     """Engine of a case whose joints begin apart, without being told so."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
@@ -146,7 +150,7 @@ def _impact_error(lean: float, direction: float, plate: bool, restitution: float
     return float(np.abs(off).max() / speed)
 
 
-def _caught_rows():
+def _caught_rows() -> Iterator[Row]:
     """A column that leans too far to come back is stopped by a fixed beam and rests on it."""
     side, height = _COLUMN
     stone = dict(kind="block", density_kg_m3=2500.0)

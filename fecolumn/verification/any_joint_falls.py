@@ -4,12 +4,16 @@ as at a joint.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import Any
+
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.convex import hulls_of
 from fecolumn.contact.nearby import pair_keys
 from fecolumn.contact.through import ThroughCheck
+from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.structures.hulls import hulls_of_parts
 from fecolumn.verification.joint_bodies import engines
@@ -25,7 +29,7 @@ _COLONNADE, _ARCHITRAVE, _CYCLE = (3, 3, 0.8, 1.3, 2.4), 0.6, (0.7, 1.2)
 _LATER, _CORNERS = 40.0, 20
 
 
-def fall_rows(engine: str):
+def fall_rows(engine: str) -> Iterator[Row]:
     """Rows of an engine."""
     yield from _lying_rows(engine)
     if engine == "rigid":
@@ -34,13 +38,13 @@ def fall_rows(engine: str):
         yield from _colonnade_rows()
 
 
-def _block(**more) -> dict:
+def _block(**more: Any) -> dict:
     length, width, height = _SIDES
     size = dict(length_m=length, width_m=width, height_m=height, element_size_m=0.1)
     return dict(kind="block", **_STONE) | size | dict(coarse_size_m=0.2) | more
 
 
-def _made(engine: str, bodies: dict, between: str | list, **more):
+def _made(engine: str, bodies: dict, between: str | list, **more: Any) -> Engine:
     """Engine of bodies of which those of `between` may meet anywhere."""
     tables = dict(
         bodies=bodies,
@@ -57,7 +61,7 @@ def _balance(columns: dict) -> float:
     return np.abs(columns["energy/closure"]).max() / np.ptp(columns["energy/gravity"])
 
 
-def _lying_rows(engine: str):
+def _lying_rows(engine: str) -> Iterator[Row]:
     """A block that overturns lies on its side, its middle at half its length, and stays there."""
     foot = dict(foot=dict(between=["block", "ground"]))
     start = dict(block=dict(spin_rad_s=[0.0, _SPIN, 0.0]))
@@ -76,14 +80,15 @@ def _lying_rows(engine: str):
     yield Row(f"{label}: error of the energy balance", 0.0, _balance(columns), 1e-12)
 
 
-def _same_as_at_a_joint():
+def _same_as_at_a_joint() -> Iterator[Row]:
     """A block rocks on a block as it does at their joint: the same until the first impact, which
     takes the same but for what points give, of which a joint has more.
     """
     bodies = dict(lower=_block(height_m=0.5), upper=_block(at_m=[0.0, 0.0, 0.5]))
     joints = dict(foot=dict(between=["lower", "ground"]), middle=dict(between=["lower", "upper"]))
     start, each = dict(upper=dict(tilt_rad=0.15)), []
-    for between in ("all", []):
+    ways: tuple[str | list, ...] = ("all", [])
+    for between in ways:
         made = _made("rigid", bodies, between, joints=joints, initial=start)
         each.append(columns_of(made.advance(np.zeros((500, 3)))[0], made.model))
     joint = each[1]
@@ -102,7 +107,7 @@ def _same_as_at_a_joint():
     )
 
 
-def _collision_rows():
+def _collision_rows() -> Iterator[Row]:
     """Two blocks without a joint meet in flight, face to face: they go on together."""
     bodies = dict(
         one=_block(at_m=[0.0, 0.0, 5.0]), other=_block(at_m=[0.4, 0.0, 5.0], mass_kg=90.0)
@@ -130,7 +135,7 @@ def _collision_rows():
         )
 
 
-def _colonnade_rows():
+def _colonnade_rows() -> Iterator[Row]:
     """A colonnade collapses onto the ground and lies there; no stone is in another."""
     columns, drums, diameter, height, apart = _COLONNADE
     bodies, joints = {}, dict(foot=dict(between=["drum_1", "ground"]))

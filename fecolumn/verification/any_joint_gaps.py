@@ -5,12 +5,14 @@ independent planar program and plane problems in closed form.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.verification.boxes import sine_pulse
 from fecolumn.verification.joint_bodies import engines
@@ -79,7 +81,7 @@ _TILTS = {
 _IMPACT_LEFT = 1e-3
 
 
-def gap_rows(engine: str):
+def gap_rows(engine: str) -> Iterator[Row]:
     """Rows of one engine; single histories and the share of one impact are those of rigid bodies:
     what elastic faces store at an impact, and give back, moves them by per cent.
     """
@@ -90,7 +92,7 @@ def gap_rows(engine: str):
     yield from _wall_rows(engine)
 
 
-def _slide_rows():
+def _slide_rows() -> Iterator[Row]:
     """A block slides without friction into one twice as heavy, which stands: their velocities after
     by momentum and restitution; neither is lifted. The gap is a whole number of steps wide, so that
     rounding says which points of the faces carry at the end of the step in which they meet.
@@ -134,7 +136,7 @@ def _slide_rows():
 
 def _beside(
     engine: str, gap: float, friction: float, wall: bool, dt: float, start: dict | None = None
-):
+) -> Engine:
     """Engine of a block and, a gap [m] away on its right, another block or a wall; friction: of
     their sides.
     """
@@ -169,18 +171,18 @@ def _cycle(dt: float, amplitude: float, period: float, lasts: float) -> np.ndarr
     return sine_pulse(amplitude * GRAVITY, period, round(lasts / dt), dt)
 
 
-def _shaken(made, grounds: np.ndarray) -> dict[str, np.ndarray]:
+def _shaken(made: Engine, grounds: np.ndarray) -> dict[str, np.ndarray]:
     """History under ground accelerations, with the tilts towards +x [rad] of both blocks."""
     columns = columns_of(made.advance(grounds)[0], made.model)
     return columns | {name: columns[f"body/{name}/rotation"][:, 1] for name in ("left", "right")}
 
 
-def _closure(columns) -> float:
+def _closure(columns: Mapping[str, np.ndarray]) -> float:
     moved = max(np.ptp(columns["energy/gravity"]) + columns["energy/kinetic"].max(), 1e-9)
     return float(np.abs(columns["energy/closure"]).max() / moved)
 
 
-def _peak_rows(engine: str):
+def _peak_rows(engine: str) -> Iterator[Row]:
     dt, closures = _STEPS[engine], []
     for friction, peaks in _PEAKS.items():
         columns = _shaken(_beside(engine, 0.02, friction, False, dt), _cycle(dt, *_CYCLE, 3.0))
@@ -220,7 +222,7 @@ def _peak_rows(engine: str):
     )
 
 
-def _history_rows(engine: str):
+def _history_rows(engine: str) -> Iterator[Row]:
     dt = 1e-4
     for motion, tilts in _TILTS.items():
         columns = _shaken(_beside(engine, 0.02, 0.7, False, dt), _cycle(dt, *motion, max(tilts)))
@@ -236,7 +238,7 @@ def _history_rows(engine: str):
         )
 
 
-def _wall_rows(engine: str):
+def _wall_rows(engine: str) -> Iterator[Row]:
     """A block at a wall falls back to it and stops: it cannot turn on over its corner there, nor
     slide. One that rocks towards a wall a gap away meets it with its top corner: without friction
     there, the impulse at that corner alone decides, and the corner on which it stood lifts.
@@ -313,14 +315,14 @@ def _housner_peak(amplitude: float, period: float, one_side: bool = False) -> fl
     def push(time: float) -> float:
         return -amplitude * np.sin(2 * np.pi * time / period) * (time <= period)
 
-    def rocks(side: float):
-        def rate(time, state):
+    def rocks(side: float) -> Callable[[float, np.ndarray], list[float]]:
+        def rate(time: float, state: np.ndarray) -> list[float]:
             lean = alpha - abs(state[0])
             return [state[1], squared * (push(time) * np.cos(lean) - side * np.sin(lean))]
 
         return rate
 
-    def lands(_, state):
+    def lands(_: object, state: np.ndarray) -> float:
         return state[0]
 
     event: Any = lands

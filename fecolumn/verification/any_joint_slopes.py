@@ -4,10 +4,13 @@ its limit.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
+from fecolumn.engines.reduced.engine import Engine
 from fecolumn.verification.joint_bodies import engines
 from fecolumn.verification.result import Row
 
@@ -17,7 +20,7 @@ _SLOPES, _DIRECTIONS = (10.0, 25.0, 40.0), (0.0, 90.0, 33.0)
 OFF_LIMIT = 1e-6
 
 
-def slope_rows(engine: str):
+def slope_rows(engine: str) -> Iterator[Row]:
     """A block on a slope slides at tan(angle) = mu, and with g (sin - mu cos) from there on.
 
     Begun where it is drawn, it falls into its contact by nanometres, which gives it a velocity of
@@ -70,7 +73,9 @@ def slope_rows(engine: str):
     )
 
 
-def slope(engine: str, degrees: float, friction: float, direction: float, start: str = "drawn"):
+def slope(
+    engine: str, degrees: float, friction: float, direction: float, start: str = "drawn"
+) -> Engine:
     """Engine of a block, 0.2 m long and 0.1 m high, on a fixed prism inclined by an angle [deg]
     that falls towards a direction [deg].
     """
@@ -98,7 +103,9 @@ def slope(engine: str, degrees: float, friction: float, direction: float, start:
     )
 
 
-def begun(tables: dict, engine: str, friction: float, dt: float = 1e-3, start: str = "drawn"):
+def begun(
+    tables: dict, engine: str, friction: float, dt: float = 1e-3, start: str = "drawn"
+) -> Engine:
     """Engine of bodies and joints, of elastic bodies with ten modes, that begin at rest or where
     they are drawn.
     """
@@ -112,7 +119,7 @@ def begun(tables: dict, engine: str, friction: float, dt: float = 1e-3, start: s
     )()
 
 
-def places(made, name: str, waits: float, each: float) -> np.ndarray:
+def places(made: Engine, name: str, waits: float, each: float) -> np.ndarray:
     """Places (3, 3) [m] of a body's centre after a while, `each` [s] apart."""
     number, found = [part.name for part in made.model.parts].index(name), []
     for time in (waits, each, each):
@@ -121,14 +128,14 @@ def places(made, name: str, waits: float, each: float) -> np.ndarray:
     return np.array(found)
 
 
-def acceleration_of(made, name: str, each: float = 0.1) -> np.ndarray:
+def acceleration_of(made: Engine, name: str, each: float = 0.1) -> np.ndarray:
     """Acceleration (3,) [m/s2] of a body, by second differences of its places: at the start its
     contact gives way by nanometres, which is over by then.
     """
     return np.diff(places(made, name, 2 * each, each), 2, axis=0)[0] / each**2
 
 
-def _creeps(made, waits: float) -> float:
+def _creeps(made: Engine, waits: float) -> float:
     """Velocity [m/s] of the block in the second after a while [s]."""
     found = places(made, "block", waits, 0.5)
     return float(np.linalg.norm(found[2] - found[0]))

@@ -5,11 +5,13 @@ the balance of energy while they are shaken in their plane.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
+from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.verification.boxes import sine_pulse
 from fecolumn.verification.joint_bodies import engines
@@ -66,28 +68,28 @@ def wall_tables(courses: int, stones: int, engine: str, gap: float = 0.0) -> dic
     )
 
 
-def wall(courses: int, stones: int, engine: str, gap: float = 0.0):
+def wall(courses: int, stones: int, engine: str, gap: float = 0.0) -> Engine:
     """Engine of `wall_tables`, at rest."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
         return engines(wall_tables(courses, stones, engine, gap))()
 
 
-def wall_shaking(made, factor: float, lasts: float = _LASTS) -> np.ndarray:
+def wall_shaking(made: Engine, factor: float, lasts: float = _LASTS) -> np.ndarray:
     """Accelerations [m/s2] of a sine along the wall, of `factor` times what lifts a half stone."""
     lifts = STONE[0] / 2 / STONE[2]
     dt = made.hht.dt
     return sine_pulse(factor * lifts * GRAVITY, _PERIOD, round(lasts / dt), dt)
 
 
-def sunk_depth(made) -> float:
+def sunk_depth(made: Engine) -> float:
     """Depth [m] of the contact point that is farthest below the surface it is over, now."""
     contact = made.motion.contact
     over = contact["located"] & ~made.work.points["idle"]
     return max(-float(contact["relative"][over, 2].min(initial=0.0)), 0.0)
 
 
-def wall_rows(engine: str):
+def wall_rows(engine: str) -> Iterator[Row]:
     """Rows of one engine; the large wall is shaken with rigid stones alone, for its cost."""
     for name, size in (("10", _SMALL), ("32", _WALL)):
         if engine != "rigid" and size == _WALL:

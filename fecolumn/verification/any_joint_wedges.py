@@ -10,6 +10,7 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
+from fecolumn.engines.reduced.engine import Engine
 from fecolumn.verification.any_joint_slopes import OFF_LIMIT, acceleration_of, begun, places
 from fecolumn.verification.result import Row
 
@@ -28,7 +29,7 @@ _STONE, _STIFF, _FACE = 200e9, 50e12, 0.4 * 0.4
 WedgeTrial = tuple[float, float, float, int]
 
 
-def wedge_rows(engine: str):
+def wedge_rows(engine: str) -> Iterator[Row]:
     """Rows of one engine."""
     yield from _thrust_rows(engine)
     yield from _jam_rows(engine)
@@ -64,7 +65,7 @@ def _by_friction(off: float) -> Iterator[WedgeTrial]:
             yield float(-way * theta), float(limit * (1 - off)), _JAMMED, way
 
 
-def _thrust_rows(engine: str):
+def _thrust_rows(engine: str) -> Iterator[Row]:
     label = (
         "wedge between abutments, its faces 20, 10, -20, -10 deg from the vertical (narrowing "
         "downwards > 0), mu 0.5, 0.7: about the thrusts below which it sinks; 35, 50 deg, mu 0.3, "
@@ -96,7 +97,7 @@ def _thrust_rows(engine: str):
     )
 
 
-def _jam_rows(engine: str):
+def _jam_rows(engine: str) -> Iterator[Row]:
     """The thrust of 1000 W strains elastic bodies, whose faces turn by that: the limit moves by
     about the strain. So theirs is beside that of stiff ones; how fast they go is told of rigid
     ones alone.
@@ -163,7 +164,7 @@ def _limit(engine: str, two: tuple[WedgeTrial, WedgeTrial], each: float, modulus
     return 1e-3 - one * 1e-3 / (other - one)
 
 
-def _limit_rows(engine: str, kinds: Callable, label: str, what: str):
+def _limit_rows(engine: str, kinds: Callable, label: str, what: str) -> Iterator[Row]:
     """Where accelerations OFF_LIMIT and FARTHER within the limit, on a line, say that the limit is,
     and the first beside the closed form.
     """
@@ -186,7 +187,7 @@ def _limit_rows(engine: str, kinds: Callable, label: str, what: str):
     )
 
 
-def _upwards(made, each: float, trial: WedgeTrial) -> float:
+def _upwards(made: Engine, each: float, trial: WedgeTrial) -> float:
     """Acceleration [m/s2] of the wedge the way it goes."""
     return float(acceleration_of(made, "wedge", each)[2] * -trial[3])
 
@@ -208,7 +209,7 @@ def wedge(
     dt: float = 1e-3,
     start: str = "drawn",
     modulus: float = _STONE,
-):
+) -> Engine:
     """Engine of a wedge between a fixed abutment and one on a frictionless floor, which a long
     tendon pushes towards it with `thrust` over the wedge's weight.
 

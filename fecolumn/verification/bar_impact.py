@@ -39,12 +39,15 @@ where a front passes.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fecolumn.case.sections import Material
 from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.system import System
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification import FULL
 from fecolumn.verification.hht_scheme import amplification, principal
@@ -52,6 +55,10 @@ from fecolumn.verification.models import block_system, box
 from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import afloat
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 _LENGTH, AREA, MODULUS, _DENSITY, SPEED = 2.0, 0.2, 200e9, 7800.0, 1.5
 _WAVE = np.sqrt(MODULUS / _DENSITY)
@@ -158,7 +165,7 @@ def strike(engine: str, bricks: int, alpha: float, impact: str, arrival: float =
     )
 
 
-def foot_mass(system) -> float:
+def foot_mass(system: System) -> float:
     """Mass [kg] with which the filtered foot resists a common vertical velocity of its points."""
     mobility = system.interface.foot.mobility[0][:, :, 2, 2]
     return float(np.linalg.solve(mobility, np.ones(len(mobility))).sum())
@@ -221,7 +228,7 @@ def run(engine: str, long: bool) -> CaseRows:
     return result
 
 
-def order(series: dict[int, Strike], error) -> float:
+def order(series: dict[int, Strike], error: Callable[[Strike], float]) -> float:
     """Least-squares order in h of error(strike)."""
     return float(
         -np.polyfit(np.log(list(series)), np.log([abs(error(one)) for one in series.values()]), 1)[
@@ -290,7 +297,7 @@ def bar_rows(impact: str, alpha: float, series: dict[int, Strike], closure: floa
     return found
 
 
-def draw_bar(figure, strikes) -> None:
+def draw_bar(figure: Figure, strikes: Mapping[tuple[str, float], Mapping[int, Strike]]) -> None:
     """Contact force against time for meshes and alphas, and the convergence."""
     ((meshes, alphas), (literal, orders)) = figure.subplots(2, 2)
     some = strikes["plastic", 0.0]

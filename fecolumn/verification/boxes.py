@@ -2,26 +2,38 @@
 them is known.
 """
 
+from __future__ import annotations
+
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import Limits
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.unbounded_base import rigid_base
 from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.start import of_parts
 from fecolumn.engines.reduced_engine import engine_on
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.structures.model import BodyModel, Joint, Part, StructureModel, Surface
+from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel, Surface
 
 # each point gives way by this [m/N]
 GIVES = 1e-10
 
 
-def box_model(length, width, height, density=2700.0, gives=GIVES, per_side=2):
+def box_model(
+    length: float,
+    width: float,
+    height: float,
+    density: float = 2700.0,
+    gives: float = GIVES,
+    per_side: int = 2,
+) -> BodyModel:
     """A BodyModel of length x width x height [m], its foot and head touching with `per_side` x
     `per_side` nodes.
     """
@@ -73,7 +85,14 @@ def box_model(length, width, height, density=2700.0, gives=GIVES, per_side=2):
     )
 
 
-def part(name, model, at, rotation=None, spin=(0.0, 0, 0), velocity=(0.0, 0, 0)):
+def part(
+    name: str,
+    model: BodyModel,
+    at: ArrayLike,
+    rotation: np.ndarray | None = None,
+    spin: ArrayLike = (0.0, 0, 0),
+    velocity: ArrayLike = (0.0, 0, 0),
+) -> Part:
     """A Part whose drawing stands at `at` (3,)."""
     return Part(
         name,
@@ -86,7 +105,15 @@ def part(name, model, at, rotation=None, spin=(0.0, 0, 0), velocity=(0.0, 0, 0))
     )
 
 
-def joint(slave, master, model, surface="foot", on="head", friction=0.7, restitution=0.0):
+def joint(
+    slave: int,
+    master: int,
+    model: BodyModel,
+    surface: str = "foot",
+    on: str = "head",
+    friction: float = 0.7,
+    restitution: float = 0.0,
+) -> Joint:
     """Joint of body `slave` on body `master`, or on GROUND; `model`: the slave's BodyModel."""
     n = len(model.surfaces[surface].nodes)
     return Joint(
@@ -102,7 +129,15 @@ def joint(slave, master, model, surface="foot", on="head", friction=0.7, restitu
     )
 
 
-def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=0):
+def engine(
+    parts: Sequence[Part],
+    joints: Sequence[Joint],
+    links: Sequence[Link] = (),
+    dt: float = 1e-3,
+    alpha: float = -0.05,
+    stands: bool = True,
+    observed: int = 0,
+) -> Engine:
     """An Engine of a StructureModel of these, of which a body beyond 45 degrees is lost."""
     base = rigid_base(np.concatenate([p.center + p.model.arms for p in parts]))
     model = StructureModel(tuple(parts), tuple(joints), tuple(links), base, (observed, "top"))
@@ -111,7 +146,7 @@ def engine(parts, joints, links=(), dt=1e-3, alpha=-0.05, stands=True, observed=
     return engine_on(model, HHT(dt, alpha), begin, limits=limits)
 
 
-def stack(dt=1e-3, alpha=-0.05):
+def stack(dt: float = 1e-3, alpha: float = -0.05) -> Engine:
     """Engine with a box of 0.3 x 0.3 x 0.9 m on one of 0.4 x 0.4 x 0.8 m, the upper observed."""
     low, up = box_model(0.4, 0.4, 0.8), box_model(0.3, 0.3, 0.9)
     return engine(
@@ -123,7 +158,7 @@ def stack(dt=1e-3, alpha=-0.05):
     )
 
 
-def block_on_a_heavy_one(dt: float):
+def block_on_a_heavy_one(dt: float) -> tuple[Engine, float, float]:
     """A block set rocking on one of 46 times its mass; its slenderness [rad] and frequency
     parameter [rad/s].
     """
@@ -145,7 +180,12 @@ def block_on_a_heavy_one(dt: float):
     )
 
 
-def frame(columns, order=None, dt=1e-3, at=(0.0, 0.0, 0.0)):
+def frame(
+    columns: int,
+    order: Sequence[int] | None = None,
+    dt: float = 1e-3,
+    at: ArrayLike = (0.0, 0.0, 0.0),
+) -> tuple[Engine, BodyModel, BodyModel]:
     """A slab on two or four columns; order: places of the columns, then of the slab, among the
     bodies; at: (3,) [m] where it stands.
     """
@@ -158,7 +198,9 @@ def frame(columns, order=None, dt=1e-3, at=(0.0, 0.0, 0.0)):
         if columns == 2
         else [(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)]
     )
-    number, parts, joints = order or list(range(columns + 1)), [None] * (columns + 1), []
+    number = order or list(range(columns + 1))
+    parts: dict[int, Part] = {}
+    joints = []
     for i in range(columns):
         parts[number[i]] = part(f"column {i}", column, np.add(places[i], at))
     parts[number[-1]] = part("slab", slab, np.add((0, 0, 1.2), at))
@@ -167,10 +209,13 @@ def frame(columns, order=None, dt=1e-3, at=(0.0, 0.0, 0.0)):
             joint(number[i], GROUND, column),
             joint(number[i], number[-1], column, surface="head", on="foot"),
         ]
-    return engine(parts, joints, observed=number[-1], dt=dt), slab, column
+    every = [parts[k] for k in range(columns + 1)]
+    return engine(every, joints, observed=number[-1], dt=dt), slab, column
 
 
-def bent(ratio: float, dt: float, tilt: float, breadth=1.2, height=8.0):
+def bent(
+    ratio: float, dt: float, tilt: float, breadth: float = 1.2, height: float = 8.0
+) -> tuple[Engine, float, float]:
     """A cap of `ratio` times the mass of the two piers that it lies on, all without any give, let
     go where the piers lean by `tilt` [rad].
 
@@ -217,7 +262,7 @@ def bent(ratio: float, dt: float, tilt: float, breadth=1.2, height=8.0):
     )
 
 
-def sine_pulse(amplitude, period, steps, dt=1e-3):
+def sine_pulse(amplitude: float, period: float, steps: int, dt: float = 1e-3) -> np.ndarray:
     """Accelerations (steps, 3) [m/s2] of one sine of that amplitude and period [s] along x."""
     t = np.arange(1, steps + 1) * dt
     return np.column_stack(

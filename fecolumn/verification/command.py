@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
+from argparse import ArgumentParser, Namespace
 
 from fecolumn.verification import ALL_ENGINES, CASES
 
 
-def add_arguments(parser) -> None:
+def add_arguments(parser: ArgumentParser) -> None:
     """Arguments of `fecolumn verify`."""
     parser.add_argument(
         "-o", "--output", metavar="DIR", required=True, help="folder for table and figures"
@@ -41,7 +42,7 @@ def add_arguments(parser) -> None:
     )
 
 
-def main(args) -> int:
+def main(args: Namespace) -> int:
     """Run the cases; 0 when every row holds, 1 when one does not.
 
     Raises

@@ -31,7 +31,7 @@ class NewmarkBlock:
         all it slid [m].
     """
 
-    def __init__(self, amplitude: float, frequency: float, resistance: float):
+    def __init__(self, amplitude: float, frequency: float, resistance: float) -> None:
         A, w, r = self.amplitude, self.frequency, self.resistance = amplitude, frequency, resistance
         begin, end = np.arcsin(r / A) / w, 2 * np.pi / w
         turn = brentq(
@@ -65,7 +65,7 @@ class NewmarkBlock:
         )
         return position + speed * past + driven - direction * self.resistance * past**2 / 2
 
-    def displacement(self, times) -> np.ndarray:
+    def displacement(self, times: np.ndarray) -> np.ndarray:
         """Slip [m] at `times` [s]."""
         pieces = np.searchsorted([piece[0] for piece in self._pieces], times, side="right") - 1
         return np.array(
@@ -92,10 +92,12 @@ class TurningBlock:
         how long.
     """
 
-    def __init__(self, amplitude: float, frequency: float, resistance: float, seconds: float):
+    def __init__(
+        self, amplitude: float, frequency: float, resistance: float, seconds: float
+    ) -> None:
         self.amplitude, self.frequency, self._first = amplitude, frequency, 1e-6
 
-        def rate(t, y):
+        def rate(t: float, y: np.ndarray) -> np.ndarray:
             return np.concatenate([y[2:], -self.ground(t) - resistance * y[2:] / np.hypot(*y[2:])])
 
         angle = amplitude / (2 * amplitude - resistance) * frequency * self._first

@@ -19,6 +19,8 @@ its force, up to v dt farther: 1e-2.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -26,6 +28,10 @@ from fecolumn.case.case import case_from_tables
 from fecolumn.verification.glue import glue_rows
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.structures_feet import CLOSED, closure_over_kinetic, columns_and_rows
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 _MASS, _SPEED, _STIFFNESS, _FORCE, _STEP = 200.0, 0.5, 2e5, 800.0, 2e-4
 _YIELDS, _KINETIC = _FORCE / _STIFFNESS, _MASS * _SPEED**2 / 2
@@ -52,7 +58,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
     torn: list[tuple] = []
     rows += glue_rows(engine, torn)
 
-    def draw(figure):
+    def draw(figure: Figure) -> None:
         grid = figure.subplots(1, 6, squeeze=False)[0]
         for axes, (name, way, force) in zip(grid, drawn):
             axes.plot(1e3 * way, 1e-3 * force)
@@ -66,7 +72,9 @@ def run(engine: str, long: bool = False) -> CaseRows:
     return CaseRows(rows, draw, (13.0, 2.6))
 
 
-def pushed(links: dict, engine: str, seconds: float, step: float):
+def pushed(
+    links: dict, engine: str, seconds: float, step: float
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Columns and rows of the history of a block that is pushed along x without friction, held by
     links of these keys to points 5 m behind it.
     """
@@ -113,7 +121,9 @@ def _curved() -> tuple[float, float]:
     return _YIELDS * math.acosh(cosh), _KINETIC - _FORCE * _YIELDS * (1 - 1 / cosh**2) / 2
 
 
-def _until_it_stops(name, device, far, taken, engine, step, drawn):
+def _until_it_stops(
+    name: str, device: dict, far: float, taken: float, engine: str, step: float, drawn: list[tuple]
+) -> Iterator[Row]:
     columns, rows = pushed(dict(device=device), engine, 0.4, step)
     way = columns["link/device/elongation"]
     # of the parabola through the largest and its neighbours: the block turns within a step
@@ -136,7 +146,9 @@ def _until_it_stops(name, device, far, taken, engine, step, drawn):
         drawn.append((name, way, columns["link/device/tension"]))
 
 
-def _viscous(engine, step, drawn, damping: float = 300.0, power: float = 0.5):
+def _viscous(
+    engine: str, step: float, drawn: list[tuple], damping: float = 300.0, power: float = 0.5
+) -> Iterator[Row]:
     seconds = 0.3
     keys = dict(kind="dashpot", damping_n_s_m=damping, damping_exponent=power)
     columns, rows = pushed(dict(device=keys), engine, seconds, step)
@@ -164,7 +176,7 @@ def _viscous(engine, step, drawn, damping: float = 300.0, power: float = 0.5):
         drawn.append(("viscous damper of 0.5", *of))
 
 
-def _stop(engine, drawn, gap: float = 0.01):
+def _stop(engine: str, drawn: list[tuple], gap: float = 0.01) -> Iterator[Row]:
     keys = dict(kind="stop", stiffness_n_m=_STIFFNESS, gap_m=gap, to_point_m=[5.0, 0, 0.25])
     columns, rows = pushed(dict(device=keys), engine, 0.2, _STEP)
     moved, time = columns["body/block/displacement"][:, 0], columns["time"]
@@ -188,7 +200,7 @@ def _stop(engine, drawn, gap: float = 0.01):
     drawn.append(("stop with a gap", columns["link/device/elongation"], force))
 
 
-def _ropes(engine, breaks: float = 600.0):
+def _ropes(engine: str, breaks: float = 600.0) -> Iterator[Row]:
     rope = dict(kind="tendon", stiffness_n_m=_STIFFNESS, breaking_n=breaks)
     columns, rows = pushed(
         {f"rope_{n}": rope | dict(slack_m=0.01 * n) for n in range(4)}, engine, 0.2, _STEP / 10

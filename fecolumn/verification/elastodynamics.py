@@ -35,7 +35,9 @@ space its own share of the smallest error in time; both over the logarithm of th
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import ufl
@@ -43,10 +45,16 @@ from dolfinx import fem
 from petsc4py import PETSc
 
 from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.fem.body import Body
+from fecolumn.mesh.bricks import BrickMesh
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import CaseRows, Row, order_of
 from fecolumn.verification.trial import Trial, afloat
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 # Steel of models.block_system; strains of 3e-5 keep both kinematics linear
 _SIDE, _AMPLITUDE, _SHEAR, POISSON, _DENSITY = 0.1, 1e-6, 200e9 / 2.6, 0.3, 7850.0
@@ -69,7 +77,7 @@ _ALPHAS = (0.0, -0.1, -0.333)
 _COUNTS = (16, 24, 36)
 
 
-def bricks(number: int, crooked: float):
+def bricks(number: int, crooked: float) -> BrickMesh:
     """Cube of `number` bricks a side, inner corners moved along the diagonal by `crooked` of a
     brick to and fro.
     """
@@ -83,7 +91,7 @@ def bricks(number: int, crooked: float):
     )
 
 
-def shape(x, sin, cos):
+def shape(x: Any, sin: Callable[[Any], Any], cos: Callable[[Any], Any]) -> tuple[Any, Any, Any]:
     """The mode (3,) at x, in the functions of numpy or ufl."""
     X, Y, Z = (_WAVE * x[axis] for axis in range(3))
     return cos(X) * sin(Y), -cos(Y) * (sin(X) + sin(Z)), sin(Y) * cos(Z)
@@ -135,7 +143,7 @@ def error(
     )
 
 
-def distance(column, field: np.ndarray, factor: float) -> float:
+def distance(column: Body, field: np.ndarray, factor: float) -> float:
     """L2 distance of a finite-element field (n, 3) from `factor` times the mode, over the mode's
     norm; inside the bricks, not at nodes.
     """
@@ -201,7 +209,12 @@ def run(engine: str, long: bool) -> CaseRows:
     return result
 
 
-def draw_orders(figure, spatial, steps, temporal) -> None:
+def draw_orders(
+    figure: Figure,
+    spatial: Mapping[tuple[int, float], tuple[np.ndarray, Sequence[float]]],
+    steps: np.ndarray,
+    temporal: Mapping[float, Sequence[float]],
+) -> None:
     """Displacement errors against brick size and time step, with the orders."""
     left, right = figure.subplots(1, 2)
     for (degree, crooked), (sizes, errors) in spatial.items():

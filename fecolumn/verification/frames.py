@@ -44,12 +44,15 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from fecolumn.engines.dynamics.system import State, System
 from fecolumn.engines.elements import checked_layout
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.pictures.figures.style import LINES
+from fecolumn.structures.shapes import Shape
 from fecolumn.verification import FULL
 from fecolumn.verification.models import (
     column_case,
@@ -69,6 +72,10 @@ from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import RigidRocking, Trial, solver_drift
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
 RIGID = {"base": {"youngs_modulus_pa": 1e15}}
 QUIET_STEPS = 50
 DISTURBANCE = 1e-6  # m/s
@@ -76,11 +83,11 @@ DISTURBANCE = 1e-6  # m/s
 _LOSSES = ("friction", "impact", "contact")
 
 
-def turned_system(turn, engine: str, **tables):
+def turned_system(turn: np.ndarray, engine: str, **tables: Any) -> System:
     """The coarse specimen with its body's mesh turned by `turn` (3, 3); the base stays."""
     case = column_case(engine, **tables)
 
-    def turned(shape):
+    def turned(shape: Shape) -> Shape:
         return replace(shape, mesh=replace(shape.mesh, points=shape.mesh.points @ turn.T))
 
     return system_of(case, with_shape(checked_layout(case, "verification"), turned, turn))
@@ -97,12 +104,14 @@ def run(engine: str, long: bool) -> CaseRows:
     largest, series = np.linalg.norm(reference, axis=2).max(), {}
     allowed = (drift * times).max() / largest
 
-    def standing(_, disturbance=0.0):
+    def standing(_: System, disturbance: float = 0.0) -> State:
         start = table.start.copy()
         start.v = start.v + disturbance * np.array([1.0, 0.7, 0.0])
         return start
 
-    def compare(name, path, tolerance=allowed, against=reference):
+    def compare(
+        name: str, path: np.ndarray, tolerance: float = allowed, against: np.ndarray = reference
+    ) -> None:
         difference = np.linalg.norm(path - against, axis=2).max(axis=1)
         series[name] = difference
         result.rows.append(
@@ -180,7 +189,7 @@ def run(engine: str, long: bool) -> CaseRows:
     disturbed = begin_trial(engine, system, lambda _: standing(_, DISTURBANCE)).shake(motion)
     grown = np.linalg.norm(disturbed - reference, axis=2).max(axis=1)
 
-    def draw(figure):
+    def draw(figure: Figure) -> None:
         panels, below = figure.subfigures(2, 1, height_ratios=(1, 0.3))
         left, right = panels.subplots(1, 2, width_ratios=(1, 1.5))
         left.plot(
@@ -230,7 +239,9 @@ def run(engine: str, long: bool) -> CaseRows:
 def frame_ledgers(table: Trial, inertial: InertialTrial, drift: float) -> list[Row]:
     """The ledgers of the two frames at the end, `drift` [m/s] apart."""
     of_table, of_inertial = table.energy(), inertial.trial.energy()
-    gained = inertial.trial.mechanical() - inertial.trial.ledger.start
+    start = inertial.trial.ledger.start
+    assert start is not None
+    gained = inertial.trial.mechanical() - start
     lost = sum(of_table[name] for name in (*_LOSSES, "closure"))
     allowed = 2 * drift / np.sqrt(2 * gained / table.system.body.total_mass)
     return [

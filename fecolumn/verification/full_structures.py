@@ -10,7 +10,9 @@ Where it has all of them the engines differ by the steps' unbalanced forces.
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -26,7 +28,7 @@ _ON = dict(slave="column", on="ground")
 _IMPACTS = 3
 
 
-def _block(length, width, height, size, **keys):
+def _block(length: float, width: float, height: float, size: float, **keys: Any) -> dict:
     return (
         dict(
             kind="block",
@@ -41,7 +43,7 @@ def _block(length, width, height, size, **keys):
     )
 
 
-def _slab(length, width, thickness, size, **keys):
+def _slab(length: float, width: float, thickness: float, size: float, **keys: Any) -> dict:
     return (
         dict(
             kind="slab",
@@ -56,7 +58,7 @@ def _slab(length, width, thickness, size, **keys):
     )
 
 
-def _structure(bodies, joints, initial, seconds, **tables):
+def _structure(bodies: dict, joints: dict, initial: dict, seconds: float, **tables: Any) -> dict:
     return merge(
         dict(
             bodies=bodies,
@@ -202,7 +204,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
     return CaseRows([row for name, one in structures().items() for row in _rows(name, *one)])
 
 
-def _rows(name: str, tables: dict, modes: int):
+def _rows(name: str, tables: dict, modes: int) -> Iterator[Row]:
     summary, full, reduced = histories(tables, modes)
     tilts = [key for key in full if key.startswith("body/") and key.endswith("/tilt")]
     peak = max(np.abs(full[key]).max() for key in tilts)

@@ -23,10 +23,12 @@ by the steps about it. Softening follows the law from step to step: 1e-2.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
-from fecolumn.case.case import case_from_tables
+from fecolumn.case.case import Case, case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.bonds import bonded
 from fecolumn.structures.structure import structure_model
@@ -40,7 +42,9 @@ _WAX = dict(tension_pa=_STRENGTH, bond_stiffness_n_m3=_STIFFNESS)
 _STRONG = 1e8
 
 
-def waxed_block(engine: str, joint: dict, height: float = 1.0, step: float = _STEP, **more):
+def waxed_block(
+    engine: str, joint: dict, height: float = 1.0, step: float = _STEP, **more: Any
+) -> Case:
     """Case of a block on the ground with wax of these keys below it."""
     body = dict(
         kind="block",
@@ -61,7 +65,7 @@ def waxed_block(engine: str, joint: dict, height: float = 1.0, step: float = _ST
     return case_from_tables(tables | more, "glue")
 
 
-def glue_rows(engine: str, drawn: list):
+def glue_rows(engine: str, drawn: list) -> Iterator[Row]:
     """The rows; drawn: gets names, openings [m] and stresses [Pa] of what is torn off."""
     yield from _torn_off(engine, drawn)
     yield from _sheared_off(engine)
@@ -69,7 +73,14 @@ def glue_rows(engine: str, drawn: list):
     yield from _overturned(engine)
 
 
-def _thrown(engine, joint, velocity, seconds, step=_STEP, height=1.0):
+def _thrown(
+    engine: str,
+    joint: dict,
+    velocity: list[float],
+    seconds: float,
+    step: float = _STEP,
+    height: float = 1.0,
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
     case = waxed_block(
         engine,
         joint,
@@ -83,7 +94,7 @@ def _thrown(engine, joint, velocity, seconds, step=_STEP, height=1.0):
     return columns_and_rows(case, seconds)
 
 
-def _of(columns, what: str) -> np.ndarray:
+def _of(columns: Mapping[str, np.ndarray], what: str) -> np.ndarray:
     return next(
         value
         for name, value in columns.items()
@@ -91,7 +102,7 @@ def _of(columns, what: str) -> np.ndarray:
     )
 
 
-def _torn_off(engine, drawn):
+def _torn_off(engine: str, drawn: list) -> Iterator[Row]:
     square, speed = _STIFFNESS * _AREA / _MASS, 0.06
     columns, rows = _thrown(engine, _WAX, [0.0, 0.0, speed], 0.02)
     still = GRAVITY / square
@@ -137,7 +148,7 @@ def _torn_off(engine, drawn):
         drawn.append((name, rise[: whole + 2], _of(columns, "stress")[: whole + 2]))
 
 
-def _sheared_off(engine, cohesion: float = 2e4, speed: float = 0.2):
+def _sheared_off(engine: str, cohesion: float = 2e4, speed: float = 0.2) -> Iterator[Row]:
     shear = 0.4 * _STIFFNESS
     joint = _WAX | dict(tension_pa=_STRONG, cohesion_pa=cohesion, friction_coefficient=0.0)
     columns, rows = _thrown(engine, joint, [speed, 0.0, 0.0], 0.02, _STEP / 10, height=0.1)
@@ -158,7 +169,7 @@ def _sheared_off(engine, cohesion: float = 2e4, speed: float = 0.2):
     yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(rows), CLOSED)
 
 
-def _peeled(engine, height: float = 1.0):
+def _peeled(engine: str, height: float = 1.0) -> Iterator[Row]:
     """By a long soft tendon at the top, at rest."""
     tendon = dict(
         kind="tendon",
@@ -191,7 +202,7 @@ def _peeled(engine, height: float = 1.0):
         )
 
 
-def points_of(case) -> tuple[np.ndarray, np.ndarray]:
+def points_of(case: Case) -> tuple[np.ndarray, np.ndarray]:
     """Of the points of the joint of a case of `waxed_block`: places along x from the edge at +x
     (k,) [m], and areas (k,) [m2].
     """
@@ -202,7 +213,9 @@ def points_of(case) -> tuple[np.ndarray, np.ndarray]:
     return _LENGTH / 2 - arms[:, 0], surface.areas[joint.bond.rows]
 
 
-def _overturned(engine, height: float = 1.0, most: float = 10.0, seconds: float = 2.0):
+def _overturned(
+    engine: str, height: float = 1.0, most: float = 10.0, seconds: float = 2.0
+) -> Iterator[Row]:
     case = waxed_block(engine, _WAX | dict(friction_coefficient=0.9), height, 1e-3)
     x, areas = points_of(case)
     wax = _STRENGTH * (areas @ x**2) / _LENGTH

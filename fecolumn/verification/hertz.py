@@ -40,17 +40,24 @@ share a / L of p0 / E, which friction resists.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fecolumn.case.sections import Material
 from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.system import System
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
-from fecolumn.verification.trial import contact_nodes
+from fecolumn.verification.trial import TrialState, contact_nodes
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 LARGEST, CURVATURE = 0.01, 100.0  # a under full load and R [m]
 _LENGTH = LARGEST / 8  # of the slice of the cylinder [m]
@@ -98,27 +105,27 @@ class Hertz:
         """Second moment of the pressure over P a^2."""
         return (1 / 4, 2 / 5)[self.axes - 1]
 
-    def load(self, a):
+    def load(self, a: float) -> float:
         """P [N]."""
         return (np.pi / 4 * a**2 * _LENGTH, 4 / 3 * a**3)[self.axes - 1] * self.modulus / CURVATURE
 
-    def peak(self, a):
+    def peak(self, a: float) -> float:
         """p0 [Pa]."""
         return (1 / 2, 2 / np.pi)[self.axes - 1] * a * self.modulus / CURVATURE
 
-    def softness(self, a):
+    def softness(self, a: float) -> float:
         """Approach / P without the blocks' own compliance [m/N]."""
         return (-2 * np.log(a) / (np.pi * _LENGTH), 3 / 4 / a)[self.axes - 1] / self.modulus
 
-    def steepness(self, a):
+    def steepness(self, a: float) -> float:
         """|a d softness / da| [m/N]."""
         return (2 / (np.pi * _LENGTH), 3 / 4 / a)[self.axes - 1] / self.modulus
 
-    def left(self, a):
+    def left(self, a: float) -> float:
         """What size and strains may change in the radius, relative."""
         return (a / (self.size * LARGEST)) ** (self.axes + 1) + a / CURVATURE
 
-    def allowed(self, a, h: float):
+    def allowed(self, a: float, h: float) -> float:
         """Tolerance of the radius."""
         return self.axes * h**2 / (12 * self.moment * a**2) + self.left(a)
 
@@ -165,7 +172,9 @@ def graded_lines(h: float, fine: float, far: float, growth: float) -> np.ndarray
     return np.concatenate([equal, equal[-1] + np.cumsum(steps) * (far - equal[-1]) / steps.sum()])
 
 
-def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) -> list[Pressed]:
+def press(
+    engine: str, exact: Hertz, bricks: int, radii: Iterable[float], friction: float = 0.0
+) -> list[Pressed]:
     """A block with `bricks` along the largest radius at rest under the loads that belong to `radii`
     [m].
     """
@@ -212,7 +221,9 @@ def press(engine: str, exact: Hertz, bricks: int, radii, friction: float = 0.0) 
     return found
 
 
-def measured_contact(exact: Hertz, system, state, a: float, h: float) -> Pressed:
+def measured_contact(
+    exact: Hertz, system: System, state: TrialState, a: float, h: float
+) -> Pressed:
     """What a state at rest under the load of radius `a` [m] shows."""
     squares, column = (system.interface.reference[:, : exact.axes] ** 2).sum(axis=1), system.body
     forces, p0, areas = state.forces[:, 2], exact.peak(a), contact_nodes(system)[1]
@@ -271,7 +282,7 @@ def run(engine: str, long: bool) -> CaseRows:
     return result
 
 
-def worst(quantity: str, series: dict[int, list[Pressed]]) -> list[float]:
+def worst(quantity: str, series: Mapping[int, list[Pressed]]) -> list[float]:
     """Largest error over the loads for each mesh."""
     return [max(abs(getattr(one, quantity)) for one in loads) for loads in series.values()]
 
@@ -294,7 +305,7 @@ def contact_rows(exact: Hertz, series: dict[int, list[Pressed]]) -> list[Row]:
         spring
     )
 
-    def of(quantity):
+    def of(quantity: str) -> float:
         return max((getattr(one, quantity) for one in loads), key=abs)
 
     every = max(
@@ -337,7 +348,7 @@ def contact_rows(exact: Hertz, series: dict[int, list[Pressed]]) -> list[Row]:
     ]
 
 
-def draw_contact(figure, found) -> None:
+def draw_contact(figure: Figure, found: Mapping[Hertz, Mapping[int, list[Pressed]]]) -> None:
     """Pressures, the softening of the contact with the load, and the errors."""
     profiles, (softening, errors) = figure.subplots(2, 2)
     r = np.sin(np.linspace(0, np.pi / 2, 100))
@@ -368,7 +379,10 @@ def draw_contact(figure, found) -> None:
         radii, full = np.linspace(loads[-1].a, LARGEST), loads[0]
         softening.plot(
             radii / LARGEST,
-            (exact.softness(radii) - exact.softness(LARGEST)) / exact.steepness(LARGEST),
+            [
+                (exact.softness(a) - exact.softness(LARGEST)) / exact.steepness(LARGEST)
+                for a in radii
+            ],
             "k-",
             linewidth=0.8,
             label="Hertz" if exact.axes == 1 else None,

@@ -36,15 +36,24 @@ Spectral radius: the modulus at infinity is a double eigenvalue, that perturbati
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.system import System
 from fecolumn.fem.modes import free_modes
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import afloat
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 _ALPHAS = (0.0, -0.05, -0.1, -0.2, -0.333)
 PER_PERIOD = (16, 32, 64, 128)
@@ -71,12 +80,12 @@ class Mode:
         w [rad/s].
     """
 
-    def __init__(self, engine: str):
+    def __init__(self, engine: str) -> None:
         self.engine = engine
         modes = free_modes(self.system(1e-4, 0.0).body, 7)
         self.frequency, self.shape = 2 * np.pi * modes.frequencies[6], modes.shapes[6]
 
-    def system(self, dt: float, alpha: float):
+    def system(self, dt: float, alpha: float) -> System:
         """Block above a base, nearly without weight, so that it vibrates and never lands."""
         body = box(np.linspace(-0.1, 0.1, 3), np.linspace(-0.15, 0.15, 3), np.linspace(0, 1, 7))
         return block_system(
@@ -88,7 +97,12 @@ class Mode:
         )
 
     def steps(
-        self, alpha: float, angle: float, start, count: int, amplitude: float = _AMPLITUDE
+        self,
+        alpha: float,
+        angle: float,
+        start: ArrayLike,
+        count: int,
+        amplitude: float = _AMPLITUDE,
     ) -> tuple[np.ndarray, np.ndarray, float]:
         """Z = (u, dt v, dt^2 a) of the mode (count + 1, 3) from z0 = `start`, at w dt = `angle`;
         with the mechanical energy (count + 1,) and the ledger's closure, both over the first
@@ -96,16 +110,15 @@ class Mode:
         """
         dt = angle / self.frequency
         system = self.system(dt, alpha)
-        scale = amplitude * np.array([1, 1 / dt, 1 / dt**2])
+        first, scale = np.asarray(start, float), amplitude * np.array([1, 1 / dt, 1 / dt**2])
+        moved, velocity, acceleration = (value * self.shape for value in scale * first)
         trial = begin_trial(
             self.engine,
             system,
-            lambda system: afloat(
-                system, *(value * self.shape for value in scale * start), height=1e-3
-            ),
+            lambda system: afloat(system, moved, velocity, acceleration, height=1e-3),
         )
         rest, measure = (
-            trial.state.x - scale[0] * start[0] * self.shape,
+            trial.state.x - scale[0] * first[0] * self.shape,
             system.body.momentum(self.shape),
         )
         history, energy = [np.array(start, float)], [trial.mechanical()]
@@ -281,12 +294,18 @@ def decays(
         angle = 2 * np.pi * ratio
         history, _, closure = mode.steps(alpha, angle, (1, 0, -(angle**2)), round(5 / ratio))
         both = principal(np.linalg.eigvals(amplification(alpha, angle))), of_history(history[:, 0])
-        pairs = [(damping, angle / turned - 1) for damping, turned in both]
-        found.append((*pairs, closure))
+        exact, computed = ((damping, angle / turned - 1) for damping, turned in both)
+        found.append((exact, computed, closure))
     return found
 
 
-def draw_scheme(figure, errors, damped, angles, radii) -> None:
+def draw_scheme(
+    figure: Figure,
+    errors: Mapping[float, np.ndarray],
+    damped: Mapping[float, list[tuple[tuple[float, float], tuple[float, float], float]]],
+    angles: np.ndarray,
+    radii: Mapping[float, list[float]],
+) -> None:
     """Convergence, damping ratio, period error and spectral radius against dt over the period;
     lines exact but for the first.
     """

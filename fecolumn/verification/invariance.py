@@ -23,8 +23,10 @@ import json
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from mpi4py import MPI
@@ -33,16 +35,22 @@ from fecolumn import simulation
 from fecolumn.case.case import read_case
 from fecolumn.engines.dynamics.checkpoint import read_checkpoint, write_checkpoint
 from fecolumn.engines.dynamics.history import read_history
+from fecolumn.engines.dynamics.system import State
 from fecolumn.engines.elements import checked_layout
 from fecolumn.foundation._mpi import launch_environment
 from fecolumn.foundation.toml_file import merge
 from fecolumn.pictures.figures.style import LINES
+from fecolumn.structures.layout import Layout
 from fecolumn.structures.shapes import Shape
 from fecolumn.verification import FULL
 from fecolumn.verification.models import COARSE, column_case, shaking, system_of, with_shape
 from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
-from fecolumn.verification.trial import solver_drift
+from fecolumn.verification.trial import Trial, solver_drift
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 _STEPS, SHAKEN_DT = 200, 1e-3
 TIMES = SHAKEN_DT * np.arange(1, _STEPS + 1)
@@ -56,7 +64,7 @@ def run(engine: str, long: bool) -> CaseRows:
     case, motion = column_case(engine), shaking(TIMES)
     layout, off = checked_layout(case, "verification"), {}
 
-    def trial(meshes=layout):
+    def trial(meshes: Layout = layout) -> Trial:
         return begin_trial(engine, system_of(case, meshes))
 
     whole, result = trial(), CaseRows()
@@ -98,7 +106,7 @@ def run(engine: str, long: bool) -> CaseRows:
         ),
     ]
 
-    def draw(figure):
+    def draw(figure: Figure) -> None:
         axes = figure.subplots()
         for (label, difference), (colour, dashes) in zip(off.items(), LINES):
             axes.semilogy(
@@ -120,12 +128,13 @@ def run(engine: str, long: bool) -> CaseRows:
     return result
 
 
-def interrupted(trial, motion) -> np.ndarray:
+def interrupted(trial: Callable[[], Trial], motion: np.ndarray) -> np.ndarray:
     """Path of an analysis that ends at half, and of one in a new system that goes on from its
     checkpoint.
     """
     first, half = trial(), _STEPS // 2
     before = first.shake(motion[:half])
+    assert isinstance(first.state, State)
     with tempfile.TemporaryDirectory() as folder:
         write_checkpoint(Path(folder) / "state.npz", first.system, first.state, {})
         second = trial()
@@ -148,7 +157,7 @@ def shuffled(shape: Shape, seed: int = 1) -> Shape:
     return replace(shape, mesh=mixed, ties=ties)
 
 
-def on_ranks(engine: str, n: int, motion) -> np.ndarray:
+def on_ranks(engine: str, n: int, motion: np.ndarray) -> np.ndarray:
     """Path of the top (steps + 1, 3) [m] by the command line on n ranks."""
     with tempfile.TemporaryDirectory() as folder:
         case, out = _case_file(Path(folder), engine, motion), Path(folder) / "out"
@@ -175,7 +184,7 @@ def on_ranks(engine: str, n: int, motion) -> np.ndarray:
         return read_history(out / "history.h5")["u_top"]
 
 
-def resumed(engine: str, motion, parts: int) -> np.ndarray:
+def resumed(engine: str, motion: np.ndarray, parts: int) -> np.ndarray:
     """Path of the top (steps + 1, 3) [m] of an analysis in one part, or in two by Ctrl-C at
     half.
     """
@@ -199,7 +208,7 @@ def resumed(engine: str, motion, parts: int) -> np.ndarray:
             Path(folder) / "out",
         )
 
-        def stop():
+        def stop() -> bool:
             # of a slow machine it looks sooner as well: the second frame is that at half
             return len(list((out / "fields").glob("frame_*.h5"))) > 1
 
@@ -214,7 +223,7 @@ def resumed(engine: str, motion, parts: int) -> np.ndarray:
         return read_history(out / "history.h5")["u_top"]
 
 
-def _case_file(folder: Path, engine: str, motion, more=None) -> Path:
+def _case_file(folder: Path, engine: str, motion: np.ndarray, more: dict | None = None) -> Path:
     times = SHAKEN_DT * np.arange(len(motion) + 1)
     rows = [f"{t:.17g},{a[0]:.17g},{a[1]:.17g}\n" for t, a in zip(times, [np.zeros(3), *motion])]
     (folder / "motion.csv").write_text("time [s],ax [m/s2],ay [m/s2]\n" + "".join(rows))

@@ -8,14 +8,16 @@ above has closed forms. Stones are so stiff that what their modes store is not s
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
 
@@ -30,7 +32,7 @@ INERTIA = (B**2 + H**2) / 3
 
 
 def block_tables(
-    engine: str, above: dict, below: dict | None = None, dt: float = JOINT_DT, **more
+    engine: str, above: dict, below: dict | None = None, dt: float = JOINT_DT, **more: Any
 ) -> dict:
     """Tables of a case; above, below: keys beside those of a block."""
     shape = dict(kind="block", length_m=2 * B, width_m=2 * W) if "kind" not in above else {}
@@ -51,14 +53,14 @@ def block_tables(
     )
 
 
-def engines(tables: dict):
+def engines(tables: dict) -> Callable[[], Engine]:
     """Function that makes an engine at the start of a case."""
     case = case_from_tables(tables, "verify")
     model = structure_model(case)
     return lambda: engine_of(case, model, "verify")
 
 
-def two(engine: str, above: dict, below: dict | None = None, **more):
+def two(engine: str, above: dict, below: dict | None = None, **more: Any) -> Engine:
     """Engine of a body on a heavy one; arguments as of `block_tables`."""
     return engines(block_tables(engine, above, below, **more))()
 
@@ -81,16 +83,17 @@ def rocks(near: float, far: float, inertia: float = INERTIA, end: float = 0.5) -
     middle, over the mass [m2].
     """
 
-    def turn(arm):
+    def turn(arm: float) -> Callable[[float, np.ndarray], list[float]]:
         return lambda _, state: [
             state[1],
             -GRAVITY * (arm * np.cos(state[0]) - H * np.sin(state[0])) / (inertia + arm**2 + H**2),
         ]
 
-    def lands(_, state):
+    def lands(_: object, state: np.ndarray) -> float:
         return state[0]
 
-    lands.terminal, lands.direction = True, -1
+    lands.terminal = True  # type: ignore[attr-defined]  # as solve_ivp asks for it
+    lands.direction = -1  # type: ignore[attr-defined]
     exactly = dict(rtol=1e-12, atol=1e-14, dense_output=True)
     first = solve_ivp(turn(near), (0, end), [TILT, 0.0], events=lands, **exactly)
     time, rate = float(first.t_events[0][0]), float(first.y_events[0][0][1])
@@ -106,7 +109,7 @@ def arms(displaced: float) -> tuple[float, float]:
     return B - max(displaced, 0.0), B - max(-displaced, 0.0)
 
 
-def rocked_block(made, exact: Rocks, angle: float, last: float = 0.2) -> np.ndarray:
+def rocked_block(made: Engine, exact: Rocks, angle: float, last: float = 0.2) -> np.ndarray:
     """Errors of a block let go towards `angle` [deg]: tilt before its first impact over TILT, mean
     rates in the last and next 10 ms beside the impact, tilt at the last instant [s].
 
@@ -139,7 +142,7 @@ def rocked_block(made, exact: Rocks, angle: float, last: float = 0.2) -> np.ndar
     )
 
 
-def lifts(make, push: float, towards: np.ndarray) -> float:
+def lifts(make: Callable[[], Engine], push: float, towards: np.ndarray) -> float:
     """Acceleration of the ground [m/s2] at which the body above lifts, pushed `towards` a direction
     (2,) across an edge, near a foreseen one.
 
@@ -163,7 +166,7 @@ def lifts(make, push: float, towards: np.ndarray) -> float:
 
 
 def turning_error(
-    made, push: float, towards: np.ndarray, normal: np.ndarray, apart: float, inertia: float
+    made: Engine, push: float, towards: np.ndarray, normal: np.ndarray, apart: float, inertia: float
 ) -> float:
     """Error of the angular acceleration of the body above about an edge, over that of the closed
     form; pushed `towards` a direction (2,) across it by the ground [m/s2].
@@ -186,7 +189,7 @@ def turning_error(
         rotation = made.motion.rotation[1]
         leans.append(np.arctan2(normal @ rotation[:2, 2], rotation[2, 2]))
 
-    def rate(_, state):
+    def rate(_: object, state: np.ndarray) -> list[float]:
         moment = across * (H * np.cos(state[0]) + apart * np.sin(state[0])) - GRAVITY * (
             apart * np.cos(state[0]) - H * np.sin(state[0])
         )
@@ -198,7 +201,7 @@ def turning_error(
     return (leans[2] - 2 * leans[1] + leans[0]) / (true[2] - 2 * true[1] + true[0]) - 1
 
 
-def region(angle: float, displaced, half=(B, W)) -> np.ndarray:
+def region(angle: float, displaced: ArrayLike, half: tuple[float, float] = (B, W)) -> np.ndarray:
     """Corners (n, 2) [m] from the middle of the block above of the region in which two equal faces
     overlap, one turned by an angle [deg] (Sutherland and Hodgman 1974).
     """
@@ -267,7 +270,7 @@ def tips(
     slower = np.sqrt(speed**2 - 2 * friction * GRAVITY * way)
     inertia, began = (half**2 + H**2) / 3, 2 * way / (speed + slower)
 
-    def moves(_, state):
+    def moves(_: object, state: np.ndarray) -> list[float]:
         x, z, theta, u, w, rate = state
         normal, along = (
             np.array([np.sin(theta), np.cos(theta)]),
@@ -281,10 +284,10 @@ def tips(
         a = push * (normal - friction * along) - [0.0, GRAVITY]
         return [u, w, rate, *a, push * (friction * H - arm) / inertia]
 
-    def leans(_, state):
+    def leans(_: object, state: np.ndarray) -> float:
         return state[2] - tilt
 
-    leans.terminal = True
+    leans.terminal = True  # type: ignore[attr-defined]  # as solve_ivp asks for it
     found = solve_ivp(
         moves, (0, 5), [way, H, 0.0, slower, 0.0, 0.0], rtol=1e-11, atol=1e-13, events=leans
     )

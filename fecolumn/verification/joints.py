@@ -6,6 +6,9 @@ both faces overlap, until the first impact and over it.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
@@ -29,6 +32,10 @@ from fecolumn.verification.joint_bodies import (
     two,
 )
 from fecolumn.verification.result import CaseRows, Row
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 # Angle about the vertical [deg] and displacements [m] of the block above
 _TURNED = {
@@ -58,7 +65,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
     return CaseRows(rows, lambda figure: draw_rates(engine, figure))
 
 
-def draw_rates(engine: str, figure) -> None:
+def draw_rates(engine: str, figure: Figure) -> None:
     """Rates in the 10 ms before and after the first impact over the displacement of the block
     above, beside the closed form.
     """
@@ -113,7 +120,7 @@ def displaced(engine: str, way: float, angle: float = 0.0, smaller: float = 0.0)
     return rocked_block(made, rocks(near, far, (half**2 + H**2) / 3), angle)
 
 
-def _displaced(engine: str):
+def _displaced(engine: str) -> Iterator[Row]:
     """Tilt and rates of displaced blocks, each by its closed form."""
     kinds = (
         (0.0, 0.0, "equal blocks, the upper displaced by up to 10 mm along x"),
@@ -146,7 +153,7 @@ def _displaced(engine: str):
         )
 
 
-def _lifts(engine: str):
+def _lifts(engine: str) -> Iterator[Row]:
     """The ground's acceleration at which a displaced block lifts is g (b - d) / h."""
     for name, way, towards, half in (
         ("x", 0.0, 0.0, B),
@@ -171,7 +178,7 @@ def _lifts(engine: str):
         )
 
 
-def _turned(engine: str):
+def _turned(engine: str) -> Iterator[Row]:
     """Pushed in a direction a square block turns about the edge of the region that a ray from its
     middle meets there: I w' = m (a h cos - g s).
     """
@@ -217,7 +224,7 @@ def _turned(engine: str):
             )
 
 
-def _lets_go(engine: str):
+def _lets_go(engine: str) -> Iterator[Row]:
     """Square blocks, one turned, let go over each edge of their region, and over its corners where
     it is regular: rates before and after the impact as of the plane problem.
     """

@@ -5,6 +5,7 @@ second.
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -18,11 +19,11 @@ from fecolumn.verification.result import Row
 _SIZE, _LAST = dict(element_size_m=0.1), 0.1
 
 
-def full_joint_rows():
+def full_joint_rows() -> Iterator[Row]:
     """Tilts 0.1 s after the release; the summary's closure of each run."""
     closures = []
 
-    def lean(above, below, towards):
+    def lean(above: dict, below: dict, towards: float) -> float:
         tilt, closure = _lean(above, below, towards)
         closures.append(closure)
         return tilt
@@ -64,7 +65,7 @@ def full_joint_rows():
         "equal drums: tilt 0.1 s after the release in 4 directions, largest distance "
         "from their mean over it",
         0.0,
-        float(np.abs(leans - np.mean(leans)).max() / np.mean(leans)),
+        float(np.abs(np.array(leans) - np.mean(leans)).max() / np.mean(leans)),
         1e-6,
     )
     yield Row(
@@ -76,12 +77,12 @@ def _lean(above: dict, below: dict, towards: float) -> tuple[float, float]:
     """Tilt [rad] 0.1 s after the release towards a direction [deg], and the error of the energy
     balance over the energy moved.
     """
-    sized = [
+    upper, lower = (
         {key: value for key, value in (_SIZE | one).items() if value is not None}
         for one in (above, below)
-    ]
+    )
     case = block_tables(
-        "full", *sized, dt=1e-3, initial=dict(up=dict(tilt_rad=TILT, direction_deg=towards))
+        "full", upper, lower, dt=1e-3, initial=dict(up=dict(tilt_rad=TILT, direction_deg=towards))
     )
     case["integration"]["duration_s"] = _LAST
     with tempfile.TemporaryDirectory() as folder:

@@ -4,6 +4,8 @@ over edges; energy and depth of each.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from fecolumn.engines.dynamics.energy import TERMS
@@ -24,7 +26,7 @@ from fecolumn.verification.result import Row
 _IMPACTS = 3
 
 
-def moving_joint_rows(engine: str):
+def moving_joint_rows(engine: str) -> Iterator[Row]:
     """Rows of one engine."""
     yield from _drums(engine)
     yield from _exchanged(engine)
@@ -41,7 +43,7 @@ def drum_of(engine: str) -> dict:
     )
 
 
-def _drums(engine: str):
+def _drums(engine: str) -> Iterator[Row]:
     """A round drum on an equal one rocks alike whichever way it leans, after a slide as before."""
     drum = drum_of(engine)
     for slide, way in ((0.0, 0.0), (1e-6, 0.0), (1e-6, 0.6), (1e-6, 2.0)):
@@ -123,7 +125,7 @@ def _structures(engine: str) -> dict[str, dict]:
     }
 
 
-def _exchanged(engine: str):
+def _exchanged(engine: str) -> Iterator[Row]:
     """Whoever is named first in `between`, displacements and tilts of all bodies are the same until
     the third impact.
     """
@@ -151,7 +153,7 @@ def _exchanged(engine: str):
         )
 
 
-def _slides(engine: str):
+def _slides(engine: str) -> Iterator[Row]:
     """A shorter block slides flat over the edge below and tips about it, sliding on: time and rate
     at which it leans by 0.02 rad.
     """
@@ -195,7 +197,7 @@ def _slides(engine: str):
         )
 
 
-def _keeps(engine: str):
+def _keeps(engine: str) -> Iterator[Row]:
     """Energy and depth in steps of 1e-3 s: blocks and drums let go, one shaken over the edge of a
     smaller one and back.
     """
@@ -206,7 +208,7 @@ def _keeps(engine: str):
         dict(dt=1e-3),
     )
     shaken = 6.0 * np.sin(2 * np.pi * 1.5 * time)[:, None] * [1.0, 0.4, 0.0]
-    kinds = {
+    kinds: dict[str, list[tuple[dict, dict, dict, np.ndarray]]] = {
         "blocks displaced by up to 10 mm, let go": [
             (dict(at_m=[sign * way, 0.0, BELOW]), {}, dict(initial=lean), still)
             for way in DISPLACED

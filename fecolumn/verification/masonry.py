@@ -18,6 +18,8 @@ told, half of the last.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -47,6 +49,10 @@ from fecolumn.engines.rocking.masonry_limit import (
 )
 from fecolumn.verification.result import CaseRows, Row
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
 THICKNESS, _HEIGHT = 0.4, 3.0
 
 
@@ -55,7 +61,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
     return CaseRows([*_force(), *_displacement(), *_limit(6 if long else 1)], _draw, (7.2, 2.8))
 
 
-def _force():
+def _force() -> Iterator[Row]:
     free = free_wall_multiplier(THICKNESS, _HEIGHT)
     yield Row(
         "free wall: b/h [-] (R, Eq. 9)",
@@ -138,7 +144,7 @@ def _force():
         )
 
 
-def _displacement():
+def _displacement() -> Iterator[Row]:
     rigid, imperfect = bilinear(0.1, 0.3), trilinear(0.1, 0.3, (0.13, 0.40))
     yield Row(
         "rigid wall: secant stiffness at 0.4 Delta_u over a_0/Delta_u [-] (D)",
@@ -181,11 +187,11 @@ def _displacement():
     # wall's line
     speed = 0.2
     root = 0.15 * (1 - math.sqrt(1 - 4 * speed**2 / (0.1 * GRAVITY * 0.3)))
-    found = performance_point(rigid, lambda period: speed * period / (2 * math.pi))
-    yield Row("rigid wall in a spectrum of constant velocity 0.2 m/s [m] (D)", root, found, 1e-3)
+    point = performance_point(rigid, lambda period: speed * period / (2 * math.pi))
+    yield Row("rigid wall in a spectrum of constant velocity 0.2 m/s [m] (D)", root, point, 1e-3)
 
 
-def _limit(starts: int):
+def _limit(starts: int) -> Iterator[Row]:
     for height, friction in ((1.2, 0.65), (0.5, 0.65)):
         exact = min(0.4 / height, friction)
         yield Row(
@@ -232,7 +238,7 @@ def _limit(starts: int):
     )
 
 
-def _draw(figure) -> None:
+def _draw(figure: Figure) -> None:
     from matplotlib.patches import Polygon
 
     left, right = figure.subplots(1, 2)

@@ -6,15 +6,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TypedDict, Unpack, cast
+from typing import Any, TypedDict, Unpack, cast
 
 import numpy as np
 from mpi4py import MPI
+from numpy.typing import ArrayLike
 
-from fecolumn.case.case import case_from_tables
+from fecolumn.case.case import Case, case_from_tables
 from fecolumn.case.sections import Material
 from fecolumn.contact.base_plate import BasePlate
+from fecolumn.contact.known_base import KnownBase
 from fecolumn.contact.points import GROUND
+from fecolumn.contact.unbounded_base import UnboundedBase
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.structure import kinematics_of, structure_system
 from fecolumn.engines.dynamics.system import System
@@ -51,7 +54,7 @@ AMPLITUDES = np.array([8.0, 6.0, 0.0])
 TONES = ((1, np.array([30.0, 31.0, 1.0])), (-1, np.array([75.0, 73.0, 1.0])))
 
 
-def column_case(engine: str, **tables):
+def column_case(engine: str, **tables: Any) -> Case:
     """Case of the coarse specimen; `tables`, such as contact={"friction_coefficient": 0.8}, are
     merged over it.
     """
@@ -59,19 +62,21 @@ def column_case(engine: str, **tables):
     return case_from_tables(merge(merge(COARSE, tables), {"integration": plan}), "verification")
 
 
-def column_system(engine: str, **tables) -> System:
+def column_system(engine: str, **tables: Any) -> System:
     """The coarse specimen as a system of its own on this process; that of a reduced engine is
     reduced by its trial.
     """
     return system_of(column_case(engine, **tables))
 
 
-def system_of(case, layout: Layout | None = None) -> System:
+def system_of(case: Case, layout: Layout | None = None) -> System:
     """The full-order system of a case on this process; layout: as of `full_system`."""
     return full_system(case, MPI.COMM_SELF, "verification", layout).system
 
 
-def with_shape(layout: Layout, change: Callable[[Shape], Shape], turn=None) -> Layout:
+def with_shape(
+    layout: Layout, change: Callable[[Shape], Shape], turn: np.ndarray | None = None
+) -> Layout:
     """The layout of a column with its mesh changed.
 
     Parameters
@@ -102,7 +107,11 @@ def with_shape(layout: Layout, change: Callable[[Shape], Shape], turn=None) -> L
 
 
 def on_ground(
-    model: BodyModel, base, friction: float, damping_ratio: float = 0.0, **joint
+    model: BodyModel,
+    base: BasePlate | KnownBase | UnboundedBase,
+    friction: float,
+    damping_ratio: float = 0.0,
+    **joint: Any,
 ) -> StructureModel:
     """The structure of one body, "column", whose surface "foot" stands on a ground.
 
@@ -122,7 +131,7 @@ def on_ground(
     return StructureModel((part,), joints, (), base, (0, "top"))
 
 
-def level_foot(arms: np.ndarray, areas) -> Surface:
+def level_foot(arms: np.ndarray, areas: ArrayLike) -> Surface:
     """A foot of all nodes of a model, at arms (n, 3) [m] from its centre of mass, which have
     areas (n,) [m2].
     """
@@ -139,7 +148,7 @@ def roll_on_corners(system: System) -> None:
     system.interface.interfaces["rim_count"] = 0
 
 
-def shaking(times) -> np.ndarray:
+def shaking(times: ArrayLike) -> np.ndarray:
     """Two-tone ground acceleration (n, 3) [m/s2] that slides the coarse specimen, rocks it over
     twice and lands it six times in 0.2 s.
 
@@ -150,7 +159,7 @@ def shaking(times) -> np.ndarray:
     return sum(sign * AMPLITUDES * np.cos(tone * times) for sign, tone in TONES)
 
 
-def box(x, y, z) -> BrickMesh:
+def box(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> BrickMesh:
     """Bricks between grid lines x, y, z [m], each rising."""
     return swept_grid(np.asarray(x, float), np.asarray(y, float), np.asarray(z, float), LOWER)
 
@@ -182,7 +191,7 @@ class BlockSettings(TypedDict, total=False):
     material: Material
     base_material: Material | None
     friction: float
-    gravity: Sequence[float]
+    gravity: Sequence[float] | np.ndarray
     filtered: bool
     order: int
     foot_height: float
@@ -230,7 +239,7 @@ def block_system(
     points, position = np.unique(quads, return_inverse=True)
     areas = nodal_areas(mesh.points[quads], position.reshape(quads.shape), len(points), 1)
 
-    def held(plate):
+    def held(plate: Body) -> tuple[dict, np.ndarray]:
         bottom = plate.all_X[:, 2].min()
         return {}, np.flatnonzero(plate.all_X[:, 2] < bottom + 1e-9 * np.ptp(plate.all_X[:, 2]))
 

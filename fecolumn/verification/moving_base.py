@@ -5,14 +5,20 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import accumulate
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from fecolumn.engines.dynamics.booking import StepMade
+from fecolumn.engines.dynamics.energy import Ledger
+from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.interface import ContactInterface
 from fecolumn.engines.dynamics.stepper import Stepper
+from fecolumn.engines.dynamics.system import State, System
 from fecolumn.verification.models import AMPLITUDES, TONES
 from fecolumn.verification.trial import Trial
 
@@ -32,12 +38,12 @@ class MovingInterface(ContactInterface):
         the last one is the end of the step.
     """
 
-    def __init__(self, still: ContactInterface):
+    def __init__(self, still: ContactInterface) -> None:
         super().__init__(still.composite, still.foot, still.bases, still.joints)
         self.position, self.first = np.zeros(3), np.zeros(3)
         self.known_velocities: list = []
 
-    def begin_step(self, *args):
+    def begin_step(self, *args: Any) -> Any:
         """Begin a step with the base where it was at the start of it."""
         end, self.position = self.position, self.first
         try:
@@ -45,11 +51,11 @@ class MovingInterface(ContactInterface):
         finally:
             self.position = end
 
-    def positions(self, x, *args):
+    def positions(self, x: np.ndarray, *args: Any) -> np.ndarray:
         """Positions [m] of the contact points relative to the moving base."""
         return super().positions(x, *args) - self.position
 
-    def velocities(self, v, *args):
+    def velocities(self, v: np.ndarray, *args: Any) -> np.ndarray:
         """Velocities [m/s] of the contact points relative to the moving base."""
         base = next(
             (base for known, base in self.known_velocities if known is v),
@@ -71,7 +77,7 @@ class MovingStepper(Stepper):
         of the base so far [J].
     """
 
-    def __init__(self, system, ledger, path):
+    def __init__(self, system: System, ledger: Ledger, path: BasePath) -> None:
         super().__init__(system, ledger)
         self.path, self.base, self.work, self._moved = (
             path,
@@ -80,7 +86,7 @@ class MovingStepper(Stepper):
             np.zeros(3),
         )
 
-    def _part(self, state, ground, hht):
+    def _part(self, state: State, ground: np.ndarray, hht: HHT) -> State:
         interface, first = self.system.interface, self.base
         last = self.path(hht, first, ground, state.time + hht.dt)
         self._moved = last.position - first.position
@@ -104,7 +110,7 @@ class MovingStepper(Stepper):
         self.base, after.ground = last, np.array(ground, float)
         return after
 
-    def _book(self, made):
+    def _book(self, made: StepMade) -> float:
         return super()._book(made) - float(made.after.forces.sum(axis=0) @ self._moved)
 
 
@@ -118,24 +124,25 @@ class InertialTrial:
         Trial of the absolute motion; its ledger has no base work.
     """
 
-    def __init__(self, system, start, path):
+    def __init__(self, system: System, start: Callable[[System], State], path: BasePath) -> None:
         moving = copy.copy(system)
         moving.interface = MovingInterface(system.interface)
         self.trial = Trial(moving, start)
-        self.trial.stepper = MovingStepper(moving, self.trial.ledger, path)
+        self._stepper = MovingStepper(moving, self.trial.ledger, path)
+        self.trial.stepper = self._stepper
 
     @property
     def work(self) -> float:
         """Of the base so far [J]."""
-        return self.trial.stepper.work
+        return self._stepper.work
 
-    def shake(self, accelerations) -> np.ndarray:
+    def shake(self, accelerations: np.ndarray) -> np.ndarray:
         """Displacements (n, 2, 3) [m] of top and foot relative to the base, which `accelerations`
         (n, 3) [m/s2] shake from rest at 0.
         """
         return np.array(
             [
-                self.trial.shake([ground])[0] - self.trial.stepper.base.position
+                self.trial.shake([ground])[0] - self._stepper.base.position
                 for ground in accelerations
             ]
         )
@@ -152,7 +159,12 @@ class BaseMotion(NamedTuple):
     blended: np.ndarray
 
 
-def by_hht(hht, base: BaseMotion, acceleration, time: float) -> BaseMotion:
+#: The base a step later: of HHT, the base at the start of the step, its acceleration (3,) [m/s2]
+#: and the time [s] at the end.
+BasePath = Callable[[HHT, BaseMotion, np.ndarray, float], BaseMotion]
+
+
+def by_hht(hht: HHT, base: BaseMotion, acceleration: np.ndarray, time: float) -> BaseMotion:
     """The base a step of `hht` later, under `acceleration` (3,) [m/s2] then, by the formulas of
     HHT.
     """
@@ -167,13 +179,13 @@ def by_hht(hht, base: BaseMotion, acceleration, time: float) -> BaseMotion:
     )
 
 
-def on_exact_path(hht, base: BaseMotion, acceleration, time: float) -> BaseMotion:
+def on_exact_path(hht: HHT, base: BaseMotion, acceleration: np.ndarray, time: float) -> BaseMotion:
     """The base of `shaking` at `time` [s]."""
     position, velocity = exact_path([time])
     return BaseMotion(position[0], velocity[0], np.array(acceleration, float), base.blended)
 
 
-def hht_path(hht, accelerations) -> tuple[np.ndarray, np.ndarray]:
+def hht_path(hht: HHT, accelerations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Positions and velocities (n, 3) of the base under accelerations (n, 3) at whole steps, from
     rest, by the formulas of HHT.
     """
@@ -187,7 +199,7 @@ def hht_path(hht, accelerations) -> tuple[np.ndarray, np.ndarray]:
     return np.array([base.position for base in bases]), np.array([base.velocity for base in bases])
 
 
-def exact_path(times) -> tuple[np.ndarray, np.ndarray]:
+def exact_path(times: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
     """Positions and velocities (n, 3) of the base in `shaking`, from rest."""
     times = np.asarray(times)[:, None]
     return (

@@ -8,12 +8,13 @@ neighbouring faces are equal; rigid bodies, steps of 1e-3 s.
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import meshio
 import numpy as np
 
-from fecolumn.case.case import case_from_tables
+from fecolumn.case.case import Case, case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.structure import structure_model
@@ -46,7 +47,7 @@ _OUTCOMES = {
 }
 
 
-def multi_drum_rows():
+def multi_drum_rows() -> Iterator[Row]:
     """Whether it overturns where the planar program says so."""
     with tempfile.TemporaryDirectory() as folder:
         case = drum_case(Path(folder))
@@ -91,7 +92,7 @@ def drums_of_column() -> list[np.ndarray]:
     ]
 
 
-def drum_case(folder: Path):
+def drum_case(folder: Path) -> Case:
     """Case of the column; the drums are mesh files in the folder, 1 m deep."""
     bodies, joints = {}, {}
     for k, ((a, low), (b, high)) in enumerate(drum[[1, 3]] for drum in drums_of_column()):

@@ -44,6 +44,7 @@ lies between the polygons'.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -51,13 +52,19 @@ from fecolumn.case.sections import Material
 from fecolumn.contact.projection import nodes_under
 from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.engines.dynamics.hht import HHT
-from fecolumn.mesh.bricks import LOWER, UPPER
-from fecolumn.mesh.column import divisions, section
+from fecolumn.engines.dynamics.system import System
+from fecolumn.mesh.bricks import LOWER, UPPER, BrickMesh
+from fecolumn.mesh.column import divisions, round_section
 from fecolumn.mesh.gmsh_section import swept_grid
+from fecolumn.mesh.upright import Upright
 from fecolumn.verification.models import block_system, column_case
 from fecolumn.verification.result import CaseRows, Row, order_of
 from fecolumn.verification.tied import STRETCH, column_of, end_areas, tied_blocks
 from fecolumn.verification.trial import Trial, contact_nodes
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 _SIDE, _HEIGHT = 1.0, 0.5  # [m] of each block
 # Soft, so that displacements of 5 um stand clear of the contact's 1e-12 m
@@ -101,7 +108,7 @@ def run(engine: str, long: bool) -> CaseRows:
     ]
     result.rows += tie_rows(engine)
 
-    def draw(figure):
+    def draw(figure: Figure) -> None:
         left, right = figure.subfigures(1, 2, width_ratios=(1.25, 1))
         maps, errors = left.subplots(1, 2), right.subplots()
         for axes, (foot, base) in zip(maps, pairs):
@@ -174,7 +181,9 @@ def even(n: int) -> np.ndarray:
     return np.linspace(0, _SIDE, n + 1)
 
 
-def block_on_block(engine: str, foot, base, distortion: float = 0.0):
+def block_on_block(
+    engine: str, foot: np.ndarray, base: np.ndarray, distortion: float = 0.0
+) -> System:
     """System of a block with grid lines `foot` [m] along x, mirrored along y, on one with lines
     `base`.
 
@@ -183,7 +192,7 @@ def block_on_block(engine: str, foot, base, distortion: float = 0.0):
     """
     random = np.random.default_rng(1)
 
-    def block(lines, bottom):
+    def block(lines: np.ndarray, bottom: float) -> BrickMesh:
         z = bottom + np.linspace(0, _HEIGHT, 2 * max(1, round((len(lines) - 1) / 4)) + 1)
         mesh = swept_grid(lines, lines[0] + lines[-1] - lines[::-1], z, LOWER)
         inside = np.all(
@@ -246,7 +255,9 @@ class StandingBlock:
     pressures: np.ndarray
 
 
-def stand(engine: str, foot, base, distortion: float = 0.0) -> StandingBlock:
+def stand(
+    engine: str, foot: np.ndarray, base: np.ndarray, distortion: float = 0.0
+) -> StandingBlock:
     """Gravity equilibrium of `block_on_block`."""
     system = block_on_block(engine, foot, base, distortion)
     state, plate, points = standing(system), system.base, system.interface.reference
@@ -358,20 +369,21 @@ def tie_rows(engine: str) -> list[Row]:
             ),
         ]
     moved, lower, upper = column_of(column_case(engine, cap=False)).pulled()
-    case = case.short
-    column, fine = case.column, case.column.fine_height_m
+    assert case.short is not None
+    short: Upright = case.short
+    column, fine = short.column, short.column.fine_height_m
     ratio = lower.sum() / upper.sum()
     found = moved[:, 2] @ (upper / upper.sum() - lower / lower.sum())
-    half = np.pi / section(case, UPPER).n_around
-    apart = case.mean_radius_m * (1 - np.cos(half) / np.cos(np.linspace(-half, half, 101)))
+    half = np.pi / round_section(short, UPPER).n_around
+    apart = short.mean_radius_m * (1 - np.cos(half) / np.cos(np.linspace(-half, half, 101)))
     bent = (
         12
         * np.mean(apart**2)
         / column.wall_m**2
         * np.pi
-        * np.sqrt(case.mean_radius_m * column.wall_m)
+        * np.sqrt(short.mean_radius_m * column.wall_m)
     )
-    layer = fine / divisions(fine, case.mesh.fine_size_m) * abs(ratio - 1)
+    layer = fine / divisions(fine, short.mesh.fine_size_m) * abs(ratio - 1)
     rows.append(
         Row(
             "coarse specimen without cap: elongation under tension [m]",

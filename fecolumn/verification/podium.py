@@ -16,6 +16,8 @@ p)^4, 1e-6. Energy: fourth-order steps of T_n/30 leave 1e-6.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -29,6 +31,10 @@ from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES
 from fecolumn.motions.record import GroundMotion
 from fecolumn.verification.podium_structure import ALPHA, GAMMA
 from fecolumn.verification.result import CaseRows, Row
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 #: eta to restitution CRV, CAV and kinetic energy kept CRV, CAV, of tan alpha = 0.15 and gamma = 10
 #: [D]
@@ -48,7 +54,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
     )
 
 
-def _impacts():
+def _impacts() -> Iterator[Row]:
     for eta, (*restitution, kept_crv, kept_cav) in _KEPT.items():
         for law, exact, energy in zip(LAWS, restitution, (kept_crv, kept_cav)):
             yield Row(
@@ -67,7 +73,7 @@ def _impacts():
             )
 
 
-def _buildings():
+def _buildings() -> Iterator[Row]:
     for profile, shape in PROFILES.items():
         building = storeys(profile, 6, 1e5, 0.6)
         first, wanted = building.shapes[:, 0] / building.shapes[-1, 0], shape(np.arange(1, 7) / 6)
@@ -94,7 +100,7 @@ def _buildings():
         )
 
 
-def _sizes():
+def _sizes() -> Iterator[Row]:
     podium = study_podium("shear", 6, CRV)
     yield Row(
         "p of a column [rad/s] (D, g 9.81)",
@@ -153,7 +159,7 @@ def steady_shear(podium: Podium) -> float:
     return float(abs(rows[lifted - 1, PODIUM_SHEAR]) * podium.building_mass / podium.static_shear)
 
 
-def _stiff():
+def _stiff() -> Iterator[Row]:
     frame, rest = (
         RockingFrame.of(1, ALPHA, 1.5, 1e4, 4e5),
         GroundMotion(np.zeros((401, 3)), 0.01, "at rest", ""),
@@ -176,7 +182,7 @@ def _stiff():
         )
 
 
-def _energies():
+def _energies() -> Iterator[Row]:
     rng = np.random.default_rng(7)
     noise = np.convolve(rng.normal(size=1500), np.hanning(25), "same")
     motion = GroundMotion(
@@ -198,7 +204,7 @@ def _energies():
             )
 
 
-def _draw(figure) -> None:
+def _draw(figure: Figure) -> None:
     left, right = figure.subplots(1, 2)
     alphas = np.linspace(0.05, 0.35)
     for eta, dashes in zip((0, 3, 6, 9), ("-", "--", "-.", ":")):

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from fecolumn.case.case import case_from_tables
+from fecolumn.case.case import Case, case_from_tables
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.structures.structure import structure_model
@@ -20,10 +20,10 @@ HALF_DIAGONAL, ALPHA, GAMMA = 1.5, math.atan(0.15), 10.0
 STIFF = 1e14
 
 
-def let_go(case, seconds: float) -> dict[str, np.ndarray]:
+def let_go(case: Case, seconds: float) -> dict[str, np.ndarray]:
     """Columns of the history of a structure that is let go on ground at rest."""
     engine = engine_of(case, structure_model(case), "case")
-    rows, _ = engine.advance(np.zeros((round(seconds / case.integration.dt_s), 3)))
+    rows, _ = engine.advance(np.zeros((round(seconds / float(case.integration.dt_s)), 3)))
     return columns_of(np.concatenate([engine.made[:0], rows]), engine.model)
 
 
@@ -34,7 +34,7 @@ def podium_case(
     dt: float,
     column: dict | None = None,
     building: dict | None = None,
-):
+) -> Case:
     """The podium of [P] in bodies, let go at a tilt [rad]; period: of the building on a fixed slab
     [s].
 

@@ -4,25 +4,29 @@ and static flexibility.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
 from weakref import WeakKeyDictionary
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.dynamics.gravity import standing
-from fecolumn.engines.dynamics.system import State
+from fecolumn.engines.dynamics.system import State, System
 from fecolumn.engines.reduced import start as starts
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, RATE
-from fecolumn.engines.reduced.motion import copy
+from fecolumn.engines.reduced.engine import Engine
+from fecolumn.engines.reduced.motion import MotionState, copy
 from fecolumn.engines.reduced.observe import COLUMNS
 from fecolumn.engines.reduced_engine import engine_on
+from fecolumn.fem.body import Body
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.structures.reduction import with_elasticity
 from fecolumn.verification import FULL
-from fecolumn.verification.trial import N_MODES, Trial, highest_nodes
+from fecolumn.verification.trial import N_MODES, Trial, TrialState, highest_nodes
 
 # what is known of a body: making it takes seconds, and one body serves many trials
 _REDUCED: WeakKeyDictionary = WeakKeyDictionary()
@@ -41,7 +45,7 @@ class ReducedColumn:
         (3 n_owned, 6) rigid motions and M times them.
     """
 
-    def __init__(self, system, n_modes: int):
+    def __init__(self, system: System, n_modes: int) -> None:
         body, top = system.body, highest_nodes(system.body)
         free = 3 * (body.n_nodes - len(body.constraint.nodes)) - 6
         self.model, self.shapes = with_elasticity(
@@ -54,14 +58,14 @@ class ReducedColumn:
         self.rigid, self.momentum, self.masses = rigid_fields(body)
 
     @classmethod
-    def of(cls, system, n_modes: int) -> ReducedColumn:
+    def of(cls, system: System, n_modes: int) -> ReducedColumn:
         """That of a system, made once."""
         known = _REDUCED.setdefault(system.body, {})
         if n_modes not in known:
             known[n_modes] = cls(system, n_modes)
         return known[n_modes]
 
-    def projected(self, engine, state, system):
+    def projected(self, engine: Engine, state: State, system: System) -> MotionState:
         """The MotionState that a full-order State is, seen by the rigid motions and the modes:
         their momenta, not their values at nodes.
         """
@@ -71,7 +75,7 @@ class ReducedColumn:
             {"time": state.time, "static": state.static, "ground": state.ground},
         )
 
-        def modal(field):
+        def modal(field: np.ndarray) -> np.ndarray:
             return np.tensordot(self.shapes, body.momentum(field), axes=2)
 
         center, rotation = body.node_mass @ state.x / body.total_mass, state.rotation[0]
@@ -106,7 +110,7 @@ class Expanded:
     motion and modes.
     """
 
-    def __init__(self, engine, reduction: ReducedColumn, column):
+    def __init__(self, engine: Engine, reduction: ReducedColumn, column: Body) -> None:
         self._motion, self._reduction, self._column = engine.motion_at_rest(), reduction, column
         copy(engine.motion, self._motion)
         motion = self._motion
@@ -185,12 +189,14 @@ class ReducedTrial(Trial):
         elastic modes with inertia, at most those there are.
     """
 
-    def __init__(self, system, start=standing, n_modes: int = N_MODES):
+    def __init__(
+        self, system: System, start: Callable[[System], State] = standing, n_modes: int = N_MODES
+    ) -> None:
         self.system, self.penetration = system, 0.0
         self.reduction = ReducedColumn.of(system, n_modes)
         first = None if start is standing else start(system)
 
-        def begin(engine):
+        def begin(engine: Engine) -> MotionState:
             return (
                 starts.gravity_equilibrium(engine)
                 if first is None
@@ -205,7 +211,7 @@ class ReducedTrial(Trial):
     def _state(self) -> Expanded:
         return Expanded(self.engine, self.reduction, self.system.body)
 
-    def step(self, ground=(0.0, 0.0, 0.0)):
+    def step(self, ground: ArrayLike = (0.0, 0.0, 0.0)) -> TrialState:
         """Advance by one step under a ground acceleration (3,) [m/s2]; the new state."""
         self.engine.advance(np.asarray(ground, float)[None])
         self.state = self._state()
@@ -223,7 +229,11 @@ class ReducedTrial(Trial):
 
 
 def begin_trial(
-    engine: str, system, start=standing, impact: str = "plastic", n_modes: int = N_MODES
+    engine: str,
+    system: System,
+    start: Callable[[System], State] = standing,
+    impact: str = "plastic",
+    n_modes: int = N_MODES,
 ) -> Trial:
     """A trial of a system in an engine of `verification.ELEMENTS`; arguments as of `Trial`, n_modes
     of `ReducedTrial`.

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +58,6 @@ class CaseRows:
     size: tuple[float, float] = (7.2, 2.8)
 
 
-def order_of(sizes, errors) -> float:
+def order_of(sizes: ArrayLike, errors: ArrayLike) -> float:
     """Order of convergence: slope of ln error over ln size, by least squares."""
     return float(np.polyfit(np.log(sizes), np.log(errors), 1)[0])

@@ -33,16 +33,24 @@ seventh.)
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 from scipy.optimize import brentq
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.gravity import tilted
+from fecolumn.engines.dynamics.system import State, System
 from fecolumn.fem.rotation import tilt_angle
 from fecolumn.verification.models import STEEL, column_system
 from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import RigidRocking, Trial
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 _AMPLITUDES = (0.1, 0.2, 0.4, 0.6, 0.8)
 _MODULI = (2e10, STEEL, 2e13)
@@ -73,7 +81,7 @@ def run(engine: str, long: bool) -> CaseRows:
     if whole:
         result.rows += setting_rows(engine) + [between_nodes(engine)]
 
-    def draw(figure):
+    def draw(figure: Figure) -> None:
         left, right = figure.subplots(1, 2)
         fine = np.linspace(0.02, 0.9, 60)
         factor = periods[0][1] / np.arccosh(1 / (1 - periods[0][0]))
@@ -115,7 +123,7 @@ def run(engine: str, long: bool) -> CaseRows:
     return result
 
 
-def ramp(trial: Trial, exact: float, until) -> float:
+def ramp(trial: Trial, exact: float, until: Callable[[Trial], bool]) -> float:
     """Ground acceleration [m/s2] at which `until(trial)` first holds: ramped fast to 90 % of what
     is expected, then slowly.
     """
@@ -147,7 +155,7 @@ def uplift_accelerations(trial: Trial) -> tuple[float, float]:
 
 
 def release(
-    engine: str, amplitude: float, azimuth: float = 0.0, **tables
+    engine: str, amplitude: float, azimuth: float = 0.0, **tables: Any
 ) -> tuple[float, float, Trial, RigidRocking]:
     """Quarter period [s] and energy lost at the first impact [J] of a release at `amplitude` of the
     critical tilt towards +x, or a little beside it [rad].
@@ -156,7 +164,7 @@ def release(
     return *rocked_trial(trial, amplitude), trial, RigidRocking(trial.system)
 
 
-def leaning_start(amplitude: float, azimuth: float = 0.0):
+def leaning_start(amplitude: float, azimuth: float = 0.0) -> Callable[[System], State]:
     """Start of a trial at `amplitude` of the critical tilt, at rest."""
     return lambda system: tilted(system, amplitude * RigidRocking(system).slenderness, azimuth)
 
@@ -211,7 +219,7 @@ def impact_losses(engine: str, modulus: float, dt: float) -> list[tuple[float, f
     """
     found = []
     for amplitude in (0.4, 0.403, 0.407):
-        stiffness = {
+        stiffness: dict[str, Any] = {
             "material": {"youngs_modulus_pa": modulus},
             "base": {"youngs_modulus_pa": modulus},
         }
@@ -223,7 +231,9 @@ def impact_losses(engine: str, modulus: float, dt: float) -> list[tuple[float, f
     return found
 
 
-def loss_rows(losses) -> list[Row]:
+def loss_rows(
+    losses: Mapping[float, Mapping[float, list[tuple[float, float, float]]]],
+) -> list[Row]:
     """Rows of the loss at the first impact: rigid limit with its order in dt, and that steel loses
     no more than rigid.
     """
@@ -267,7 +277,7 @@ def loss_rows(losses) -> list[Row]:
 def setting_rows(engine: str) -> list[Row]:
     """Loss of the first impact [J] as alpha_HHT and the brick size change: it must not."""
     reference, rows = None, []
-    settings = [
+    settings: list[tuple[str, dict[str, Any]]] = [
         (f"alpha_HHT {alpha:g}", {"integration": {"alpha_hht": alpha}})
         for alpha in (0.0, -0.05, -0.2, -0.333)
     ]
@@ -295,7 +305,7 @@ def between_nodes(engine: str) -> Row:
     """Loss of the first impact [J] in a direction between the nodes of the rim, as over them; E 100
     x steel.
     """
-    stiff = {
+    stiff: dict[str, Any] = {
         "material": {"youngs_modulus_pa": max(_MODULI)},
         "base": {"youngs_modulus_pa": max(_MODULI)},
     }
@@ -331,7 +341,7 @@ def overturning(engine: str) -> Row:
     )
     exact = GRAVITY * np.tan(rigid.slenderness) / np.sin(psi)
 
-    def overturns(amplitude):
+    def overturns(amplitude: float) -> bool:
         trial = begin_trial(engine, system)
         # Shi's pulse starts where it lifts the column
         onset = np.arcsin(GRAVITY * np.tan(rigid.slenderness) / amplitude) / frequency

@@ -26,6 +26,8 @@ of its own; by the equation of [M] at alpha = 10 degrees it does between 11 and 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
@@ -59,7 +61,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
     )
 
 
-def _impacts():
+def _impacts() -> Iterator[Row]:
     for mu, printed in ((1, 0.25), (2, 0.70), (4, 0.91), (8, 0.98)):
         yield Row(
             f"restitution e_H of h/b = {mu} [-] (R, Eq. 3)",
@@ -100,7 +102,7 @@ def _impacts():
     )
 
 
-def _roof():
+def _roof() -> Iterator[Row]:
     mass, roof, h, width = 2000.0 * 0.6 * 3.0, 800.0, 1.5, 0.6
     plane = RockingBlock.of_section(
         BlockSection(width_m=width, height_m=2 * h, roof_mass_kg=roof), "wall"
@@ -120,7 +122,7 @@ def _roof():
     )
 
 
-def _frames():
+def _frames() -> Iterator[Row]:
     bent = RockingFrame.of_section(
         FrameSection(width_m=1.6, height_m=9.6, column_mass_kg=1e5, beam_mass_kg=8e5), "bent"
     )
@@ -217,8 +219,8 @@ def _frames():
     )
 
 
-def _restrained_frame():
-    keys = dict(
+def _restrained_frame() -> Iterator[Row]:
+    keys: dict[str, Any] = dict(
         columns=4,
         slenderness_rad=0.1359,
         half_diagonal_m=1.463 / 2,

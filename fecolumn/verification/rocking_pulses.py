@@ -5,6 +5,8 @@ tolerances.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -23,6 +25,10 @@ from fecolumn.engines.rocking.overturning import (
 )
 from fecolumn.engines.rocking.swing import PEAK_TILT, rock_one, row_of_block
 from fecolumn.verification.result import Row
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 TEN = math.radians(10)
 #: Least a_p/(g tan alpha) that overturns a block of alpha = 10 degrees, and the impacts before, by
@@ -83,7 +89,7 @@ _BOUNDARY = 0.005
 MOST = 16
 
 
-def overturning_rows():
+def overturning_rows() -> Iterator[Row]:
     """Rows of pulses that overturn a block, in the order of their table."""
     yield from _closed_forms()
     yield from _boundaries()
@@ -92,7 +98,7 @@ def overturning_rows():
     yield from _worst_impulses()
 
 
-def _closed_forms():
+def _closed_forms() -> Iterator[Row]:
     for ratio, (psi, amplitude) in HALF_SINE.items():
         yield Row(
             f"half-sine, w_p/p {ratio:g}: psi [rad] (D of M, Eq. 25)",
@@ -152,7 +158,7 @@ def _closed_forms():
         )
 
 
-def _boundaries():
+def _boundaries() -> Iterator[Row]:
     for shape, lowest in LOWEST.items():
         for ratio, (amplitude, impacts) in lowest.items():
             found, before = lowest_overturning(shape, ratio, amplitude)
@@ -210,7 +216,7 @@ def _boundaries():
         )
 
 
-def _several_impacts():
+def _several_impacts() -> Iterator[Row]:
     """Overturning after two impacts or more up to 14 g tan(alpha): Fig. 7 of M has it for both
     Rickers, and none for the one-sine.
     """
@@ -232,7 +238,7 @@ def _several_impacts():
         )
 
 
-def _worst_impulses():
+def _worst_impulses() -> Iterator[Row]:
     """Impulses at every impact after Casapulla, Jossa and Maione (2010): the last of them
     overturns, 0.2 % less does not.
     """
@@ -277,7 +283,7 @@ def lowest_overturning(shape: str, frequency: float, expected: float) -> tuple[f
     return (float(grid[fallen[0]]), int(found[fallen[0]])) if len(fallen) else (math.nan, -1)
 
 
-def _gaps():
+def _gaps() -> Iterator[Row]:
     for ratio, (low, high) in GAPS.items():
         bands = overturning_bands(
             "one_sine", ratio, TEN, lowest=0.8 * low, highest=1.2 * high, points=121
@@ -297,7 +303,7 @@ def _gaps():
         )
 
 
-def draw_overturning(figure) -> None:
+def draw_overturning(figure: Figure) -> None:
     """Least amplitudes that overturn, computed and of the reference."""
     axes = figure.subplots()
     for number, (shape, lowest) in enumerate(LOWEST.items()):

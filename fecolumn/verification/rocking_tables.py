@@ -18,7 +18,9 @@ from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -30,6 +32,10 @@ from fecolumn.engines.rocking.overturning import (
 )
 from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.verification.result import CaseRows, Row
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 _TABLES = Path(__file__).with_name("tables")
 _GAMMA = 10.0  # of the podium's table
@@ -54,7 +60,7 @@ def read(name: str) -> list[dict[str, str]]:
         return list(csv.DictReader(text))
 
 
-def _restitutions():
+def _restitutions() -> Iterator[Row]:
     rows = read("podium_restitution")
     for law in LAWS:
         off = max(
@@ -69,7 +75,7 @@ def _restitutions():
         )
 
 
-def _half_sines():
+def _half_sines() -> Iterator[Row]:
     rows = read("half_sine")
     ratios = [float(row["omega_p_over_p"]) for row in rows]
     for words, key, found, digit in (
@@ -88,7 +94,7 @@ def _half_sines():
         )
 
 
-def _bands(rows):
+def _bands(rows: list[dict[str, str]]) -> Iterator[Row]:
     for shape in dict.fromkeys(row["pulse"] for row in rows):
         missed, count = lost_bands(shape, rows)
         yield Row(
@@ -96,7 +102,7 @@ def _bands(rows):
         )
 
 
-def lost_bands(shape: str, rows) -> tuple[int, int]:
+def lost_bands(shape: str, rows: list[dict[str, str]]) -> tuple[int, int]:
     """Bands of a pulse that are not found within both of their ends, and all that are looked
     for.
     """
@@ -127,7 +133,7 @@ def lost_bands(shape: str, rows) -> tuple[int, int]:
     return missed, count
 
 
-def _draw(figure, rows) -> None:
+def _draw(figure: Figure, rows: list[dict[str, str]]) -> None:
     shapes = list(dict.fromkeys(row["pulse"] for row in rows))
     for axes, shape in zip(figure.subplots(1, len(shapes), sharey=True), shapes):
         for row in rows:

@@ -4,6 +4,7 @@ the rim cost.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.system import System
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +38,7 @@ class RollingRim:
     height: float
 
     @classmethod
-    def of(cls, system) -> RollingRim:
+    def of(cls, system: System) -> RollingRim:
         """That of a system's column, from its consistent mass and the farthest nodes of its
         foot.
         """
@@ -131,16 +133,16 @@ class RollingRim:
         y = np.concatenate([start.as_quat(), start.inv().apply(self.angular_velocity(tilt, spin))])
         time, foot, path = 0.0, 0, []
 
-        def down(y):
+        def down(y: np.ndarray) -> np.ndarray:
             return Rotation.from_quat(y[:4]).as_matrix()[2]
 
-        def about(point):
+        def about(point: np.ndarray) -> np.ndarray:
             return centre + self.mass * (point @ point * np.eye(3) - np.outer(point, point))
 
-        def turning(point):
+        def turning(point: np.ndarray) -> Callable[[float, np.ndarray], np.ndarray]:
             inertia, inverse = about(point), np.linalg.inv(about(point))
 
-            def rate(t, y):
+            def rate(t: float, y: np.ndarray) -> np.ndarray:
                 spin = y[4:]
                 moment = self.mass * GRAVITY * np.cross(point, down(y))
                 attitude = (np.append(y[3] * spin + np.cross(y[:3], spin), -y[:3] @ spin)) / 2
@@ -150,7 +152,7 @@ class RollingRim:
 
             return rate
 
-        def record():
+        def record() -> None:
             turn = Rotation.from_quat(y[:4]).as_matrix()
             kinetic = y[4:] @ about(corner[foot]) @ y[4:] / 2
             path.append(
@@ -168,7 +170,8 @@ class RollingRim:
                 lambda t, y, edge=corner[n] - corner[foot]: down(y) @ edge for n in neighbours
             ]
             for event in events:
-                event.terminal, event.direction = True, -1
+                event.terminal = True  # type: ignore[attr-defined]  # as solve_ivp asks for it
+                event.direction = -1  # type: ignore[attr-defined]
             found = solve_ivp(
                 turning(corner[foot]),
                 (time, seconds),

@@ -31,21 +31,28 @@ foot's width. Same E: the bound above.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.dynamics.system import System
 from fecolumn.foundation.toml_file import merge
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import COARSE, STEEL, column_system, shaking
 from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
-from fecolumn.verification.trial import solver_drift
+from fecolumn.verification.trial import Trial, solver_drift
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 _STEP = 1e-3  # s, of the first specimen
 _LOSSES = ("friction", "impact", "contact")
 
 
-def sized_system(engine: str, size: float, modulus: float):
+def sized_system(engine: str, size: float, modulus: float) -> System:
     """System of the coarse specimen `size` times larger, of Young's modulus `modulus` [Pa], with a
     step sqrt(size) times longer.
     """
@@ -70,12 +77,12 @@ def run(engine: str, long: bool) -> CaseRows:
     steps = 200 if long or engine != "total_lagrangian" else 125
     diameter, times = COARSE["column"]["outer_diameter_m"], _STEP * np.arange(1, steps + 1)
 
-    def analysed(size, modulus):
+    def analysed(size: float, modulus: float) -> tuple[np.ndarray, Trial]:
         """Path of top and foot over the diameter, (n, 2, 3), and the trial."""
         trial = begin_trial(engine, sized_system(engine, size, modulus))
         return trial.shake(shaking(times)) / (size * diameter), trial
 
-    def apart(path, other):
+    def apart(path: np.ndarray, other: np.ndarray) -> np.ndarray:
         return np.linalg.norm(path - other, axis=2).max(axis=1)
 
     first, trial = analysed(1, STEEL)
@@ -131,7 +138,7 @@ def run(engine: str, long: bool) -> CaseRows:
         ),
     ]
 
-    def draw(figure):
+    def draw(figure: Figure) -> None:
         panels, below = figure.subfigures(2, 1, height_ratios=(1, 0.2))
         left, right = panels.subplots(1, 2)
         scaled = times * np.sqrt(GRAVITY / diameter)

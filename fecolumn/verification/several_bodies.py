@@ -4,6 +4,8 @@ rocking frames against closed forms (manual: theory, section 7).
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
@@ -27,21 +29,21 @@ def run(engine: str, long: bool = False) -> CaseRows:
     )
 
 
-def closure(rows) -> float:
+def closure(rows: np.ndarray) -> float:
     """Largest error of the energy balance over the energy moved."""
     return float(
         np.abs(rows[:, WIDTH - 1] - rows[0, WIDTH - 1]).max() / np.ptp(rows[:, ENERGY + 2])
     )
 
 
-def _rest(seconds: float):
+def _rest(seconds: float) -> Iterator[Row]:
     for name, made in (("stack of two", stack()), ("slab on four columns", frame(4)[0])):
         rows, _ = made.advance(np.zeros((int(1000 * seconds), 3)))
         drift = np.abs(rows[:, 1:4] - rows[0, 1:4]).max()
         yield Row(f"{name} at rest: drift of the top in {seconds:g} s [m]", 0.0, drift, 1e-9)
 
 
-def _rocking_on_a_body():
+def _rocking_on_a_body() -> Iterator[Row]:
     """Quarter period and loss of a block on another one, 46 times its mass (Housner 1963)."""
     dt = 5e-4
     made, alpha, p = block_on_a_heavy_one(dt)
@@ -58,7 +60,9 @@ def _rocking_on_a_body():
     )
 
 
-def _swing(tilt, before: int, alpha, p, dt):
+def _swing(
+    tilt: np.ndarray, before: int, alpha: float, p: float, dt: float
+) -> tuple[int, int, float]:
     """Places of the largest of the first tilts and of the impact after it, and the quarter period
     acosh(1 / (1 - theta / alpha)) / p of that tilt.
     """
@@ -67,7 +71,7 @@ def _swing(tilt, before: int, alpha, p, dt):
     return top, top + int(np.argmin(tilt[top : top + int(1.2 * quarter / dt)])), quarter
 
 
-def _left(tilt, top: int, back: int, quarter: float, alpha, dt) -> float:
+def _left(tilt: np.ndarray, top: int, back: int, quarter: float, alpha: float, dt: float) -> float:
     """Share of the energy that the impact at `back` leaves, by the tilts at which rocking turns
     round before and after it.
     """
@@ -75,7 +79,7 @@ def _left(tilt, top: int, back: int, quarter: float, alpha, dt) -> float:
     return (np.cos(alpha - again) - np.cos(alpha)) / (np.cos(alpha - tilt[top]) - np.cos(alpha))
 
 
-def _frame(columns: int):
+def _frame(columns: int) -> Iterator[Row]:
     """Makris and Vassiliou (2013): uplift at g tan(alpha), p_hat = p sqrt((1 + 2 g) / (1 + 3 g)), g
     the slab's mass over that of the columns.
     """
@@ -119,7 +123,7 @@ def _frame(columns: int):
     )
 
 
-def _bents():
+def _bents() -> Iterator[Row]:
     """What the first impact of a bent of rigid bodies takes, as Makris and Vassiliou (2013) say,
     whatever the step and the cap's mass: within 1 % of it, as is asked for.
     """
@@ -143,7 +147,7 @@ def _bents():
             )
 
 
-def _order():
+def _order() -> Iterator[Row]:
     ground = sine_pulse(4.0, 1.0, 1000)
     first, other = (frame(4, order)[0].advance(ground)[0] for order in (None, [3, 1, 4, 0, 2]))
     yield Row(
@@ -154,7 +158,7 @@ def _order():
     )
 
 
-def _energy():
+def _energy() -> Iterator[Row]:
     rows, _ = stack().advance(sine_pulse(7.0, 0.66, 1000))
     yield Row(
         "stack of which both blocks rock: error of the energy balance over the energy moved",

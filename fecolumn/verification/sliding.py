@@ -38,17 +38,25 @@ sway, 1e-3 mu m g, is left.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.system import State, System
 from fecolumn.verification.coulomb_block import NewmarkBlock, TurningBlock
 from fecolumn.verification.models import block_system, box, column_system
 from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.rocking import ramp
 from fecolumn.verification.trial import Trial
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 SLOPE, FRICTION = 0.3, 0.3
 RESISTANCE = FRICTION * GRAVITY
@@ -69,6 +77,13 @@ MARKS = {
 }
 
 
+#: Exact block, times [s], slip [m] at them, friction energy over mu m g [m] of a pulse.
+SinePulse = tuple[NewmarkBlock, np.ndarray, np.ndarray, float]
+#: Error of the slip [m], path (n, 2) [m], exact path, largest angle between friction and -velocity
+#: [rad] on ground that turns.
+TurningSlide = tuple[float, np.ndarray, np.ndarray, float]
+
+
 def run(engine: str, long: bool) -> CaseRows:
     """All but total Lagrangian, which is slow: it leaves out the column on the ramp unless
     `long`.
@@ -84,7 +99,7 @@ def run(engine: str, long: bool) -> CaseRows:
     turns = {dt: two_directions(engine, dt) for dt in _STEPS}
     result.rows += pulse_rows(pulses) + turn_rows(turns) + [rest(engine)]
 
-    def draw(figure):
+    def draw(figure: Figure) -> None:
         left, middle, right = figure.subplots(1, 3)
         fine = np.linspace(0, 0.7, 300)
         left.plot(
@@ -130,7 +145,12 @@ def run(engine: str, long: bool) -> CaseRows:
     return result
 
 
-def block(engine: str, dt: float, friction: float = FRICTION, gravity=(0.0, 0.0, -GRAVITY)):
+def block(
+    engine: str,
+    dt: float,
+    friction: float = FRICTION,
+    gravity: Sequence[float] | np.ndarray = (0.0, 0.0, -GRAVITY),
+) -> System:
     """0.2 x 0.2 x 0.06 m of steel on a wide plate of steel."""
     sides, wide = np.linspace(-0.1, 0.1, 3), np.linspace(-0.6, 0.6, 3)
     return block_system(
@@ -143,7 +163,7 @@ def block(engine: str, dt: float, friction: float = FRICTION, gravity=(0.0, 0.0,
     )
 
 
-def glued(system):
+def glued(system: System) -> State:
     """Equilibrium of a block that does not slip, to be let go."""
     points = system.interface.points
     friction, points["friction"] = points["friction"].copy(), 100.0
@@ -158,7 +178,7 @@ def centre(trial: Trial) -> np.ndarray:
     return column.node_mass @ trial.state.x / column.total_mass
 
 
-def on_slope(engine: str, share: float, start=glued) -> Trial:
+def on_slope(engine: str, share: float, start: Callable[[System], State] = glued) -> Trial:
     """A block on the slope with friction `share` tan(slope)."""
     return begin_trial(
         engine,
@@ -217,7 +237,7 @@ def slipped(trial: Trial, friction: float, slip: float = 1e-6) -> float:
     return ramp(
         trial,
         friction * GRAVITY,
-        lambda trial: (
+        lambda trial: bool(
             np.linalg.norm((trial.state.anchors - trial.start.anchors).mean(axis=0)) > slip
         ),
     )
@@ -241,7 +261,7 @@ def threshold(engine: str) -> Row:
     )
 
 
-def one_sine(engine: str, dt: float, shift: float):
+def one_sine(engine: str, dt: float, shift: float) -> SinePulse:
     """(exact block, times [s], slip [m] at them, friction energy / mu m g [m]) under a pulse that
     starts `shift` dt late.
     """
@@ -270,7 +290,7 @@ def one_sine(engine: str, dt: float, shift: float):
     )
 
 
-def mean_errors(pulses) -> list[float]:
+def mean_errors(pulses: Mapping[float, list[SinePulse]]) -> list[float]:
     """Error of the distance [m] by step size, mean over the shifts."""
     return [
         float(np.mean([abs(path[-1] - exact.distance) for exact, _, path, _ in runs]))
@@ -278,7 +298,7 @@ def mean_errors(pulses) -> list[float]:
     ]
 
 
-def pulse_rows(pulses) -> list[Row]:
+def pulse_rows(pulses: Mapping[float, list[SinePulse]]) -> list[Row]:
     """Distance of the worst shift and friction energy, with the order in dt of the mean error."""
     order, rows = np.polyfit(np.log(_STEPS), np.log(mean_errors(pulses)), 1)[0], []
     for dt, runs in pulses.items():
@@ -305,13 +325,13 @@ def pulse_rows(pulses) -> list[Row]:
     return rows
 
 
-def two_directions(engine: str, dt: float, seconds: float = 0.6):
+def two_directions(engine: str, dt: float, seconds: float = 0.6) -> TurningSlide:
     """(error of the slip [m], path (n, 2) [m], exact path, largest angle between friction and
     -velocity [rad]).
     """
     exact = TurningBlock(_AMPLITUDE, _FREQUENCY, RESISTANCE, seconds)
 
-    def moving(system):
+    def moving(system: System) -> State:
         state = standing(system)  # at rest, the base's acceleration just begun
         state.ground[:2] = exact.ground(0.0)
         state.a -= state.ground
@@ -330,18 +350,18 @@ def two_directions(engine: str, dt: float, seconds: float = 0.6):
             abs(np.arctan2(force[1] * velocity[0] - force[0] * velocity[1], -force @ velocity))
         )
     ode = np.array([exact.displacement(dt * k) for k in range(len(path))])
-    return np.linalg.norm(path[-1] - ode[-1]), np.array(path), ode, max(angles)
+    return float(np.linalg.norm(path[-1] - ode[-1])), np.array(path), ode, float(max(angles))
 
 
-def turn_rows(turns) -> list[Row]:
+def turn_rows(turns: Mapping[float, TurningSlide]) -> list[Row]:
     """Slip after the ground has turned, and the direction of friction, with their orders in dt."""
     w, T, rows = _FREQUENCY, 0.6, []
     order, direction = (
-        np.polyfit(np.log(_STEPS), np.log([turn[k] for turn in turns.values()]), 1)[0]
-        for k in (0, 3)
+        np.polyfit(np.log(_STEPS), np.log(values), 1)[0]
+        for values in ([turn[0] for turn in turns.values()], [turn[3] for turn in turns.values()])
     )
     for dt, (error, _, ode, _) in turns.items():
-        size = np.linalg.norm(ode[-1])
+        size = float(np.linalg.norm(ode[-1]))
         rows.append(
             Row(
                 f"slip under turning ground, dt {dt:g} s, distance to exact [m]",
@@ -370,7 +390,7 @@ def rest(engine: str) -> Row:
     """
     dt = 1e-3
 
-    def pushed(system):
+    def pushed(system: System) -> State:
         state = standing(system)
         state.v[:, 0] = 16.5 * RESISTANCE * dt
         return state

@@ -18,15 +18,18 @@ one step's turn at the release.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
-from fecolumn.case.case import case_from_tables
+from fecolumn.case.case import Case, case_from_tables
 from fecolumn.case.model_sections import CRV, WobblingFrameSection
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
 from fecolumn.foundation._compiled import interpreted
+from fecolumn.motions.record import GroundMotion
 from fecolumn.verification.podium_bodies import podium_rows
 from fecolumn.verification.podium_structure import (
     STIFF,
@@ -46,7 +49,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
     return CaseRows([*_forces(), *_impact(), *_path(4.0 if long else 1.0), *podium_rows()])
 
 
-def frame_model(**keys) -> WobblingFrame:
+def frame_model(**keys: Any) -> WobblingFrame:
     """The tested frame [W] as the model with two degrees of freedom."""
     return WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN | keys), "specimen")
 
@@ -62,7 +65,7 @@ def rolling_start(frame: WobblingFrame, tilt: float, turn: float = 0.0) -> dict:
     )
 
 
-def frame_case(frame: WobblingFrame, initial: dict, dt: float):
+def frame_case(frame: WobblingFrame, initial: dict, dt: float) -> Case:
     """The same frame of bodies that are rigid but for their contact points."""
     radius, _, height, mass, slab, *_, stiffness, _, _ = frame.body
     body = dict(rigid=True, youngs_modulus_pa=STIFF, poissons_ratio=0.2)
@@ -112,7 +115,9 @@ def frame_case(frame: WobblingFrame, initial: dict, dt: float):
     )
 
 
-def restoring_force(frame: WobblingFrame, rows: dict, tilt: float, settled=_SETTLED) -> float:
+def restoring_force(
+    frame: WobblingFrame, rows: dict, tilt: float, settled: tuple[float, float] = _SETTLED
+) -> float:
     """Horizontal force [N] that rights a frame let go at a tilt: inertia of the mechanism times the
     slab's first acceleration.
     """
@@ -128,7 +133,7 @@ def restoring_force(frame: WobblingFrame, rows: dict, tilt: float, settled=_SETT
     )
 
 
-def _forces():
+def _forces() -> Iterator[Row]:
     frame, found = frame_model(), []
     for tilt in _TILTS:
         displacement, exact = frame.pushover(tilt)
@@ -148,7 +153,8 @@ def _forces():
             found[-1][1],
             5e-3,
         )
-    slope, force = np.polyfit(*np.array(found).T, 1)
+    ways, forces = np.array(found).T
+    slope, force = np.polyfit(ways, forces, 1)
     yield Row("the same: force at uplift [kN] (D of W)", 13.15, force / 1e3, 0.01)
     yield Row("the same: slope after uplift [kN/m] (D of W)", -34.8, slope / 1e3, 0.03)
     yield Row("the same: displacement capacity [m] (D of W)", 0.378, -force / slope, 0.03)
@@ -169,7 +175,7 @@ def planar_restitution(frame: WobblingFrame) -> float:
     )
 
 
-def _impact():
+def _impact() -> Iterator[Row]:
     """The frame without tendons: falls upright and rises on the other side."""
     frame, tilt = frame_model(tendon_n_m=0.0), 0.03
     rows = let_go(frame_case(frame, rolling_start(frame, tilt), 5e-4), 0.75)
@@ -190,7 +196,7 @@ def _impact():
     )
 
 
-def _still(seconds: float, dt: float = 2e-3):
+def _still(seconds: float, dt: float = 2e-3) -> GroundMotion:
     from fecolumn.motions.record import GroundMotion
 
     return GroundMotion(np.zeros((round(seconds / dt) + 1, 3)), dt, "at rest", "")
@@ -208,7 +214,7 @@ def slab_path(frame: WobblingFrame, tilt: float, turn: float, time: np.ndarray) 
     return along[:, None] * np.column_stack([np.cos(azimuth), np.sin(azimuth)])
 
 
-def _path(seconds: float):
+def _path(seconds: float) -> Iterator[Row]:
     frame, tilt, turn = frame_model(), 0.05, 1.5
     rows = let_go(frame_case(frame, rolling_start(frame, tilt, turn), 1e-3), seconds)
     exact = slab_path(frame, tilt, turn, rows["time"])

@@ -22,15 +22,18 @@ block: as in `several_bodies`.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 from scipy.integrate import quad
 
-from fecolumn.case.case import case_from_tables
+from fecolumn.case.case import Case, case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.reduced.observe import ENERGY, WIDTH
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.engines.structure_analysis import columns_of
+from fecolumn.structures.model import BodyModel
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.result import CaseRows, Row
 
@@ -76,7 +79,7 @@ class Rolling:
         of the sphere, half: radius of the dome's edge [m].
     """
 
-    def __init__(self, model, radius: float, half: float = math.inf):
+    def __init__(self, model: BodyModel, radius: float, half: float = math.inf) -> None:
         self.mass, self.inertia, self.height, self.radius, self.half = (
             model.mass,
             float(model.inertia[1, 1]),
@@ -120,7 +123,9 @@ class Rolling:
         """Time [s] from upright to the largest tilt."""
         energy = self.potential(amplitude)
 
-        def slowness(angle):  # tilt = amplitude sin(angle): without the singular end
+        def slowness(
+            angle: float,
+        ) -> float:  # tilt = amplitude sin(angle): without the singular end
             tilt = amplitude * math.sin(angle)
             left = max(2 * (energy - self.potential(tilt)) / self.moving(tilt), 1e-300)
             return amplitude * math.cos(angle) / math.sqrt(left)
@@ -139,8 +144,13 @@ class Rolling:
 
 
 def case_of(
-    bodies: dict, joints: dict, engine: str, dt: float, initial=None, friction: float = 0.7
-):
+    bodies: dict,
+    joints: dict,
+    engine: str,
+    dt: float,
+    initial: dict | None = None,
+    friction: float = 0.7,
+) -> Case:
     """Case of a structure that nothing shakes."""
     return case_from_tables(
         dict(
@@ -155,7 +165,9 @@ def case_of(
     )
 
 
-def alone_on_ground(body: dict, engine: str, dt: float, friction: float = 0.7, **initial):
+def alone_on_ground(
+    body: dict, engine: str, dt: float, friction: float = 0.7, **initial: Any
+) -> Case:
     """Case of a body by itself on the ground."""
     return case_of(
         dict(body=body),
@@ -167,11 +179,14 @@ def alone_on_ground(body: dict, engine: str, dt: float, friction: float = 0.7, *
     )
 
 
-def columns_and_rows(case, seconds: float, ground=None) -> tuple[dict[str, np.ndarray], np.ndarray]:
+def columns_and_rows(
+    case: Case, seconds: float, ground: np.ndarray | None = None
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Columns of the history, and the rows."""
     made = engine_of(case, structure_model(case), "case")
-    grounds = np.zeros((round(seconds / case.integration.dt_s), 3)) if ground is None else ground
-    rows, _ = made.advance(grounds)
+    if ground is None:
+        ground = np.zeros((round(seconds / float(case.integration.dt_s)), 3))
+    rows, _ = made.advance(ground)
     return columns_of(rows, made.model), rows
 
 
@@ -199,7 +214,9 @@ def kept(rows: dict, columns: np.ndarray, dt: float) -> float:
     return float(energy[last] / energy[first])
 
 
-def _swings(name: str, body: dict, engine: str, dt: float = 1e-3, amplitude: float = 0.05):
+def _swings(
+    name: str, body: dict, engine: str, dt: float = 1e-3, amplitude: float = 0.05
+) -> Iterator[Row]:
     rolling = Rolling(
         structure_model(alone_on_ground(body, engine, dt)).parts[0].model, body["foot_radius_m"]
     )
@@ -224,7 +241,7 @@ def _swings(name: str, body: dict, engine: str, dt: float = 1e-3, amplitude: flo
     yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(columns), CLOSED)
 
 
-def _overturns(engine: str, dt: float = 1e-4):
+def _overturns(engine: str, dt: float = 1e-4) -> Iterator[Row]:
     """A test tube, whose bottom is half a sphere: its centre of mass is above that of the
     sphere.
     """
@@ -245,7 +262,7 @@ def _overturns(engine: str, dt: float = 1e-4):
     yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(columns), CLOSED)
 
 
-def _over_the_edge(engine: str, dt: float = 1e-3):
+def _over_the_edge(engine: str, dt: float = 1e-3) -> Iterator[Row]:
     """A drum thrown so far that it goes over the edge of its dome and comes back."""
     body = DRUM | dict(foot_radius_m=1.2)
     rolling = Rolling(structure_model(alone_on_ground(body, engine, dt)).parts[0].model, 1.2, 0.25)
@@ -271,7 +288,7 @@ def _over_the_edge(engine: str, dt: float = 1e-3):
     yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(columns), CLOSED)
 
 
-def _slides(engine: str, dt: float = 1e-4):
+def _slides(engine: str, dt: float = 1e-4) -> Iterator[Row]:
     friction, speed = 0.1, 1.0
     rows, columns = columns_and_rows(
         alone_on_ground(
@@ -288,7 +305,7 @@ def _slides(engine: str, dt: float = 1e-4):
     )
 
 
-def _rests(engine: str, dt: float = 4e-3, share: float = 0.02):
+def _rests(engine: str, dt: float = 4e-3, share: float = 0.02) -> Iterator[Row]:
     """Pushed slowly by a steady acceleration, a body leans until e sin q g = a (rho - e cos q)."""
     body = BLOCK | dict(foot_radius_m=0.9)
     rolling = Rolling(structure_model(alone_on_ground(body, engine, dt)).parts[0].model, 0.9)
@@ -308,7 +325,9 @@ def _rests(engine: str, dt: float = 4e-3, share: float = 0.02):
     yield Row(f"marble block on a dome: tilt under {share:g} g [rad]", exact, tilt, 1e-4)
 
 
-def _rounded(engine: str, dt: float = 5e-4, radius: float = 0.05, tilt: float = 0.1):
+def _rounded(
+    engine: str, dt: float = 5e-4, radius: float = 0.05, tilt: float = 0.1
+) -> Iterator[Row]:
     """A block let go on its rounded edge: time until it is upright."""
     body = BLOCK | dict(edge_radius_m=radius)
     rows, columns = columns_and_rows(alone_on_ground(body, engine, dt, tilt_rad=tilt), 0.45)
@@ -323,16 +342,16 @@ def _rounded(engine: str, dt: float = 5e-4, radius: float = 0.05, tilt: float = 
     yield Row("the same: error of the energy balance", 0.0, closure_over_kinetic(columns), CLOSED)
 
 
-def falls(model, half: float, radius: float, tilt: float) -> float:
+def falls(model: BodyModel, half: float, radius: float, tilt: float) -> float:
     """Time [s] from rest at a tilt [rad] to upright of a body that rolls on an edge of a radius,
     whose centre is `half` from the middle, both [m].
     """
     up, inertia = float(model.center[2]) - radius, float(model.inertia[1, 1])
 
-    def level(angle):
+    def level(angle: float) -> float:
         return radius + up * math.cos(angle) + half * math.sin(angle)
 
-    def slowness(s):  # angle = tilt (1 - s^2): without the singular beginning
+    def slowness(s: float) -> float:  # angle = tilt (1 - s^2): without the singular beginning
         angle = tilt * (1 - s * s)
         across = half * math.cos(angle) - up * math.sin(angle)
         square = (
@@ -347,7 +366,7 @@ def falls(model, half: float, radius: float, tilt: float) -> float:
     return quad(slowness, 1e-6, 1.0, epsrel=1e-9)[0]
 
 
-def narrower_case(engine: str, dt: float, tilt: float):
+def narrower_case(engine: str, dt: float, tilt: float) -> Case:
     """A light block 0.9 m wide, no node of which is over the edges of a heavy one of 0.4 m on which
     it stands.
     """
@@ -373,7 +392,7 @@ def narrower_case(engine: str, dt: float, tilt: float):
     )
 
 
-def _narrower(engine: str, dt: float = 5e-4, tilt: float = 0.05):
+def _narrower(engine: str, dt: float = 5e-4, tilt: float = 0.05) -> Iterator[Row]:
     """Housner's block with the half width of the narrow one: (I + m (h^2 - b^2)) / (I + m (h^2 +
     b^2)) of the rate is left at an impact.
     """

@@ -7,14 +7,19 @@ import importlib
 import io
 import os
 import time
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from fecolumn.foundation.atomic import write_bytes
 from fecolumn.verification import ALL_ENGINES, CASES
 from fecolumn.verification.result import Row
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _WIDTH = 74
 
@@ -35,7 +40,7 @@ class Finding:
         return not self.failure and all(row.ok for row in self.rows)
 
 
-def tasks(name: str = "", engines=ALL_ENGINES) -> list[tuple[str, str]]:
+def tasks(name: str = "", engines: Iterable[str] = ALL_ENGINES) -> list[tuple[str, str]]:
     """(case, engine) pairs of the suite whose case's name contains `name`."""
     return [
         (case, engine)
@@ -52,7 +57,7 @@ def run_case(case: str, engine: str, folder: Path | None = None, long: bool = Fa
     try:
         result = module.run(engine, long)
         if folder and result.draw:
-            _draw(result, folder / f"{case}_{engine}")
+            _draw(result.draw, result.size, folder / f"{case}_{engine}")
     except Exception as error:  # one case that breaks must not hide the others
         import traceback
 
@@ -63,16 +68,22 @@ def run_case(case: str, engine: str, folder: Path | None = None, long: bool = Fa
     return Finding(case, engine, tuple(result.rows), time.perf_counter() - began)
 
 
-def _draw(result, path: Path) -> None:
+def _draw(draw: Callable[[Figure], object], size: tuple[float, float], path: Path | str) -> None:
     from fecolumn.pictures.figures.style import new_figure, save, styled
 
     with styled():
-        figure = new_figure(*result.size)
-        result.draw(figure)
+        figure = new_figure(*size)
+        draw(figure)
         save(figure, path)
 
 
-def verify(pairs, folder: Path, long: bool = False, workers: int = 1, show=print) -> list[Finding]:
+def verify(
+    pairs: Sequence[tuple[str, str]],
+    folder: Path,
+    long: bool = False,
+    workers: int = 1,
+    show: Callable[[str], object] = print,
+) -> list[Finding]:
     """Run (case, engine) pairs in worker processes, show each as it ends, write table.csv and
     figures into `folder`.
     """
@@ -118,7 +129,7 @@ def finding_lines(finding: Finding) -> str:
     return "\n".join(text)
 
 
-def verdict(findings) -> str:
+def verdict(findings: Sequence[Finding]) -> str:
     """How many rows hold and how many cases do not, after the names of what does not hold, one a
     line.
     """
@@ -148,7 +159,7 @@ def _wrong(finding: Finding) -> list[str]:
     )
 
 
-def _csv(findings) -> str:
+def _csv(findings: Sequence[Finding]) -> str:
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(

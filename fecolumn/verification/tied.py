@@ -6,12 +6,14 @@ from typing import Any
 
 import numpy as np
 
+from fecolumn.case.case import Case
 from fecolumn.case.sections import Material
 from fecolumn.engines.dynamics.structure import kinematics_of
 from fecolumn.engines.elements import checked_layout
+from fecolumn.fem.body import Body
 from fecolumn.fem.effective import effective_factor
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.mesh.bricks import LOWER, UPPER, boundary_faces, merged_mesh
+from fecolumn.mesh.bricks import LOWER, UPPER, BrickMesh, boundary_faces, merged_mesh
 from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas
 from fecolumn.mesh.tie import adjust, tie
@@ -26,12 +28,12 @@ STRETCH = 1e-7
 _INERTIA = 1e4
 
 
-def tied_blocks(engine: str, lower, upper, height: float) -> Tied:
+def tied_blocks(engine: str, lower: np.ndarray, upper: np.ndarray, height: float) -> Tied:
     """Two blocks of steel, each `height` [m] high, the lower with grid lines `lower` [m] along x
     and y tied to the upper.
     """
 
-    def block(lines, bottom, part):
+    def block(lines: np.ndarray, bottom: float, part: int) -> BrickMesh:
         return swept_grid(
             lines, lines, bottom + np.linspace(0, height, 1 + round((len(lines) - 1) / 2)), part
         )
@@ -41,13 +43,13 @@ def tied_blocks(engine: str, lower, upper, height: float) -> Tied:
     return Tied(engine, Shape(adjust(mesh, ties), ties, 1, height), Material())
 
 
-def column_of(case) -> Tied:
+def column_of(case: Case) -> Tied:
     """The column of a case with its ties."""
     drawing: Any = checked_layout(case, "verification").drawings["column"]
     return Tied(case.integration.kinematics, drawing.shape, drawing.material)
 
 
-def end_areas(body, mesh, z: float) -> np.ndarray:
+def end_areas(body: Body, mesh: BrickMesh, z: float) -> np.ndarray:
     """Tributary areas (n_owned,) [m2] of a body's nodes in its end at height z [m], nil
     elsewhere.
     """
@@ -70,7 +72,7 @@ class Tied:
         "corotated" or "total_lagrangian".
     """
 
-    def __init__(self, kinematics: str, shape: Shape, material: Material):
+    def __init__(self, kinematics: str, shape: Shape, material: Material) -> None:
         self.body, self.mesh = body_of(shape, material), shape.mesh
         self.kinematics = kinematics_of(kinematics)(self.body)
         # of the strain 1 [J]

@@ -2,27 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.case.sections import GRAVITY, Integration
 from fecolumn.engines.dynamics.energy import TERMS, Ledger
 from fecolumn.engines.dynamics.gravity import standing
 from fecolumn.engines.dynamics.stepper import Stepper
-from fecolumn.engines.dynamics.system import State
+from fecolumn.engines.dynamics.system import State, System
+from fecolumn.fem.body import Body
+from fecolumn.structures.model import BodyModel
 
 #: Elastic modes with inertia of the engine "reduced": a case's default.
 N_MODES = Integration().n_modes
 
 
-def highest_nodes(body) -> np.ndarray:
+def highest_nodes(body: Body) -> np.ndarray:
     """Nodes (n,) of a `fem.body.Body` at its greatest height."""
     height = body.all_X[:, 2]
     return np.flatnonzero(height > height.max() - 1e-9 * np.ptp(height))
 
 
-def contact_nodes(system) -> tuple[np.ndarray, np.ndarray]:
+def contact_nodes(system: System) -> tuple[np.ndarray, np.ndarray]:
     """Nodes (n,) of a column that are its contact points, and the areas (n,) [m2] that belong to
     them, in the order of the contact forces of a State.
     """
@@ -30,7 +35,13 @@ def contact_nodes(system) -> tuple[np.ndarray, np.ndarray]:
     return system.interface.foot.nodes[0][surface.nodes], surface.areas
 
 
-def afloat(system, displacement, velocity, acceleration, height: float) -> State:
+def afloat(
+    system: System,
+    displacement: np.ndarray,
+    velocity: ArrayLike,
+    acceleration: ArrayLike,
+    height: float,
+) -> State:
     """A body `height` [m] above its reference place, touching nothing, with fields (n_owned, 3) in
     SI units at t = 0.
 
@@ -38,6 +49,45 @@ def afloat(system, displacement, velocity, acceleration, height: float) -> State
     """
     state = system.unstrained(system.body.X + [0.0, 0.0, height] + displacement)
     return replace(state, v=np.array(velocity, float), a=np.array(acceleration, float))
+
+
+class TrialState(Protocol):
+    """What is read of the state of a trial; `dynamics.system.State` is one."""
+
+    @property
+    def time(self) -> float:
+        """[s]."""
+
+    @property
+    def x(self) -> np.ndarray:
+        """Positions (n, 3) [m] of the nodes."""
+
+    @property
+    def v(self) -> np.ndarray:
+        """Velocities (n, 3) [m/s] of the nodes."""
+
+    @property
+    def a(self) -> np.ndarray:
+        """Accelerations (n, 3) [m/s2] of the nodes, as of State."""
+
+    @property
+    def rotation(self) -> np.ndarray:
+        """Mean rotations (nb, 3, 3) of the bodies."""
+
+    @property
+    def forces(self) -> np.ndarray:
+        """Contact forces (P, 3) [N] on the slaves."""
+
+    @property
+    def anchors(self) -> np.ndarray:
+        """Positions (P, 2) [m] at which the points stick."""
+
+    @property
+    def relative(self) -> np.ndarray:
+        """Positions (P, 3) [m] of the points relative to ground or master."""
+
+    def copy(self) -> State:
+        """A full-order State with arrays of its own."""
 
 
 class Trial:
@@ -60,23 +110,27 @@ class Trial:
         deepest so far [m].
     """
 
-    def __init__(self, system, start=standing, impact: str = "plastic"):
+    def __init__(
+        self, system: System, start: Callable[[System], State] = standing, impact: str = "plastic"
+    ) -> None:
         self.system = system
-        self.state = self.start = start(system)
+        self.state: TrialState = start(system)
+        self.start: TrialState = self.state
         self.ledger = Ledger(system)
         self.ledger.open(self.state)
         self.stepper = Stepper(system, self.ledger, impact)
         self.penetration = 0.0
 
-    def step(self, ground=(0.0, 0.0, 0.0)):
+    def step(self, ground: ArrayLike = (0.0, 0.0, 0.0)) -> TrialState:
         """Advance by the system's dt under a ground acceleration [m/s2] at the new time; returns
         the state.
         """
+        assert isinstance(self.state, State)
         self.state = self.stepper.step(self.state, np.asarray(ground, float))
         self.penetration = max(self.penetration, -float(self.state.relative[:, 2].min()))
         return self.state
 
-    def shake(self, accelerations) -> np.ndarray:
+    def shake(self, accelerations: Iterable[ArrayLike]) -> np.ndarray:
         """Displacements (n, 2, 3) [m] of the middles of top and foot after each step under ground
         accelerations (n, 3) [m/s2].
         """
@@ -103,7 +157,7 @@ class Trial:
         return self.state.x[node] - self.system.body.X[node]
 
 
-def solver_drift(system, times, tolerance: float = 1e-7) -> np.ndarray:
+def solver_drift(system: System, times: ArrayLike, tolerance: float = 1e-7) -> np.ndarray:
     """Velocity (n,) [m/s] by which the solver may let an analysis that began at 0 drift until
     `times` (n,) [s].
 
@@ -134,7 +188,7 @@ class RigidRocking:
         1 - 2 m R^2 sin^2(alpha) / I_O [-].
     """
 
-    def __init__(self, system):
+    def __init__(self, system: System) -> None:
         column = system.body
         radius = np.linalg.norm(system.interface.reference[:, :2], axis=1).max()
         turn = np.cross([0.0, 1.0, 0.0], column.X - column.center)
@@ -142,7 +196,7 @@ class RigidRocking:
         self._of(column.total_mass, system.weight, radius, column.center[2], about_center)
 
     @classmethod
-    def of_body(cls, body) -> RigidRocking:
+    def of_body(cls, body: BodyModel) -> RigidRocking:
         """Of the nodes of a `BodyModel`'s foot, along x."""
         made, arms = cls.__new__(cls), body.arms[body.surfaces["foot"].nodes]
         made._of(
@@ -154,7 +208,9 @@ class RigidRocking:
         )
         return made
 
-    def _of(self, mass, weight, radius, height, about_center) -> None:
+    def _of(
+        self, mass: float, weight: float, radius: float, height: float, about_center: float
+    ) -> None:
         """From mass, weight, the distance of the edge from the axis, the height of the centre of
         mass and the inertia about it.
         """

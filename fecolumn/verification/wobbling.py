@@ -46,11 +46,15 @@ its share of a th. The step's turn W dt takes a third order of itself of the ene
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY, Material
 from fecolumn.engines.dynamics.gravity import tilted
 from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.engines.dynamics.system import State, System
 from fecolumn.mesh.bricks import LOWER
 from fecolumn.mesh.gmsh_section import Annulus, extruded
 from fecolumn.verification.models import STEEL, block_system, box, column_system, roll_on_corners
@@ -58,6 +62,10 @@ from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.rolling_rim import RollingRim
 from fecolumn.verification.trial import RigidRocking, Trial
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 
 CORNERS = (24, 48, 96)
 PASSAGE = 8  # steps from corner to corner of a short cylinder
@@ -86,7 +94,7 @@ def run(engine: str, long: bool) -> CaseRows:
     }
     result.rows += column_rows(polygons, circles)
 
-    def draw(figure):
+    def draw(figure: Figure) -> None:
         left, middle, right = figure.subplots(1, 3)
         corners = np.array(list(found))
         fine = np.geomspace(corners[0] / 1.2, corners[-1] * 1.2, 20)
@@ -170,10 +178,10 @@ def run(engine: str, long: bool) -> CaseRows:
     return result
 
 
-def rolling(rim: RollingRim, tilt: float, spin: float):
+def rolling(rim: RollingRim, tilt: float, spin: float) -> Callable[[System], State]:
     """Start of a trial in steady precession on the lowest node, leaning towards +x."""
 
-    def start(system):
+    def start(system: System) -> State:
         state = tilted(system, tilt, 0.0)
         lowest = state.x[np.argmin(state.x[:, 2])]
         state.v = np.cross(rim.angular_velocity(tilt, spin), state.x - lowest)
@@ -188,7 +196,7 @@ def azimuth(trial: Trial) -> float:
 
 
 def roll(
-    engine: str, system, rim: RollingRim, tilt: float, spin: float, corners: int, steps: int
+    engine: str, system: System, rim: RollingRim, tilt: float, spin: float, corners: int, steps: int
 ) -> dict:
     """Mean rate [rad/s] and energy lost / energy in `steps`, with those of the rigid polygon, and
     their courses.
@@ -219,7 +227,12 @@ def roll(
     )
 
 
-def short_cylinder(engine: str, corners: int, size=CYLINDER, spin=RollingRim.untwisted) -> dict:
+def short_cylinder(
+    engine: str,
+    corners: int,
+    size: tuple[float, float] = CYLINDER,
+    spin: Callable[[RollingRim, float], float] = RollingRim.untwisted,
+) -> dict:
     """A revolution of a stiff ring of bricks, inner radius 0.03 m, with PASSAGE steps from corner
     to corner.
     """
@@ -229,7 +242,7 @@ def short_cylinder(engine: str, corners: int, size=CYLINDER, spin=RollingRim.unt
     )
     wide = np.linspace(-0.15, 0.15, 4)
 
-    def ring(dt):
+    def ring(dt: float) -> System:
         return block_system(
             engine,
             extruded(Annulus(0.03, _RADIUS, corners, 1), 0.0, height, 1, LOWER),
@@ -240,10 +253,10 @@ def short_cylinder(engine: str, corners: int, size=CYLINDER, spin=RollingRim.unt
         )
 
     rim = RollingRim.of(ring(1e-3))
-    spin = spin(rim, tilt)
-    dt = 2 * np.pi / rim.rate(tilt, spin) / (PASSAGE * corners)
+    turning = spin(rim, tilt)
+    dt = 2 * np.pi / rim.rate(tilt, turning) / (PASSAGE * corners)
     return dict(
-        roll(engine, ring(dt), rim, tilt, spin, corners, PASSAGE * corners),
+        roll(engine, ring(dt), rim, tilt, turning, corners, PASSAGE * corners),
         tilt=tilt,
         corners=corners,
         dt=dt,
@@ -261,7 +274,7 @@ def impact_allowance(one: dict, passage: float, dt: float, compliance: float = 0
     return 1 / (2 * passage) + (weight * speed * moment + weight**2 * compliance / 2) / lost
 
 
-def rolling_rows(name: str, found) -> list[Row]:
+def rolling_rows(name: str, found: Mapping[int, dict]) -> list[Row]:
     """Rate and loss by the number of rim nodes, with their orders in it, and the rate on the
     circle.
     """
@@ -330,7 +343,7 @@ def wobbling_column(
     )
 
 
-def column_rows(polygons, circles) -> list[Row]:
+def column_rows(polygons: Mapping[float, dict], circles: Mapping[float, dict]) -> list[Row]:
     """Loss in a revolution of the column at the reference mesh: as a stiff polygon, the polygon's;
     as the circle, none.
     """

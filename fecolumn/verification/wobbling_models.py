@@ -19,6 +19,8 @@ weight and curvature, of the order of the closest tilt over alpha: 1e-3 at 1e-6.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -30,7 +32,11 @@ from fecolumn.foundation._compiled import interpreted
 from fecolumn.statistics.kolmogorov import asymptotic_p, samples_of_p
 from fecolumn.verification.result import CaseRows, Row
 
-SPECIMEN = dict(
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+SPECIMEN: dict[str, Any] = dict(
     columns=4,
     slenderness_rad=0.1359,
     half_diagonal_m=1.463 / 2,
@@ -69,7 +75,9 @@ def run(engine: str, long: bool = False) -> CaseRows:
     )
 
 
-def free(frame: WobblingFrame, tilt: float, turn: float, seconds: float = 40.0):
+def free(
+    frame: WobblingFrame, tilt: float, turn: float, seconds: float = 40.0
+) -> tuple[np.ndarray, Any, Any]:
     """Rows of `wobbling_motion.wobble` of a free motion from a tilt [rad], its azimuth turning
     [rad/s].
     """
@@ -88,7 +96,7 @@ def free(frame: WobblingFrame, tilt: float, turn: float, seconds: float = 40.0):
     )
 
 
-def _statics(frame):
+def _statics(frame: WobblingFrame) -> Iterator[Row]:
     values, radius = frame.describe(), frame.body[0]
     loose = WobblingFrame.of_section(
         WobblingFrameSection(**SPECIMEN | {"tendon_n_m": 0.0}), "specimen"
@@ -168,7 +176,7 @@ def _statics(frame):
     )
 
 
-def _samples():
+def _samples() -> Iterator[Row]:
     for name, (planned, p, pairs) in BINS.items():
         found = samples_of_p(p, planned - 17, planned)
         for n, k in pairs:
@@ -199,7 +207,9 @@ def _samples():
     )
 
 
-def _energy(frame, paths):
+def _energy(
+    frame: WobblingFrame, paths: Mapping[float, tuple[np.ndarray, Any, Any]]
+) -> Iterator[Row]:
     from fecolumn.engines.rocking.wobbling_motion import WOBBLE_SPIN, WOBBLE_TILT, energies
 
     for turn, (rows, _, _) in paths.items():
@@ -223,7 +233,7 @@ def _energy(frame, paths):
     yield Row("planar motion: highest swing, nothing is lost [rad]", 0.05, float(heights), 1e-6)
 
 
-def _passing(frame):
+def _passing(frame: WobblingFrame) -> Iterator[Row]:
     """A column that comes past upright at a tilt of some 1e-6 rad turns its azimuth by pi
     sqrt(A/B).
     """
@@ -243,7 +253,7 @@ def _passing(frame):
         )
 
 
-def _equations(frame):
+def _equations(frame: WobblingFrame) -> Iterator[Row]:
     """Equations 4 and 5 as printed, at a state taken at random, against the derivation."""
     theta, phi, rate, turn, x, y = 0.07, 0.6, -0.4, 1.1, 1.3, -0.8
     spin = turn * interpreted(equations.inertia)(frame.body, theta)[1]
@@ -296,7 +306,7 @@ def _equations(frame):
     )
 
 
-def _draw(figure, paths) -> None:
+def _draw(figure: Figure, paths: Mapping[float, tuple[np.ndarray, Any, Any]]) -> None:
     from fecolumn.engines.rocking.wobbling_motion import WOBBLE_AZIMUTH, WOBBLE_TILT
 
     left, right = figure.subplots(1, 2)

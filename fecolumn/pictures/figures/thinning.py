@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from fecolumn.foundation._compiled import njit
 
 
-def thinned(time: np.ndarray, values: np.ndarray, tolerance: ArrayLike) -> np.ndarray:
+def thinned(time: ArrayLike, values: ArrayLike, tolerance: ArrayLike) -> np.ndarray:
     """Rows of a history that suffice to draw it; straight lines between them miss no row by more
     than the tolerance.
 

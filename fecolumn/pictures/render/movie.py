@@ -128,9 +128,11 @@ class Gif(_PictureFile):
                 palette=self._palette, dither=Image.Dither.NONE
             )
         )
-        for packet in self._stream.encode(
-            self._av.VideoFrame.from_ndarray((numbers, self._colours), format="pal8")
-        ):
+        frame = self._av.VideoFrame.from_ndarray(
+            (numbers, self._colours),  # type: ignore[arg-type]  # as pal8 takes them
+            format="pal8",
+        )
+        for packet in self._stream.encode(frame):
             self._container.mux(packet)
 
 
