@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+
+from fecolumn.mesh.section_blocks import quadrilateral, ring_of_blocks
 
 _SQUARE_CORNER = 0.6  # O-grid: the inner square's corners, as a fraction of the disc's radius
 
@@ -62,7 +63,9 @@ class Annulus:
             [geo.addPoint(r * np.cos(a), r * np.sin(a), 0) for a in angles]
             for r in (self.inner_radius, self.outer_radius)
         )
-        return _ring(geo, centre, inner, outer, np.diff(split), self.n_wall, curved_inside=True)
+        return ring_of_blocks(
+            geo, centre, inner, outer, np.diff(split), self.n_wall, curved_inside=True
+        )
 
     def evened(self, points: np.ndarray) -> np.ndarray:
         """(n, 2) points [m] at exactly equal angles and radii."""
@@ -121,7 +124,7 @@ class Disc:
             for r in (_SQUARE_CORNER * self.radius, self.radius)
         )
         sides: list[int] = []
-        blocks = _ring(
+        blocks = ring_of_blocks(
             geo,
             centre,
             square,
@@ -131,7 +134,7 @@ class Disc:
             curved_inside=False,
             inner_curves=sides,
         )
-        return blocks + [_quadrilateral(geo, sides, square)]
+        return blocks + [quadrilateral(geo, sides, square)]
 
     def evened(self, points: np.ndarray) -> np.ndarray:
         """(n, 2) points [m], those on the rim at exactly equal angles."""
@@ -214,44 +217,3 @@ def _even_angle(points: np.ndarray, n_around: int, first: float) -> np.ndarray:
 
 def _polar(radius: np.ndarray | float, angle: np.ndarray) -> np.ndarray:
     return np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
-
-
-def _ring(
-    geo: Any,
-    centre: int,
-    inner: Sequence[int],
-    outer: Sequence[int],
-    n_arcs: Sequence[int] | np.ndarray,
-    n_radial: int,
-    *,
-    curved_inside: bool,
-    inner_curves: list[int] | None = None,
-) -> list[int]:
-    """Surfaces of four blocks between four inner and four outer points."""
-
-    def curve(start: int, end: int, curved: bool, n: int) -> int:
-        tag = geo.addCircleArc(start, centre, end) if curved else geo.addLine(start, end)
-        geo.mesh.setTransfiniteCurve(tag, int(n) + 1)
-        return tag
-
-    follow = [1, 2, 3, 0]
-    insides = [curve(inner[i], inner[follow[i]], curved_inside, n_arcs[i]) for i in range(4)]
-    outsides = [curve(outer[i], outer[follow[i]], True, n_arcs[i]) for i in range(4)]
-    spokes = [curve(inner[i], outer[i], False, n_radial) for i in range(4)]
-    if inner_curves is not None:
-        inner_curves.extend(insides)
-    return [
-        _quadrilateral(
-            geo,
-            [spokes[i], outsides[i], -spokes[follow[i]], -insides[i]],
-            [inner[i], outer[i], outer[follow[i]], inner[follow[i]]],
-        )
-        for i in range(4)
-    ]
-
-
-def _quadrilateral(geo: Any, curves: Sequence[int], corners: Sequence[int]) -> int:
-    surface = geo.addPlaneSurface([geo.addCurveLoop(curves)])
-    geo.mesh.setTransfiniteSurface(surface, cornerTags=corners)
-    geo.mesh.setRecombine(2, surface)
-    return surface

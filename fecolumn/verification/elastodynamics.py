@@ -37,11 +37,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import ufl
 from dolfinx import fem
+from matplotlib.figure import Figure
 from petsc4py import PETSc
 
 from fecolumn.engines.dynamics.hht import HHT
@@ -51,10 +52,6 @@ from fecolumn.pictures.figures.style import LINES
 from fecolumn.verification.models import block_system, box
 from fecolumn.verification.result import CaseRows, Row, order_of
 from fecolumn.verification.trial import Trial, afloat
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 
 # Steel of models.block_system; strains of 3e-5 keep both kinematics linear
 _SIDE, _AMPLITUDE, _SHEAR, POISSON, _DENSITY = 0.1, 1e-6, 200e9 / 2.6, 0.3, 7850.0

@@ -26,9 +26,9 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.figure import Figure
 from mpi4py import MPI
 
 from fecolumn import simulation
@@ -47,10 +47,6 @@ from fecolumn.verification.models import COARSE, column_case, shaking, system_of
 from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row
 from fecolumn.verification.trial import Trial, solver_drift
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
 
 _STEPS, SHAKEN_DT = 200, 1e-3
 TIMES = SHAKEN_DT * np.arange(1, _STEPS + 1)

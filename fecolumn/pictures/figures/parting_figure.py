@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.ticker import LogLocator
@@ -26,6 +26,7 @@ from fecolumn.pictures.figures.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from fecolumn.pictures.figures.drawn_parting import DrawnParting
     from fecolumn.pictures.figures.quantity import Quantity
 
 
@@ -49,54 +50,6 @@ _TERMS = {
 _NIL, _STILL, _ROUNDING = 1e-3, 1e-2, 1e-10
 # Points of a line: more are not told apart
 _MOST_POINTS = 6000
-
-
-class DrawnPair(Protocol):
-    """One quantity of both analyses; `results.parting.QuantityPair` is one."""
-
-    @property
-    def a(self) -> np.ndarray:
-        """(n, k) in SI units, of A."""
-
-    @property
-    def b(self) -> np.ndarray:
-        """(n, k) in SI units, of B."""
-
-    @property
-    def peak(self) -> float:
-        """The larger of both largest magnitudes."""
-
-    @property
-    def difference(self) -> np.ndarray:
-        """(n,) magnitude of a - b."""
-
-    @property
-    def parted(self) -> int | None:
-        """Row at which they part; None where they do not."""
-
-
-class DrawnParting(Protocol):
-    """Two analyses as the figure needs them; `results.parting.Parting` is one."""
-
-    @property
-    def time(self) -> np.ndarray:
-        """(n,) [s]."""
-
-    @property
-    def tolerance(self) -> float:
-        """Of a difference over the larger peak [-]."""
-
-    @property
-    def quantities(self) -> Mapping[str, DrawnPair]:
-        """By name."""
-
-    @property
-    def energy(self) -> Mapping[str, DrawnPair]:
-        """By the terms of the ledger [J]."""
-
-    @property
-    def first(self) -> tuple[str, float] | None:
-        """The quantity that parts first and the time [s]; None where none does."""
 
 
 def parting_figure(
