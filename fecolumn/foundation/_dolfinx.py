@@ -6,6 +6,8 @@ import logging
 import weakref
 from typing import TYPE_CHECKING, Any
 
+from numpy.typing import NDArray
+
 # Before dolfinx: its form compiler gives a root logger without handlers one that prints every call
 # of the C compiler, and takes Python's warnings for itself. What a compiler that fails says still
 # goes to stderr.
@@ -32,7 +34,7 @@ _MODERN = VERSION >= (0, 8)
 _TENSOR_ORDER = [0, 1, 3, 2, 4, 5, 7, 6]
 
 
-def create_brick_mesh(comm: MPI.Intracomm, points: np.ndarray, cells: np.ndarray) -> Any:
+def create_brick_mesh(comm: MPI.Intracomm, points: NDArray[Any], cells: NDArray[Any]) -> Any:
     """Distributed mesh of 8-node bricks, or of tetrahedra.
 
     Parameters
@@ -71,7 +73,7 @@ def vector_space(msh: dolfinx.mesh.Mesh, order: int) -> Any:
     )
 
 
-def cellwise_space(msh: dolfinx.mesh.Mesh, shape: tuple = ()) -> Any:
+def cellwise_space(msh: dolfinx.mesh.Mesh, shape: tuple[int, ...] = ()) -> Any:
     """Space of one value (or one array of `shape`) a cell."""
     if _MODERN:
         return fem.functionspace(msh, ("DG", 0, shape) if shape else ("DG", 0))
@@ -84,7 +86,7 @@ def cellwise_space(msh: dolfinx.mesh.Mesh, shape: tuple = ()) -> Any:
     return fem.FunctionSpace(msh, ("DG", 0))
 
 
-def cellwise(msh: dolfinx.mesh.Mesh, values: np.ndarray) -> fem.Function:
+def cellwise(msh: dolfinx.mesh.Mesh, values: NDArray[Any]) -> fem.Function:
     """Function of one number a cell, from those of all cells (n_cells,) in the order in which they
     were given to `create_brick_mesh`, known on every rank.
     """
@@ -98,10 +100,10 @@ def cellwise(msh: dolfinx.mesh.Mesh, values: np.ndarray) -> fem.Function:
     return function
 
 
-def interpolation_points(space: Any) -> np.ndarray:
+def interpolation_points(space: Any) -> NDArray[Any]:
     """Reference points at which an expression for `space` is evaluated."""
     points = space.element.interpolation_points
-    return points() if callable(points) else points
+    return np.asarray(points() if callable(points) else points)
 
 
 def assemble_matrix(form: Any) -> PETSc.Mat:
@@ -113,7 +115,7 @@ def assemble_matrix(form: Any) -> PETSc.Mat:
     return matrix
 
 
-def release_with(owner: object, *objects: Any) -> weakref.finalize:
+def release_with(owner: object, *objects: Any) -> weakref.finalize[..., Any]:
     """Destroy PETSc objects when `owner` goes, or when the returned function is called: petsc4py
     alone would keep them for ever.
 

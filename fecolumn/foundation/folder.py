@@ -10,6 +10,7 @@ import shutil
 import tempfile
 from collections.abc import Iterable, Iterator
 from pathlib import Path, PurePosixPath
+from typing import Any
 
 from fecolumn.foundation.atomic import UNFINISHED, write_json
 from fecolumn.foundation.files import Unreadable, read_json
@@ -107,7 +108,7 @@ def _read_mark(folder: Path) -> dict[str, list[str]]:
         ) from None
 
 
-def _refuse_foreign(folder: Path, work: str, names: Iterable[str], mark: dict) -> None:
+def _refuse_foreign(folder: Path, work: str, names: Iterable[str], mark: dict[str, Any]) -> None:
     own = {name for files in mark.values() for name in files}
     for name in names:
         if name not in own and os.path.lexists(folder / name):

@@ -19,13 +19,14 @@ def absolute(path: str, folder: Path) -> str:
     return path if not path or ":" in path or Path(path).is_absolute() else str(folder / path)
 
 
-def taken_over(tables: dict, file: Path | str) -> dict:
+def taken_over(tables: dict[str, Any], file: Path | str) -> dict[str, Any]:
     """Tables of a case or a study with the paths that `file` states made absolute, so that a file
     of another folder may take them over.
 
     Keys may be dotted ("motion.source"), and stand in the tables and lists of a study's axes.
     """
-    return _absolute(tables, (), Path(file).resolve().parent)
+    folder = Path(file).resolve().parent
+    return {name: _absolute(one, tuple(name.split(".")), folder) for name, one in tables.items()}
 
 
 def _absolute(value: Any, key: tuple[str, ...], folder: Path) -> Any:

@@ -273,7 +273,7 @@ def _checked(
 
 
 @functools.cache
-def _kinds(section: type) -> dict[str, tuple]:
+def _kinds(section: type) -> dict[str, tuple[typing.Any, ...]]:
     """Fields of a dataclass by name: (field, type, dataclass of a section or None, whether the
     section may be absent).
     """
@@ -399,7 +399,7 @@ def build(section: type, table: typing.Any, file: Path | str, prefix: str = "") 
     return section(**values)
 
 
-def table_of(section: typing.Any, defaults: bool) -> dict:
+def table_of(section: typing.Any, defaults: bool) -> dict[str, typing.Any]:
     """The table of a section: without keys that are left open, or that are not stated as they
     stand at their `defaults`.
     """

@@ -17,7 +17,7 @@ _LONGEST_CHAIN = 50
 _LONGEST_FILE = 20_000_000  # [bytes]
 
 
-def read_toml(path: Path | str, _heirs: tuple[Path, ...] = ()) -> dict:
+def read_toml(path: Path | str, _heirs: tuple[Path, ...] = ()) -> dict[str, Any]:
     """Tables of a TOML file; `extends = "other.toml"` is read first and overridden key by key, or
     by `section = false` as a whole.
 
@@ -65,7 +65,7 @@ def _same(one: Path, other: Path) -> bool:
         return False
 
 
-def _tables(path: Path) -> dict:
+def _tables(path: Path) -> dict[str, Any]:
     """Tables of one TOML file as they stand."""
     try:
         text = read_bytes(path, _LONGEST_FILE).decode("utf-8-sig")
@@ -99,7 +99,7 @@ def _tables(path: Path) -> dict:
     return tables
 
 
-def _depth(tables: dict | list) -> int:
+def _depth(tables: dict[str, Any] | list[Any]) -> int:
     """Levels of tables and lists within one another."""
     depth, level = 0, [tables]
     while level:
@@ -113,7 +113,7 @@ def _depth(tables: dict | list) -> int:
     return depth
 
 
-def stated(tables: dict) -> dict:
+def stated(tables: dict[str, Any]) -> dict[str, Any]:
     """Tables without the keys that are left open."""
     return {
         key: stated(value) if isinstance(value, dict) else value
@@ -122,14 +122,15 @@ def stated(tables: dict) -> dict:
     }
 
 
-def nested(key: str, value: Any) -> dict:
+def nested(key: str, value: Any) -> dict[str, Any]:
     """Tables in which the dotted key has this value."""
-    for part in reversed(key.split(".")):
+    outer, *inner = key.split(".")
+    for part in reversed(inner):
         value = {part: value}
-    return value
+    return {outer: value}
 
 
-def merge(base: dict, over: dict) -> dict:
+def merge(base: dict[str, Any], over: dict[str, Any]) -> dict[str, Any]:
     """Tables of `base` overridden by those of `over`, key by key."""
     merged = dict(base)
     for key, value in over.items():

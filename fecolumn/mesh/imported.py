@@ -26,7 +26,7 @@ from fecolumn.mesh.upright import Upright
 from fecolumn.mesh.weighing import NoSuchDensity, relative_densities
 
 # raises the InputError of a value and of what is allowed
-Refusal = Callable[[object, str], NoReturn]
+ShapeRefusal = Callable[[object, str], NoReturn]
 
 _DIMENSION_TOLERANCE = 0.01
 _BELOW_THREE_DIMENSIONS = {
@@ -211,7 +211,7 @@ def _own_mesh(file: MeshFile, mesh_content: str) -> OwnMesh:
     )
 
 
-def _elements(path: Path, refuse: Refusal) -> tuple[np.ndarray, np.ndarray]:
+def _elements(path: Path, refuse: ShapeRefusal) -> tuple[np.ndarray, np.ndarray]:
     """Points (n, 3) in the file's unit and elements (m, 8 or 4) of a file of elements."""
     found = _read(path, refuse)
     solids = {block.type: 0 for block in found.cells if len(block.data)}
@@ -253,7 +253,7 @@ def _elements(path: Path, refuse: Refusal) -> tuple[np.ndarray, np.ndarray]:
     return points, cells
 
 
-def _read(path: Path, refuse: Refusal) -> Any:
+def _read(path: Path, refuse: ShapeRefusal) -> Any:
     """Meshio's mesh of a file."""
     import meshio
 
@@ -287,7 +287,7 @@ def _read(path: Path, refuse: Refusal) -> Any:
         refuse(None, f"cannot be read as a mesh by meshio: {said or type(error).__name__}")
 
 
-def _check_dimensions(own: OwnMesh, case: Upright, refuse: Refusal) -> None:
+def _check_dimensions(own: OwnMesh, case: Upright, refuse: ShapeRefusal) -> None:
     column = case.column
     diameter = np.ptp(own.mesh.points[:, :2], axis=0).mean()
     for key, value, wanted in (
@@ -306,7 +306,7 @@ def _check_dimensions(own: OwnMesh, case: Upright, refuse: Refusal) -> None:
         )
 
 
-def _check_elements(mesh: BrickMesh, height: float, refuse: Refusal) -> None:
+def _check_elements(mesh: BrickMesh, height: float, refuse: ShapeRefusal) -> None:
     bad = np.flatnonzero(corner_jacobians(mesh).min(axis=1) <= 0)
     if len(bad):
         x, y, z = mesh.points[mesh.cells[bad[0]]].mean(axis=0)

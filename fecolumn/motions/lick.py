@@ -35,7 +35,7 @@ def lick_source(source: str) -> str:
 @functools.cache
 def _recipe() -> str:
     """Digest of all that makes the motions."""
-    from fecolumn.foundation._compiled import digest_of
+    from fecolumn.foundation.sources import digest_of
     from fecolumn.motions.seeded import LICK
 
     return digest_of((*sorted(Path(__file__).parent.glob("*.py")), Path(LICK)))

@@ -56,7 +56,8 @@ from fecolumn.engines.dynamics.gravity import tilted
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.system import State, System
 from fecolumn.mesh.bricks import LOWER
-from fecolumn.mesh.gmsh_section import Annulus, extruded
+from fecolumn.mesh.gmsh_section import extruded
+from fecolumn.mesh.section import Annulus
 from fecolumn.verification.models import STEEL, block_system, box, column_system, roll_on_corners
 from fecolumn.verification.reduced_trial import begin_trial
 from fecolumn.verification.result import CaseRows, Row

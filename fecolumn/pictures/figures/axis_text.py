@@ -64,7 +64,7 @@ def axis_unit(key: str) -> str:
     """
     section, _, name = key.partition(".")
     kind = typing.get_type_hints(ShortForm).get(section)
-    owners: list = (
+    owners: list[typing.Any] = (
         [one for one in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(one)]
         if kind
         else [ShortForm]

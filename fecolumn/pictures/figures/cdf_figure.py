@@ -154,7 +154,12 @@ def _beyond(panel: CdfPanel, limit_mm: float) -> str:
     return f"\n{len(beyond)} beyond the axis, up to {max(beyond):.0f} mm" if beyond else ""
 
 
-def _draw(axes: Axes, panel: CdfPanel, looks: dict, limit_mm: float) -> str:
+def _draw(
+    axes: Axes,
+    panel: CdfPanel,
+    looks: dict[str, tuple[str, str | tuple[int, tuple[int, ...]]]],
+    limit_mm: float,
+) -> str:
     """Bands below, lines above; what the bands are."""
     shaded = len(panel.lines) <= SHADED
     for number, (label, distribution) in enumerate(panel.lines):

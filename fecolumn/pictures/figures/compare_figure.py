@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.cdf_figure import axis_end
 from fecolumn.pictures.figures.style import (
@@ -31,8 +32,8 @@ _STRIP = 0.09  # beyond the axes' ends, where overturned runs are drawn; as a sh
 
 
 def compare_figure(
-    a: tuple,
-    b: tuple,
+    a: tuple[NDArray[Any], NDArray[Any]],
+    b: tuple[NDArray[Any], NDArray[Any]],
     labels: tuple[str, str],
     *,
     paired: bool,
@@ -74,7 +75,12 @@ def compare_figure(
 
 
 def _distributions(
-    axes: Axes, a: tuple, b: tuple, labels: tuple[str, str], limit_mm: float, word: str
+    axes: Axes,
+    a: tuple[NDArray[Any], NDArray[Any]],
+    b: tuple[NDArray[Any], NDArray[Any]],
+    labels: tuple[str, str],
+    limit_mm: float,
+    word: str,
 ) -> None:
     for sample, label, colour, dashes in (
         (b, labels[1], VERMILION, "--"),
@@ -136,15 +142,15 @@ def _distributions(
     )
 
 
-def _whole(edge: np.ndarray, first: float = 0.0) -> np.ndarray:
+def _whole(edge: NDArray[Any], first: float = 0.0) -> NDArray[Any]:
     """A step function from its `first` value at u = 0 on to the end of the axis."""
     return np.concatenate([[first], edge, edge[-1:] if edge.size else [first]])
 
 
 def _pairs(
     axes: Axes,
-    a: np.ndarray,
-    b: np.ndarray,
+    a: NDArray[Any],
+    b: NDArray[Any],
     labels: tuple[str, str],
     limit_mm: float,
     correlation: float | None,

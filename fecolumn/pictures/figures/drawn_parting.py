@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Protocol
+from typing import Any, Protocol
 
-import numpy as np
+from numpy.typing import NDArray
 
 
 class DrawnPair(Protocol):
     """One quantity of both analyses; `results.parting.QuantityPair` is one."""
 
     @property
-    def a(self) -> np.ndarray:
+    def a(self) -> NDArray[Any]:
         """(n, k) in SI units, of A."""
 
     @property
-    def b(self) -> np.ndarray:
+    def b(self) -> NDArray[Any]:
         """(n, k) in SI units, of B."""
 
     @property
@@ -24,7 +24,7 @@ class DrawnPair(Protocol):
         """The larger of both largest magnitudes."""
 
     @property
-    def difference(self) -> np.ndarray:
+    def difference(self) -> NDArray[Any]:
         """(n,) magnitude of a - b."""
 
     @property
@@ -36,7 +36,7 @@ class DrawnParting(Protocol):
     """Two analyses as the figure needs them; `results.parting.Parting` is one."""
 
     @property
-    def time(self) -> np.ndarray:
+    def time(self) -> NDArray[Any]:
         """(n,) [s]."""
 
     @property

@@ -8,9 +8,10 @@ import math
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.engines.ending import OVERTURNED, SLID_OFF
 from fecolumn.pictures.figures.style import (
@@ -47,11 +48,11 @@ class DrawnTrace(Protocol):
     """A history as the figures need it; `report.histories.Trace` is one."""
 
     @property
-    def time(self) -> np.ndarray:
+    def time(self) -> NDArray[Any]:
         """(n,) [s]."""
 
     @property
-    def u_top(self) -> np.ndarray:
+    def u_top(self) -> NDArray[Any]:
         """(n, 2) [m], displacement of the top along x and y."""
 
     @property
@@ -162,7 +163,7 @@ def fan_figure(
         return save(figure, path, formats)
 
 
-def _line(trace: DrawnTrace, limit_m: float) -> tuple[np.ndarray, np.ndarray]:
+def _line(trace: DrawnTrace, limit_m: float) -> tuple[NDArray[Any], NDArray[Any]]:
     """Time [s] and displacement [mm], up to where what was lost leaves the axes."""
     top = np.hypot(*trace.u_top[: rows_within(trace, limit_m)].T)
     rows = thinned(trace.time[: len(top)], top[:, None], (_FINE * limit_m,))

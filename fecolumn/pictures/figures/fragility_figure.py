@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.style import (
     BLUE,
@@ -29,9 +30,9 @@ _DECADE = 10.0  # an axis of logarithms needs as much to have its numbers
 
 def contour_figure(
     names: Sequence[str],
-    measures: np.ndarray,
-    overturned: np.ndarray,
-    probability: Callable[[np.ndarray], Probability],
+    measures: NDArray[Any],
+    overturned: NDArray[Any],
+    probability: Callable[[NDArray[Any]], Probability],
     path: Path | str,
     formats: Sequence[str] = ("png", "pdf"),
     width_in: float = COLUMN_WIDTH_IN,

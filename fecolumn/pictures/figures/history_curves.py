@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.summary import check_owner, summary_of_folder
@@ -33,11 +35,11 @@ class HistoryCurves:
         algorithmic, damping, rolling, links, closure.
     """
 
-    time: np.ndarray
-    u_top: np.ndarray
-    tilt: np.ndarray
-    ground: np.ndarray
-    energy: dict[str, np.ndarray]
+    time: NDArray[Any]
+    u_top: NDArray[Any]
+    tilt: NDArray[Any]
+    ground: NDArray[Any]
+    energy: dict[str, NDArray[Any]]
 
     @classmethod
     def read(cls, file: Path) -> HistoryCurves:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.style import (
     COLUMN_WIDTH_IN,
@@ -34,12 +35,12 @@ class Curve:
     """
 
     name: str
-    x: np.ndarray
-    y: np.ndarray
-    band: tuple[np.ndarray, np.ndarray] | None = None
+    x: NDArray[Any]
+    y: NDArray[Any]
+    band: tuple[NDArray[Any], NDArray[Any]] | None = None
     steps: bool = False
     markers: bool = False
-    bars: tuple[np.ndarray, np.ndarray] | None = None
+    bars: tuple[NDArray[Any], NDArray[Any]] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,9 +52,9 @@ class CurvePanel:
     xlabel: str
     ylabel: str
     curves: list[Curve]
-    settings: dict
+    settings: dict[str, Any]
     legend_title: str | None = None
-    prepare: Callable | None = None
+    prepare: Callable[[Axes], object] | None = None
     legend: str = "best"
 
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.pictures.figures.style import (
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 
 def match_figure(
     target: TargetSpectrum,
-    spectra: np.ndarray,
+    spectra: NDArray[Any],
     path: Path | str,
     formats: Sequence[str] = ("png", "pdf"),
 ) -> list[Path]:

@@ -6,8 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.motions.ensemble import Ensemble
@@ -44,7 +46,7 @@ _SHORTEST_S = 0.03  # displacements of stiffer oscillators tell nothing
 
 def motion_figures(
     ensemble: Ensemble,
-    columns: dict[str, np.ndarray],
+    columns: dict[str, NDArray[Any]],
     folder: Path | str,
     show: Iterable[int] | None = None,
     slenderness: float = 0.1,
@@ -182,7 +184,7 @@ def _spectra(ensemble: Ensemble, path: Path | str) -> list[Path]:
 
 
 def _distributions(
-    ensemble: Ensemble, columns: dict[str, np.ndarray], path: Path | str
+    ensemble: Ensemble, columns: dict[str, NDArray[Any]], path: Path | str
 ) -> list[Path]:
     """Distribution of each measure with the band of Greenwood, its median, and the target as a
     line.

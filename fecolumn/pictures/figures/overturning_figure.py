@@ -5,7 +5,7 @@ stands a pulse.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 _TOP = 14.0
-_KINDS = (
+_KINDS: tuple[tuple[str, str, Callable[[int], bool]], ...] = (
     ("no impact", "#222222", lambda impacts: impacts == 0),
     ("one impact", "#8C8C8C", lambda impacts: impacts == 1),
     ("two and more", "#56B4E9", lambda impacts: impacts >= 2),

@@ -7,10 +7,11 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.cdf_figure import axis_end
 from fecolumn.pictures.figures.style import (
@@ -38,8 +39,8 @@ class Variable:
     """One setting: its name, and the peak [m] and end of each of the same motions."""
 
     name: str
-    u_max_m: np.ndarray
-    overturned: np.ndarray
+    u_max_m: NDArray[Any]
+    overturned: NDArray[Any]
 
 
 def pair_figure(

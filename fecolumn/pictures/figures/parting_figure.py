@@ -6,10 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.ticker import LogLocator
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.style import (
     BLACK,
@@ -84,7 +85,7 @@ def parting_figure(
         figure = new_figure(PAGE_WIDTH_IN, 1.15 * len(panels) + 2.0)
         figure.get_layout_engine().set(w_pad=0.06)
         grid = figure.add_gridspec(len(panels) + 1, 2, width_ratios=[2.5, 1])
-        rows: list = []
+        rows: list[Axes] = []
         every = max(1, len(found.time) // _MOST_POINTS)
         for k, (label, values, parted) in enumerate(panels):
             axes = figure.add_subplot(grid[k, 0], sharex=rows[0] if rows else None)
@@ -106,7 +107,7 @@ def parting_figure(
 
 def _panels(
     found: DrawnParting, quantities: Mapping[str, Quantity], symbols: Mapping[str, str]
-) -> list:
+) -> list[tuple[str, tuple[NDArray[Any], NDArray[Any]], int | None]]:
     """(label, (values of A, of B) in its unit, row of the parting) of each panel: both components
     of the top, unless one hardly moves.
     """
@@ -131,7 +132,7 @@ def _panels(
     return panels
 
 
-def _mark(axes: Axes, time: np.ndarray, parted: int | None) -> None:
+def _mark(axes: Axes, time: NDArray[Any], parted: int | None) -> None:
     if parted is not None:
         axes.axvline(time[parted], color=BLACK, linewidth=0.8, linestyle=":")
 
@@ -180,7 +181,7 @@ def _differences(axes: Axes, found: DrawnParting, symbols: Mapping[str, str], ev
     )
 
 
-def _positive(found: DrawnParting) -> np.ndarray:
+def _positive(found: DrawnParting) -> NDArray[Any]:
     shares = np.concatenate(
         [pair.difference / pair.peak for pair in found.quantities.values() if pair.peak]
         or [np.ones(1)]

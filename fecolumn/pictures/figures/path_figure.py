@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.style import (
     BLACK,
@@ -106,7 +107,7 @@ def _circle(axes: Axes, radius: float) -> None:
     )
 
 
-def _path(axes: Axes, u: np.ndarray, time: np.ndarray, ending: EndingMark) -> LineCollection:
+def _path(axes: Axes, u: NDArray[Any], time: NDArray[Any], ending: EndingMark) -> LineCollection:
     from matplotlib.collections import LineCollection
 
     lines = LineCollection(

@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.pictures.figures.fan_figure import LOOKS, MOST_POINTS, end_legend, rows_within
 from fecolumn.pictures.figures.style import (
@@ -25,6 +25,7 @@ from fecolumn.pictures.figures.style import (
 from fecolumn.pictures.figures.thinning import thinned
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
     from fecolumn.pictures.figures.fan_figure import DrawnTrace
@@ -55,7 +56,7 @@ class LostDirections(NamedTuple):
 def plan_figure(
     traces: Sequence[DrawnTrace],
     lost: LostDirections,
-    foot: np.ndarray | None,
+    foot: NDArray[Any] | None,
     critical_m: float | None,
     limit_m: float,
     path: Path | str,
@@ -106,10 +107,10 @@ def plan_figure(
 def _paths(
     axes: Axes,
     traces: Sequence[DrawnTrace],
-    foot: np.ndarray | None,
+    foot: NDArray[Any] | None,
     critical_m: float | None,
     limit_m: float,
-) -> tuple[float | None, list]:
+) -> tuple[float | None, list[Artist]]:
     """Draw them; the critical displacement [m] where it is drawn, and what else the legend
     names.
     """
@@ -160,13 +161,15 @@ def _paths(
     return critical, more
 
 
-def _path(trace: DrawnTrace, limit_m: float) -> np.ndarray:
+def _path(trace: DrawnTrace, limit_m: float) -> NDArray[Any]:
     """(n, 2) [mm], up to where what was lost is a limit away."""
     stop = rows_within(trace, limit_m)
-    return 1e3 * trace.u_top[thinned(trace.time[:stop], trace.u_top[:stop], (_FINE * limit_m,) * 2)]
+    rows = thinned(trace.time[:stop], trace.u_top[:stop], (_FINE * limit_m,) * 2)
+    millimetres: NDArray[Any] = 1e3 * trace.u_top[rows]
+    return millimetres
 
 
-def _rose(axes: Axes, own: np.ndarray, every: np.ndarray, word: str) -> None:
+def _rose(axes: Axes, own: NDArray[Any], every: NDArray[Any], word: str) -> None:
     """Shares of sectors centred on x, so that what falls along an axis is in one."""
     from matplotlib.patheffects import withStroke
     from matplotlib.ticker import MaxNLocator

@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.model_sections import CAV, CRV
 from fecolumn.pictures.figures.style import BLUE, PAGE_WIDTH_IN, VERMILION, new_figure, save, styled
@@ -22,7 +23,7 @@ _NARROW_IN = 5.0  # below this width panels stand one below the other
 
 
 def podium_figure(
-    found: Mapping[tuple[str, int, str], Mapping[str, np.ndarray]],
+    found: Mapping[tuple[str, int, str], Mapping[str, NDArray[Any]]],
     name: str,
     label: str,
     limits: tuple[float, float],
@@ -78,8 +79,8 @@ def podium_figure(
 
 def _panel(
     axes: Axes,
-    crv: Mapping[str, np.ndarray],
-    cav: Mapping[str, np.ndarray],
+    crv: Mapping[str, NDArray[Any]],
+    cav: Mapping[str, NDArray[Any]],
     name: str,
     limits: tuple[float, float],
 ) -> None:

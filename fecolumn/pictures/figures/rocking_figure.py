@@ -6,9 +6,10 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.spectrum import larger_rocking_spectrum, tilt_quantile
@@ -96,14 +97,15 @@ def rocking_figure(ensemble: Ensemble, slenderness: float, path: Path | str) -> 
     return save(figure, path)
 
 
-def _ended(peaks: np.ndarray) -> np.ndarray:
+def _ended(peaks: NDArray[Any]) -> NDArray[Any]:
     return np.where(np.isinf(peaks), np.nan, peaks)
 
 
-def _half_diagonal(period: ArrayLike) -> np.ndarray:
+def _half_diagonal(period: ArrayLike) -> NDArray[Any]:
     """R [m] of a rectangular block with p^2 = 3 g/(4 R)."""
     return 3 * GRAVITY / 4 * (np.asarray(period) / (2 * math.pi)) ** 2
 
 
-def _period(half_diagonal: np.ndarray) -> np.ndarray:
-    return 2 * math.pi * np.sqrt(4 * np.maximum(half_diagonal, 0) / (3 * GRAVITY))
+def _period(half_diagonal: NDArray[Any]) -> NDArray[Any]:
+    period: NDArray[Any] = 2 * math.pi * np.sqrt(4 * np.maximum(half_diagonal, 0) / (3 * GRAVITY))
+    return period

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,13 +38,13 @@ class Outline:
         dimensions in a line, such as "tube 76.1 x 5 mm, height 1500 mm".
     """
 
-    foot: np.ndarray
+    foot: NDArray[Any]
     round: bool
     parts: tuple[OutlinePart, ...]
     words: str
 
 
-def specimen_outline(case: dict) -> Outline | None:
+def specimen_outline(case: dict[str, Any]) -> Outline | None:
     """The outline from the tables of a case (`case.json`); None of a specimen whose shape the case
     does not tell, as of an own mesh.
     """
@@ -91,7 +93,7 @@ def specimen_outline(case: dict) -> Outline | None:
     return Outline(_edge(*foot, round_), round_, tuple(parts), ", ".join(words))
 
 
-def _edge(half_x: float, half_y: float, round_: bool) -> np.ndarray:
+def _edge(half_x: float, half_y: float, round_: bool) -> NDArray[Any]:
     if round_:
         angle = np.linspace(0, 2 * np.pi, 181)
         return half_x * np.column_stack([np.cos(angle), np.sin(angle)])

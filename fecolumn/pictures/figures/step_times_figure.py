@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.engines.step_times import kinds_of
 from fecolumn.pictures.figures.style import LINES, PAGE_WIDTH_IN, new_figure, save, styled
@@ -13,7 +15,7 @@ from fecolumn.pictures.figures.style import LINES, PAGE_WIDTH_IN, new_figure, sa
 _BINS = 12
 
 
-def step_times_figure(rows: np.ndarray, path: Path) -> list[Path]:
+def step_times_figure(rows: NDArray[Any], path: Path) -> list[Path]:
     """Histogram of the times of steps: their number, and the time they take, stacked by what
     they do.
 

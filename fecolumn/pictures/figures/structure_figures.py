@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.quantity import Quantity
 from fecolumn.pictures.figures.style import (
@@ -38,7 +39,7 @@ _ABREAST, _APART = 3, len(LINES)
 
 
 def structure_figures(
-    columns: dict[str, np.ndarray], folder: Path, formats: Sequence[str] = ("png", "pdf")
+    columns: dict[str, NDArray[Any]], folder: Path, formats: Sequence[str] = ("png", "pdf")
 ) -> list[Path]:
     """Write interfaces.png, more of them where there are more interfaces than go side by side,
     storeys.png of a structure with storeys and likewise links.png of one with links and bonds.png
@@ -125,7 +126,7 @@ def storey_names(columns: Iterable[str]) -> list[str]:
     return sorted(found, key=lambda name: (name.rpartition(" ")[0], int(name.rpartition(" ")[2])))
 
 
-def _in_unit(values: list[np.ndarray], unit: str) -> tuple[list[np.ndarray], str]:
+def _in_unit(values: list[NDArray[Any]], unit: str) -> tuple[list[NDArray[Any]], str]:
     """Values [SI] in a unit that fits their peak, and its name."""
     quantity = Quantity.of("", unit, max(float(np.abs(each).max()) for each in values))
     return [each / quantity.scale for each in values], quantity.unit
@@ -133,8 +134,8 @@ def _in_unit(values: list[np.ndarray], unit: str) -> tuple[list[np.ndarray], str
 
 def _drawn(
     axes: Axes,
-    places: list[np.ndarray],
-    values: list[np.ndarray],
+    places: list[NDArray[Any]],
+    values: list[NDArray[Any]],
     names: list[str],
     kind: str = "joints",
 ) -> None:
@@ -153,7 +154,7 @@ def _drawn(
 
 
 def interface_figure(
-    columns: Mapping[str, np.ndarray],
+    columns: Mapping[str, NDArray[Any]],
     path: Path | str,
     interfaces: list[str],
     formats: Sequence[str] = ("png", "pdf"),
@@ -212,7 +213,7 @@ def interface_figure(
 
 
 def storey_figure(
-    columns: Mapping[str, np.ndarray], path: Path | str, formats: Sequence[str] = ("png", "pdf")
+    columns: Mapping[str, NDArray[Any]], path: Path | str, formats: Sequence[str] = ("png", "pdf")
 ) -> list[Path]:
     """Drift and shear of each storey over time, along the axes along which any storey moves; beside
     them the largest ones over the storeys' numbers.
@@ -285,7 +286,7 @@ def storey_figure(
 
 
 def link_figure(
-    columns: Mapping[str, np.ndarray],
+    columns: Mapping[str, NDArray[Any]],
     path: Path | str,
     links: list[str],
     formats: Sequence[str] = ("png", "pdf"),
@@ -346,7 +347,7 @@ def link_figure(
 
 
 def bond_figure(
-    columns: Mapping[str, np.ndarray],
+    columns: Mapping[str, NDArray[Any]],
     path: Path | str,
     joints: list[str],
     formats: Sequence[str] = ("png", "pdf"),

@@ -80,7 +80,8 @@ STYLE = {
 
 def styled() -> contextlib.AbstractContextManager[None]:
     """Context in which figures are made and saved."""
-    return matplotlib.rc_context(STYLE)
+    context: contextlib.AbstractContextManager[None] = matplotlib.rc_context(STYLE)
+    return context
 
 
 def new_figure(width_in: float, height_in: float) -> Figure:

@@ -4,13 +4,15 @@ would miss it.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.foundation._compiled import njit
 
 
-def thinned(time: ArrayLike, values: ArrayLike, tolerance: ArrayLike) -> np.ndarray:
+def thinned(time: ArrayLike, values: ArrayLike, tolerance: ArrayLike) -> NDArray[Any]:
     """Rows of a history that suffice to draw it; straight lines between them miss no row by more
     than the tolerance.
 
@@ -29,7 +31,7 @@ def thinned(time: ArrayLike, values: ArrayLike, tolerance: ArrayLike) -> np.ndar
 
 
 @njit(alone=True)
-def _kept(time: np.ndarray, values: np.ndarray) -> np.ndarray:
+def _kept(time: NDArray[Any], values: NDArray[Any]) -> NDArray[Any]:
     """Whether each row is kept; `values` in tolerances.
 
     From the row kept last, lines through all rows since, each missed by 1 at most, have slopes in

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.style import (
     BLACK,
@@ -76,7 +77,7 @@ def top_figure(
         return save(figure, path, formats)
 
 
-def ground_panel(axes: Axes, time: np.ndarray, ground: np.ndarray) -> None:
+def ground_panel(axes: Axes, time: NDArray[Any], ground: NDArray[Any]) -> None:
     """Draw the components of a ground acceleration (n, 3) [m/s2] that are not 0 over time [s]."""
     for component, label, colour in zip(
         ground.T, ("$a_x$", "$a_y$", "$a_z$"), (BLUE, VERMILION, GREY)
@@ -87,7 +88,7 @@ def ground_panel(axes: Axes, time: np.ndarray, ground: np.ndarray) -> None:
 
 
 def _magnitude(
-    axes: Axes, history: HistoryCurves, ending: EndingMark, magnitude: np.ndarray
+    axes: Axes, history: HistoryCurves, ending: EndingMark, magnitude: NDArray[Any]
 ) -> None:
     peak = int(np.argmax(magnitude))
     axes.plot(history.time, magnitude, color=BLACK, label=r"$|u| = \sqrt{u_x^2 + u_y^2}$")
