@@ -31,7 +31,7 @@ class NewmarkBlock:
         all it slid [m].
     """
 
-    def __init__(self, amplitude: float, frequency: float, resistance: float) -> None:
+    def __init__(self, amplitude: float, frequency: float, resistance: float):
         A, w, r = self.amplitude, self.frequency, self.resistance = amplitude, frequency, resistance
         begin, end = np.arcsin(r / A) / w, 2 * np.pi / w
         turn = brentq(
@@ -92,9 +92,7 @@ class TurningBlock:
         how long.
     """
 
-    def __init__(
-        self, amplitude: float, frequency: float, resistance: float, seconds: float
-    ) -> None:
+    def __init__(self, amplitude: float, frequency: float, resistance: float, seconds: float):
         self.amplitude, self.frequency, self._first = amplitude, frequency, 1e-6
 
         def rate(t: float, y: np.ndarray) -> np.ndarray:

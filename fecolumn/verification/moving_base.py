@@ -38,7 +38,7 @@ class MovingInterface(ContactInterface):
         the last one is the end of the step.
     """
 
-    def __init__(self, still: ContactInterface) -> None:
+    def __init__(self, still: ContactInterface):
         super().__init__(still.composite, still.foot, still.bases, still.joints)
         self.position, self.first = np.zeros(3), np.zeros(3)
         self.known_velocities: list = []
@@ -77,7 +77,7 @@ class MovingStepper(Stepper):
         of the base so far [J].
     """
 
-    def __init__(self, system: System, ledger: Ledger, path: BasePath) -> None:
+    def __init__(self, system: System, ledger: Ledger, path: BasePath):
         super().__init__(system, ledger)
         self.path, self.base, self.work, self._moved = (
             path,
@@ -124,7 +124,7 @@ class InertialTrial:
         Trial of the absolute motion; its ledger has no base work.
     """
 
-    def __init__(self, system: System, start: Callable[[System], State], path: BasePath) -> None:
+    def __init__(self, system: System, start: Callable[[System], State], path: BasePath):
         moving = copy.copy(system)
         moving.interface = MovingInterface(system.interface)
         self.trial = Trial(moving, start)

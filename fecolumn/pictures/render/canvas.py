@@ -56,9 +56,7 @@ class Canvas:
         each pixel; and draw nothing anew that nobody sees move.
     """
 
-    def __init__(
-        self, frames: Frames, camera: Camera, size: tuple[int, int], quick: bool = False
-    ) -> None:
+    def __init__(self, frames: Frames, camera: Camera, size: tuple[int, int], quick: bool = False):
         pixels = [round(_FINER * side) for side in size] if quick else list(size)
         self._plotter = off_screen_plotter(pixels)
         import pyvista

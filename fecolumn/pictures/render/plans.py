@@ -43,7 +43,7 @@ class Plans:
         (axes, artist) that are drawn anew for each frame.
     """
 
-    def __init__(self, frames: Frames, figure: Figure) -> None:
+    def __init__(self, frames: Frames, figure: Figure):
         from matplotlib.collections import PolyCollection
 
         self._frames, self._contacts = frames, frames.scene.contacts
