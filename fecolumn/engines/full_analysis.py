@@ -4,16 +4,33 @@ from __future__ import annotations
 
 import dataclasses
 import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.case import Case
 from fecolumn.engines.analysis import CHECKPOINT, Analysis
+from fecolumn.engines.ending import Ending
 from fecolumn.engines.pace import Pace
 from fecolumn.engines.reduced_engine import begins_unstrained
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.fem.rotation import out_of_frames
+from fecolumn.structures.model import BodyModel, Joint
 from fecolumn.structures.pads import warn_of_grounds
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+    from fecolumn.engines.dynamics.cuts import StepFailed
+    from fecolumn.engines.dynamics.static_rest import StaticRest
+    from fecolumn.engines.dynamics.system import State, System
+    from fecolumn.engines.observer import Observer
+    from fecolumn.engines.scene.fields import FieldWriter
+    from fecolumn.engines.scene.full_fields import StructureFields
 
 
 class FullAnalysis(OfStructure, Analysis):
@@ -24,7 +41,13 @@ class FullAnalysis(OfStructure, Analysis):
     `dynamics`. observer: measures states and says when all is lost.
     """
 
-    def __init__(self, case, folder, comm, file, quiet):
+    state: State
+    fields: FieldWriter[StructureFields] | None
+    rest: StaticRest | None
+
+    def __init__(
+        self, case: Case, folder: Path, comm: MPI.Intracomm, file: str, quiet: bool
+    ) -> None:
         from fecolumn.engines.dynamics.energy import Ledger
         from fecolumn.engines.dynamics.stepper import Stepper
 
@@ -58,7 +81,7 @@ class FullAnalysis(OfStructure, Analysis):
             if self.fields:
                 self._write_fields()
 
-    def built(self, file):
+    def built(self, file: str) -> tuple[System, Observer]:
         """The System of the case, and what observes it."""
         from fecolumn.engines.full_system import full_system
         from fecolumn.engines.observer import Observer
@@ -80,13 +103,13 @@ class FullAnalysis(OfStructure, Analysis):
         """Whether the start is not from gravity equilibrium, which may not exist then."""
         return begins_unstrained(self.case, self.structure)
 
-    def _released(self, standing):
+    def _released(self, standing: State | None) -> State:
         """The State that the case begins with, from that of gravity equilibrium."""
         from fecolumn.engines.dynamics.structure import released
 
         return released(self.system, self.structure.parts, None if self.unstrained else standing)
 
-    def drawn(self):
+    def drawn(self) -> StructureFields:
         """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
         from fecolumn.engines.scene.full_fields import StructureFields
         from fecolumn.engines.scene.structure_scene import scene_of
@@ -95,21 +118,26 @@ class FullAnalysis(OfStructure, Analysis):
         points = self.system.interface.points
         return StructureFields(scene, self.system.bodies, self.meshed, self.standing, points)
 
-    def off_base(self, failure):
+    def off_base(self, failure: StepFailed) -> Ending | None:
         """The Ending of a step that failed because a foot met the edge of its ground, or None."""
 
-        def foot(joint, _, nodes):
+        def foot(
+            joint: Joint, _: BodyModel, nodes: NDArray[Any]
+        ) -> tuple[NDArray[Any], NDArray[Any]]:
             return self.foot(joint.slave, self.meshed[joint.slave].nodes[nodes])
 
         return self.off_ground(failure, self.system.bases, self.state.grounds, foot)
 
-    def foot(self, part: int, nodes) -> tuple[np.ndarray, np.ndarray]:
+    def foot(self, part: int, nodes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
         """Places (n, 3) [m] and velocities (n, 3) [m/s] of nodes (n,) of a body."""
         bodies, state = self.system.bodies, self.state
         own = bodies.rows[part]
-        return tuple(bodies.parts[part].gather(nodes, values[own]) for values in (state.x, state.v))
+        places, velocities = (
+            bodies.parts[part].gather(nodes, values[own]) for values in (state.x, state.v)
+        )
+        return places, velocities
 
-    def _standing(self):
+    def _standing(self) -> State | None:
         """Gravity equilibrium, its energy noted; None of what leans and cannot stand."""
         from fecolumn.engines.dynamics import gravity
 
@@ -123,7 +151,7 @@ class FullAnalysis(OfStructure, Analysis):
         self.standing_j = sum(terms.values()) - self.energy_to_fall()
         return state
 
-    def _take(self, arrays: dict) -> None:
+    def _take(self, arrays: dict[str, Any]) -> None:
         from fecolumn.engines.dynamics.checkpoint import read_state
         from fecolumn.engines.dynamics.energy import TERMS
         from fecolumn.engines.dynamics.record import Record
@@ -148,7 +176,7 @@ class FullAnalysis(OfStructure, Analysis):
             record,
         )
 
-    def _fields(self):
+    def _fields(self) -> FieldWriter[StructureFields]:
         from fecolumn.engines.scene.fields import FieldWriter
 
         return FieldWriter(self.folder / "fields", self.drawn())
@@ -156,6 +184,7 @@ class FullAnalysis(OfStructure, Analysis):
     def _write_fields(self) -> None:
         from fecolumn.engines.dynamics.static_rest import StaticRest
 
+        assert self.fields
         system, state = self.system, self.state
         interface, R, rows = system.interface, state.rotation, system.bodies.rows
         self.rest = self.rest or StaticRest(system)
@@ -171,7 +200,7 @@ class FullAnalysis(OfStructure, Analysis):
         moved = state.x + out_of_frames(rest, R, rows)
         self.fields.add(state.time, drawn.values(moved, local + rest, positions, state.forces))
 
-    def run(self, stop) -> dict:
+    def run(self, stop: Callable[[], bool]) -> dict[str, Any]:
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         from fecolumn.contact.overturning import STANDS
         from fecolumn.engines.dynamics.cuts import StepFailed
@@ -225,8 +254,8 @@ class FullAnalysis(OfStructure, Analysis):
         votes = self.comm.allreduce(np.array([due, ended], int))
         return bool(votes[0]), bool(votes[1])
 
-    def _note(self, iterations: int) -> dict:
-        measures = self.observer.measure(self.state)
+    def _note(self, iterations: int) -> dict[str, Any]:
+        measures: dict[str, Any] = self.observer.measure(self.state)
         self.history.add(measures, self.ledger.row(self.state), iterations)
         return measures
 
