@@ -14,10 +14,10 @@ _ENGINES = ("reduced", "rigid")
 
 
 def check_found(case: CheckedCase, refuse: Refuse, check_name: Callable[[str, str], None]) -> None:
-    """Refuse bodies, grounds and joints that cannot meet just anywhere.
+    """Refuse bodies, grounds and joints that contact.between cannot have.
 
-    check_name: function of a key and of the name of a body that it gives, refuses one that is
-    unknown.
+    check_name: refuses the name of a body that the case does not have; its arguments are the key
+    and the name.
     """
     chosen = case.contact.between
     if not chosen:

@@ -183,7 +183,8 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
             best, least = forces, residual
     if least <= tolerance or many:
         return best, least, iterations, others
-    # few of many points carry: those that do without friction, and those that sink where these do
+    # few of many points carry: first those that would carry without friction, then also those that
+    # sink into the surface under the forces of these
     forces, taken, grown, pressed = (
         frictionless(coupling, q, start),
         np.empty(n, np.bool_),

@@ -9,6 +9,8 @@ rigid limit it is Housner's (1963) impact.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from fecolumn.contact.arrays import flat, marked, put_points
@@ -29,6 +31,42 @@ from fecolumn.foundation._compiled import njit
 
 # Answers of `impact_event`
 NOTHING, LANDS, TURNS = range(3)
+
+
+class Touching(NamedTuple):
+    """What touches: bodies: Bodies; base: grounds as of `compliance.assemble`; points: (n,) of
+    POINT; interfaces: (ni,) of INTERFACE; springs: of pads at the points.
+    """
+
+    bodies: NamedTuple
+    base: NamedTuple
+    points: np.ndarray
+    interfaces: np.ndarray
+    springs: NamedTuple
+
+
+class Collision(NamedTuple):
+    """A step in which n points collide.
+
+    union: (k,) points that carry at its start or at its end or land, as of `touched`; arms: (n, 3)
+    of the points on their slaves at its end [m]; poses: (ni,) of POSE; before, after: (n,) of
+    CONTACT at its ends; early, late: (n, 3) velocities there [m/s], relative to the master, at
+    least of the points that carry; landing, turning: (n,) masks, as `impact_event` leaves them.
+    dt: [s]; moment: fraction of the step at which points land, as of `landing_moment`; nan where
+    slip ends.
+    """
+
+    union: np.ndarray
+    arms: np.ndarray
+    poses: np.ndarray
+    before: np.ndarray
+    after: np.ndarray
+    early: np.ndarray
+    late: np.ndarray
+    landing: np.ndarray
+    turning: np.ndarray
+    dt: float
+    moment: float
 
 
 @njit
@@ -105,8 +143,9 @@ def impact_event(interfaces, points, listed, before, after, dt, early, late, lan
     listed
         (k,) the points that may carry.
     landing, turning
-        (n,) marked by the functions above; of `turning` those stay that do turn, of those of all
-        interfaces where any turns for most of its foot.
+        (n,) masks that `mark_landing` and `mark_turning` made. On return `turning` marks only the
+        points whose slip really ends, and only in interfaces where these carry more than half of
+        the force.
     """
     lands, turned, total = False, np.zeros(len(interfaces)), np.zeros(len(interfaces))
     for i in listed:
@@ -148,26 +187,7 @@ def touched(listed, before, after, landing):
 
 
 @njit
-def find_impact(
-    bodies,
-    base,
-    points,
-    interfaces,
-    springs,
-    union,
-    arms,
-    poses,
-    before,
-    after,
-    early,
-    late,
-    landing,
-    turning,
-    moment,
-    dt,
-    contact_work,
-    counts,
-):
+def find_impact(touching, collision, contact_work, counts):
     """Find the impulses (n, 3) [N s] that replace those of the step: OK or the code of what failed,
     whether there are any, the impulses.
 
@@ -180,20 +200,23 @@ def find_impact(
 
     Parameters
     ----------
-    union
-        (k,) points that carry at the start or at the end of the step or land, as of `touched`.
-    arms
-        (n, 3) of the points on their slaves at the end of the step [m].
-    early, late
-        (n, 3) velocities [m/s], relative to the master, at least of the points that carry.
-    moment
-        fraction of the step at which points land, as of `landing_moment`; nan where slip ends.
+    touching, collision
+        Touching and Collision.
     contact_work
         energy that contact added in the step [J].
     """
+    points, interfaces = touching.points, touching.interfaces
+    union, before, after, landing, moment, dt = (
+        collision.union,
+        collision.before,
+        collision.after,
+        collision.landing,
+        collision.moment,
+        collision.dt,
+    )
     impulses = np.zeros((len(after), 3))
     k, lands = len(union), moment >= 0.0
-    mobility = _mobility(bodies, base, points, springs, union, arms, poses)
+    mobility = _mobility(touching, collision)
     held, m = np.empty(k, np.int64), 0
     given, start, end, friction = np.empty(3 * k), np.empty(3 * k), np.empty(3 * k), np.empty(k)
     for j in range(k):
@@ -205,8 +228,8 @@ def find_impact(
         for a in range(3):
             given[3 * j + a], start[3 * j + a], end[3 * j + a] = (
                 dt * after[i].force[a],
-                early[i, a],
-                late[i, a],
+                collision.early[i, a],
+                collision.late[i, a],
             )
     pushed, speed = _jump(mobility, given), np.inf if lands else _fastest(start, end)
     pressed = np.abs(pushed).max() if k > 0 else 0.0
@@ -214,7 +237,9 @@ def find_impact(
     for j in range(3 * k):
         free[j] = end[j] - pushed[j]
     if not lands:
-        moment = _turning_moment(points, before, after, start, free, pushed, union, turning)
+        moment = _turning_moment(
+            points, before, after, start, free, pushed, union, collision.turning
+        )
     second, velocity, taken = np.zeros(3 * k), np.empty(3 * k), 0.0
     carried, carried_before, guess_of_all, changed = (
         np.zeros(3 * k),
@@ -288,15 +313,29 @@ def find_impact(
 
 
 @njit
-def _mobility(bodies, base, points, springs, union, arms, poses):
-    """Coupling by mobility [1/kg] of the points `union` (k,)."""
+def _mobility(touching, collision):
+    """Coupling by mobility [1/kg] of the points `union` (k,) of a Collision."""
+    bodies, points, springs = touching.bodies, touching.points, touching.springs
+    union, arms, poses = collision.union, collision.arms, collision.poses
     modes = bodies.pushes.shape[2]
-    stiff = are_stiff(bodies, base, points, union)
+    stiff = are_stiff(bodies, touching.base, points, union)
     if stiff or modes > 0 and len(union) > POINTS_A_LEVER * (6 + modes):
         modes = 0 if stiff else modes
         return couple(bodies, points, arms, union, poses, 1.0, 0.0, springs.own, modes)
     W = np.empty((3 * len(union), 3 * len(union)))
-    assemble(bodies, base, points, arms, union, poses, 1.0, bodies.mobility, 0.0, springs.own, W)
+    assemble(
+        bodies,
+        touching.base,
+        points,
+        arms,
+        union,
+        poses,
+        1.0,
+        bodies.mobility,
+        0.0,
+        springs.own,
+        W,
+    )
     return coupling_of(W)
 
 
@@ -338,9 +377,11 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, known):
 
 @njit
 def _restitutions(interfaces, points, union, landing):
-    """Restitution of each of the points `union` (k,): that of its joint where a point of that lands
-    (mask), else the least of those that land, for a point that was loaded before only transmits the
-    impact.
+    """Restitution (k,) of the points `union` (k,).
+
+    Where a point of a joint lands, all points of the joint have the joint's own restitution. A
+    point of a joint that carried before only transmits the impact: it has the least restitution of
+    the joints that land.
     """
     least, lands, found = np.inf, np.zeros(len(interfaces), np.bool_), np.zeros(len(union))
     for i in union:

@@ -104,12 +104,15 @@ def rough_impulses(mobility, velocity, friction, listed, guess):
 
 @njit
 def _impulses(mobility, velocity, friction, guess, speed, pressed, counts):
-    """Impulses (k, 3) of points with velocities (k, 3) [m/s] without them, and whether they obey
-    the laws, up to IMPACT_LEFT of the largest velocity; speed: of the velocities that points have,
-    in place of that where it is less; pressed: largest velocity that the step's contact gives.
+    """Impulses (k, 3) of points that would have velocities (k, 3) [m/s] without them, and whether
+    the impulses obey the laws, up to a share IMPACT_LEFT of the largest of these velocities.
 
-    Where slip ends nothing approaches, and velocities without impulses tell no more than how hard
-    bodies are pressed together: a share of them would carry a slip on for ever.
+    speed: largest velocity that points really have [m/s]; where it is less, the share is of this
+    one. pressed: largest velocity that the step's contact gives [m/s].
+
+    Where slip ends, no point approaches. The velocities without impulses then only tell how hard
+    bodies are pressed together. A share of these velocities could be more than the slip itself,
+    which would never end.
 
     Each point gives a little against its impulse, a share of its own mobility, without which many
     impulses on a stiff foot are not unique. The velocity that this leaves is taken off in the next

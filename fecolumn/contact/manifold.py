@@ -78,8 +78,10 @@ def _crossing(exchanged, of_slave, of_master):
 
 @njit(alone=TOGETHER)
 def facing(hulls, slave, x, y, z, least, before):
-    """Face of the slave that faces a normal x, y, z in its frame most, among those at its nearest
-    corner, which is at `least` [m] along the normal; that of the step before where it does as well.
+    """The slave's face that is most against a normal x, y, z, in the slave's frame.
+
+    Only faces at the slave's nearest corner count, which is at `least` [m] along the normal. Where
+    the face of the step before is as much against it, it is that one.
     """
     chosen, most, within = -1, np.inf, 1e-9 * hulls.thickness[slave]
     for f in range(hulls.first[slave, 1], hulls.first[slave + 1, 1]):

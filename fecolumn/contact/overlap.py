@@ -326,9 +326,11 @@ def _cut(x, y, u, v, cx, cy, radius):
 
 @njit
 def _clip(sides, first, last, x0, y0, x1, y1):
-    """Part low to high, from 0 to 1, of the way from one place to another that lies within a
-    polygon of sides, and the sides at which it begins and ends, -2 where it does so at its own end
-    (Cyrus and Beck 1978).
+    """Clip the way from a place to another one to a polygon (Cyrus and Beck 1978).
+
+    Returns: low, high: fractions of the way, from 0 to 1, between which it is within the polygon;
+    begins, ends: sides of the polygon at which it comes in and goes out, -2 where it does neither,
+    as its own end is within.
     """
     low, high, begins, ends = 0.0, 1.0, -2, -2
     for q in range(first, last):

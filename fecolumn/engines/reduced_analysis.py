@@ -203,8 +203,11 @@ class ReducedAnalysis(OfStructure, Analysis):
         return sum(different.values()) + sum(base.dofs for base in self.bases)
 
     def rigid_loss_share(self) -> float | None:
-        """Energy that impacts took over what rigid-body theory says."""
-        return loss_share(self.engine.ledger, self.engine.structure.interfaces)
+        """Energy that impacts took over what rigid-body theory says; None where any foot stands on
+        a pad, whose dashpots take energy between impacts.
+        """
+        interfaces = self.engine.structure.interfaces
+        return None if interfaces["on_pad"].any() else loss_share(self.engine.ledger, interfaces)
 
     def _stays(self) -> bool:
         """Whether what is lost or at rest stays so: bodies whose contact is found are at rest once

@@ -61,8 +61,10 @@ class Composite:
         self.sum, self.max, self.dot = parts[0].sum, parts[0].max, parts[0].dot
 
     def places(self, centers, rotations) -> np.ndarray:
-        """Positions (n_owned, 3) [m] of the unstrained bodies with centres of mass (nb, 3), turned
-        by (nb, 3, 3); of one that is where it is drawn without any rounding.
+        """Positions (n_owned, 3) [m] of the nodes of unstrained bodies, with centres of mass
+        (nb, 3) [m] and rotations (nb, 3, 3).
+
+        A body that is where it is drawn has the drawn positions to the last digit.
         """
         drawn = [
             np.array_equal(center, part.center) and np.array_equal(R, np.eye(3))

@@ -130,8 +130,14 @@ class Estimate:
             f"freedom, {self.foot_points:,} contact points; "
             f"about {self.memory / 1e9:.1f} GB, {_span(self.setup)} to start and "
             f"{1e3 * self.step:.2g} ms a step with the "
-            f"{self.engine} engine"
+            f"{self.engine} engine{self._more}"
         )
+
+    @property
+    def _more(self) -> str:
+        """What is said of steps that take longer than the mean of a column."""
+        moving = sum(load.copies for load in self.loads if not load.held)
+        return ", ten times as much and more while bodies rock on one another" if moving > 1 else ""
 
 
 def _span(seconds: float) -> str:

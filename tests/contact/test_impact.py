@@ -7,7 +7,14 @@ from two_blocks import NO_BASE
 
 from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.compliance import assemble
-from fecolumn.contact.impact import find_impact, landing_moment, mark_landing, touched
+from fecolumn.contact.impact import (
+    Collision,
+    Touching,
+    find_impact,
+    landing_moment,
+    mark_landing,
+    touched,
+)
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.points import CONTACT, GROUND, node_points
 from fecolumn.contact.problem import N_COUNTS, OK
@@ -68,22 +75,20 @@ def struck(
     late = np.array(velocity if late is None else late, float)
     early, union = np.array(velocity, float), touched(np.arange(n), before, after, landing)
     answer, pushed, impulses = find_impact(
-        bodies,
-        NO_BASE,
-        points,
-        interface,
-        no_pads(np.zeros((n, 3))),
-        union,
-        points["arm"].copy(),
-        poses_on_base(np.eye(3)[None]),
-        before,
-        after,
-        early,
-        late,
-        landing,
-        np.zeros(n, bool),
-        landing_moment(union, before, after, early, landing, DT),
-        DT,
+        Touching(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
+        Collision(
+            union,
+            points["arm"].copy(),
+            poses_on_base(np.eye(3)[None]),
+            before,
+            after,
+            early,
+            late,
+            landing,
+            np.zeros(n, bool),
+            DT,
+            landing_moment(union, before, after, early, landing, DT),
+        ),
         contact_work,
         np.zeros(N_COUNTS, np.int64),
     )
@@ -303,22 +308,20 @@ def test_an_impact_is_plastic_whatever_the_step_and_the_faces(made, give, parts)
     given = dt * after["force"].ravel()
     late, counts = velocity + (mobility @ given).reshape(n, 3), np.zeros(N_COUNTS, np.int64)
     answer, pushed, impulses = find_impact(
-        bodies,
-        NO_BASE,
-        points,
-        interface,
-        no_pads(np.zeros((n, 3))),
-        listed,
-        points["arm"].copy(),
-        poses,
-        before,
-        after,
-        velocity,
-        late,
-        landing,
-        np.zeros(n, bool),
-        landing_moment(listed, before, after, velocity, landing, dt),
-        dt,
+        Touching(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
+        Collision(
+            listed,
+            points["arm"].copy(),
+            poses,
+            before,
+            after,
+            velocity,
+            late,
+            landing,
+            np.zeros(n, bool),
+            dt,
+            landing_moment(listed, before, after, velocity, landing, dt),
+        ),
         0.0,
         counts,
     )
@@ -360,22 +363,20 @@ def test_a_frame_keeps_what_the_theory_of_rocking_frames_says(slab):
         mobility,
     )
     answer, _, impulses = find_impact(
-        bodies,
-        NO_BASE,
-        points,
-        interface,
-        no_pads(np.zeros((n, 3))),
-        listed,
-        points["arm"].copy(),
-        poses,
-        before,
-        after,
-        velocity,
-        velocity,
-        ~carried,
-        np.zeros(n, bool),
-        landing_moment(listed, before, after, velocity, ~carried, 1e-4),
-        1e-4,
+        Touching(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
+        Collision(
+            listed,
+            points["arm"].copy(),
+            poses,
+            before,
+            after,
+            velocity,
+            velocity,
+            ~carried,
+            np.zeros(n, bool),
+            1e-4,
+            landing_moment(listed, before, after, velocity, ~carried, 1e-4),
+        ),
         0.0,
         np.zeros(N_COUNTS, np.int64),
     )
@@ -399,22 +400,20 @@ def test_slip_ends_whatever_the_thrust_under_which_it_ended(thrust):
     before["force"], after["force"] = [-mu * thrust, 0, thrust], [-speed / step, 0, thrust]
     listed, late = np.arange(1), np.zeros((1, 3))
     answer, pushed, impulses = find_impact(
-        body(1.0, place),
-        NO_BASE,
-        points,
-        interface,
-        no_pads(np.zeros((1, 3))),
-        listed,
-        place.copy(),
-        poses_on_base(np.eye(3)[None]),
-        before,
-        after,
-        np.array([[speed, 0, 0]]),
-        late,
-        np.zeros(1, bool),
-        np.ones(1, bool),
-        np.nan,
-        step,
+        Touching(body(1.0, place), NO_BASE, points, interface, no_pads(np.zeros((1, 3)))),
+        Collision(
+            listed,
+            place.copy(),
+            poses_on_base(np.eye(3)[None]),
+            before,
+            after,
+            np.array([[speed, 0, 0]]),
+            late,
+            np.zeros(1, bool),
+            np.ones(1, bool),
+            step,
+            np.nan,
+        ),
         -1.0,
         np.zeros(N_COUNTS, np.int64),
     )

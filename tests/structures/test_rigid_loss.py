@@ -10,6 +10,8 @@ from test_rigid_engine import BREADTH, HEIGHT, TILT, bent
 from fecolumn.engines.reduced.ledger import RIGID_LOSS
 from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.engines.reduced_engine import engine_of
+from fecolumn.foundation.toml_file import merge
+from fecolumn.simulation import run
 from fecolumn.structures.structure import structure_model
 
 ALPHA = np.arctan(BLOCK["length_m"] / BLOCK["height_m"])
@@ -117,3 +119,19 @@ def test_without_an_impact_that_counts_or_with_restitution_there_is_no_share():
     stands = structure(**block(), integration=dict(engine="rigid", dt_s=1e-3))
     assert share_of(rocked(stands, 0.05)) is None
     assert share_of(rocked(let_go("rigid", 1e-3, restitution=0.5), 0.2)) is None
+
+
+def test_nothing_is_told_where_any_foot_stands_on_a_pad(tmp_path):
+    """One of two blocks rocks on rigid ground; the pad below the other always takes energy."""
+    other = dict(bodies=dict(other=BLOCK | dict(at_m=[2.0, 0.0, 0.0])))
+    joints = dict(other=dict(slave="other", on="ground"))
+    case = structure(
+        **merge(block(joints), other),
+        initial=dict(block=dict(tilt_rad=0.05)),
+        contact=dict(friction_coefficient=0.7, interior_points=0),
+        integration=dict(engine="rigid", dt_s=1e-3, duration_s=0.4),
+    )
+    told = run(case, tmp_path / "both", quiet=True)["rigid_loss_share"]
+    assert told == pytest.approx(1.0, abs=1e-3)
+    padded = case.replace({"joints.other.stiffness_n_m3": 1e9})
+    assert run(padded, tmp_path / "padded", quiet=True)["rigid_loss_share"] is None

@@ -228,7 +228,7 @@ class Stepper:
             turned,
             0.0,
         )
-        # what does work beside the accelerations that HHT remembers, and what does as part of them
+        # work of forces that HHT's remembered accelerations leave out, and of those they contain
         beside, within = resisted, 0.0
         # what grounds that move do
         carried_by = outcome.contact["force"]

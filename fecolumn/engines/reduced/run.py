@@ -127,17 +127,18 @@ class StepBatch(NamedTuple):
 
 @njit
 def advance(structure, base, schemes, work, view, course, chunk):
-    """Make the steps of a StepBatch: those made and why they ended; `motion` of the StepState is
-    the state after them.
+    """Make the steps of a StepBatch: how many were made, and why they ended. `motion` of the
+    StepState is then the state after them.
 
-    schemes: of steps of 1, 1/2, ... 1/PARTS of a step; all the same where the shorter ones are
-    still to be made, for which ROLLS_FAST asks. A part in which a point lands is halved down to the
-    smallest where impacts are located.
+    schemes: of a whole step, its half, its quarter ... down to 1/PARTS of it. The caller may give
+    the first one in the place of all: the answer ROLLS_FAST then asks for the others. Where impacts
+    are located, a part of a step in which a point lands is halved, down to the smallest part.
 
-    Without any step to make: the row of `motion` where there is one to fill, else one proximal step
-    of the first scheme towards gravity equilibrium, from `motion` to `spare`; see
-    `start.gravity_equilibrium`.
-    They are here because each function that Python calls is compiled with all it calls.
+    A StepBatch without steps asks for one of two other things. Where it has a row, the row of the
+    present `motion` is filled. Else one proximal step towards gravity equilibrium is made by the
+    first scheme, from `motion` to `spare` (`start.gravity_equilibrium`). Both are made here because
+    a function that Python calls is compiled together with all that it calls: one such function
+    compiles sooner than three.
     """
     structure, base, schemes, work, view, course, chunk = borrowed(
         (structure, base, schemes, work, view, course, chunk)

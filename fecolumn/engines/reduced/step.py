@@ -11,6 +11,8 @@ from fecolumn.contact.ball import remove_lift
 from fecolumn.contact.impact import (
     LANDS,
     NOTHING,
+    Collision,
+    Touching,
     find_impact,
     impact_event,
     landing_moment,
@@ -439,12 +441,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
     if happens == LANDS:
         moment = landing_moment(union, before, end.contact, work.early, work.landing, scheme.dt)
         begin_impact(structure, work, start, end, scheme.dt, moment, union, booked, ledger)
-    answer, pushed, impulses = find_impact(
-        structure.bodies,
-        base,
-        points,
-        interfaces,
-        scheme.springs,
+    collision = Collision(
         union,
         arms,
         work.poses[END],
@@ -454,8 +451,12 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
         work.late,
         work.landing,
         work.turning,
-        moment,
         scheme.dt,
+        moment,
+    )
+    answer, pushed, impulses = find_impact(
+        Touching(structure.bodies, base, points, interfaces, scheme.springs),
+        collision,
         contact_work,
         counts,
     )
