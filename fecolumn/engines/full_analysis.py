@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
-from fecolumn.engines.analysis import CHECKPOINT, Analysis
+from fecolumn.engines.analysis import CHECKPOINT
 from fecolumn.engines.ending import Ending
 from fecolumn.engines.pace import Pace
 from fecolumn.engines.reduced_engine import begins_unstrained
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from fecolumn.engines.scene.full_fields import StructureFields
 
 
-class FullAnalysis(OfStructure, Analysis):
+class FullAnalysis(OfStructure):
     """A running analysis of bodies with all their degrees of freedom.
 
     Attributes beside those of Analysis: structure: StructureModel at its start, standing: the same
@@ -59,15 +59,8 @@ class FullAnalysis(OfStructure, Analysis):
         self.began += time.perf_counter() - began  # what is compiled is so for all analyses
         warn_of_grounds(case, self.structure, file)
         self.ledger = Ledger(self.system)
-        self.stepper = Stepper(
-            self.system,
-            self.ledger,
-            case.contact.impact,
-            plan.tolerance,
-            plan.max_iterations,
-            plan.max_cuts,
-            plan.substeps,
-        )
+        stops = plan.tolerance, plan.max_iterations, plan.max_cuts, plan.substeps
+        self.stepper = Stepper(self.system, self.ledger, case.contact.impact, *stops)
         self.stance, self.top_arm = self.observer.stance, self.observer.top_arm
         self.fields, self.rest = self._fields() if self.field_steps else None, None
         if self.went_on(self._take):
@@ -94,9 +87,8 @@ class FullAnalysis(OfStructure, Analysis):
         #: measured from there.
         self.standing = system.model
         limits = limits_of(self.standing, standing_of(case, self.standing))
-        return system, Observer(
-            system, self.meshed, self.standing, limits, case.overturn.displacement_m
-        )
+        cap = case.overturn.displacement_m
+        return system, Observer(system, self.meshed, self.standing, limits, cap)
 
     @property
     def unstrained(self) -> bool:
@@ -120,22 +112,15 @@ class FullAnalysis(OfStructure, Analysis):
 
     def off_base(self, failure: StepFailed) -> Ending | None:
         """The Ending of a step that failed because a foot met the edge of its ground, or None."""
+        return self.off_ground(failure, self.system.bases, self.state.grounds, self._foot)
 
-        def foot(
-            joint: Joint, _: BodyModel, nodes: NDArray[Any]
-        ) -> tuple[NDArray[Any], NDArray[Any]]:
-            return self.foot(joint.slave, self.meshed[joint.slave].nodes[nodes])
-
-        return self.off_ground(failure, self.system.bases, self.state.grounds, foot)
-
-    def foot(self, part: int, nodes: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Places (n, 3) [m] and velocities (n, 3) [m/s] of nodes (n,) of a body."""
-        bodies, state = self.system.bodies, self.state
-        own = bodies.rows[part]
-        places, velocities = (
-            bodies.parts[part].gather(nodes, values[own]) for values in (state.x, state.v)
-        )
-        return places, velocities
+    def _foot(
+        self, joint: Joint, _: BodyModel, rows: NDArray[Any]
+    ) -> tuple[NDArray[Any], NDArray[Any]]:
+        """As `off_ground` takes it."""
+        bodies, nodes = self.system.bodies, self.meshed[joint.slave].nodes[rows]
+        part, own = bodies.parts[joint.slave], bodies.rows[joint.slave]
+        return part.gather(nodes, self.state.x[own]), part.gather(nodes, self.state.v[own])
 
     def _standing(self) -> State | None:
         """Gravity equilibrium, its energy noted; None of what leans and cannot stand."""
@@ -158,10 +143,8 @@ class FullAnalysis(OfStructure, Analysis):
 
         state, extra = read_state(arrays, self.system)
         start = float(extra["start"])
-        work, record = (
-            dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True)),
-            Record(*extra["record"].tolist()),
-        )
+        work = dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True))
+        record = Record(*extra["record"].tolist())
         points, kept = self.system.interface.points, extra["points"]
         if kept.shape != points.shape or not np.can_cast(kept.dtype, points.dtype, "equiv"):
             raise ValueError("points do not fit")
@@ -169,12 +152,8 @@ class FullAnalysis(OfStructure, Analysis):
         self.system.interface.stay.take(extra)
         points[...] = kept
         self.system.interface.list_present()
-        self.state, self.ledger.start, self.ledger.work, self.stepper.record = (
-            state,
-            start,
-            work,
-            record,
-        )
+        self.state, self.stepper.record = state, record
+        self.ledger.start, self.ledger.work = start, work
 
     def _fields(self) -> FieldWriter[StructureFields]:
         from fecolumn.engines.scene.fields import FieldWriter
@@ -188,10 +167,8 @@ class FullAnalysis(OfStructure, Analysis):
         system, state = self.system, self.state
         interface, R, rows = system.interface, state.rotation, system.bodies.rows
         self.rest = self.rest or StaticRest(system)
-        at_nodes, local = (
-            interface.at_nodes(state.forces, R),
-            system.kinematics.local_displacement(state.x),
-        )
+        at_nodes = interface.at_nodes(state.forces, R)
+        local = system.kinematics.local_displacement(state.x)
         rest = self.rest.displacement(at_nodes, R)
         drawn = self.fields.fields
         positions = (

@@ -21,7 +21,7 @@ from fecolumn.contact.known_base import KnownBase
 from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.problem import list_present
 from fecolumn.contact.unbounded_base import UnboundedBase
-from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
+from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
@@ -50,7 +50,7 @@ if TYPE_CHECKING:
 CHUNK = 500
 
 
-class ReducedAnalysis(OfStructure, Analysis):
+class ReducedAnalysis(OfStructure):
     """A running analysis of the reduced or the rigid engine."""
 
     def __init__(
