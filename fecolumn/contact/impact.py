@@ -33,7 +33,7 @@ from fecolumn.foundation._compiled import njit
 NOTHING, LANDS, TURNS = range(3)
 
 
-class Touching(NamedTuple):
+class TouchingBodies(NamedTuple):
     """What touches: bodies: Bodies; base: grounds as of `compliance.assemble`; points: (n,) of
     POINT; interfaces: (ni,) of INTERFACE; springs: of pads at the points.
     """
@@ -201,7 +201,7 @@ def find_impact(touching, collision, contact_work, counts):
     Parameters
     ----------
     touching, collision
-        Touching and Collision.
+        TouchingBodies and Collision.
     contact_work
         energy that contact added in the step [J].
     """

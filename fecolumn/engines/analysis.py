@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
 from fecolumn.case.sections import GRAVITY, MODEL_ENGINES, UNTIL_REST
@@ -30,6 +31,13 @@ from fecolumn.motions.record import GroundMotion
 
 if TYPE_CHECKING:
     from mpi4py import MPI
+
+    from fecolumn.contact.base_plate import BasePlate
+    from fecolumn.contact.known_base import KnownBase
+    from fecolumn.contact.overturning import Stance
+    from fecolumn.contact.unbounded_base import UnboundedBase
+    from fecolumn.engines.dynamics.cuts import StepFailed
+    from fecolumn.engines.dynamics.record import Record
 
 CHECKPOINT = "checkpoint.npz"
 
@@ -60,6 +68,9 @@ class Analysis:
         nothing moves [J]; the engine sets these three.
     """
 
+    stance: Stance
+    top_arm: NDArray[Any]
+
     def __init__(
         self, case: Case, folder: Path, comm: MPI.Intracomm, file: str, quiet: bool
     ) -> None:
@@ -69,10 +80,11 @@ class Analysis:
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
         self.began, self.cpu_began, self.code = time.perf_counter(), time.process_time(), code()
         self.motion = self._load_motion(file)
-        self.steps = int(round(self._duration() / case.integration.dt_s))
+        self.steps = int(round(self._duration() / self.dt_s))
         self.motion_steps = len(self.motion.acceleration) if self.motion else 0
         self.until_rest = (
-            bool(self.motion)
+            self.motion is not None
+            and case.motion is not None
             and case.motion.free_vibration_s == UNTIL_REST
             and not case.integration.duration_s
         )
@@ -81,8 +93,8 @@ class Analysis:
             self.say(self.expected())
         self.history, self.step = History(), 0
         self.stepping_s = self.earlier_s = 0.0
-        self.stance, self.top_arm, self.standing_j = None, None, 0.0
-        self.dt_chosen: dict | None = None
+        self.standing_j = 0.0
+        self.dt_chosen: dict[str, Any] | None = None
         self.step_times: StepTimes | None = None
         grounds = self.motion.acceleration[: self.steps + 1] if self.motion else np.zeros((0, 3))
         self._steepest = steepest_to_come(np.array([0.0, 0.0, -GRAVITY]), grounds)
@@ -121,31 +133,38 @@ class Analysis:
             return None
         from fecolumn.motions.load import load_motion
 
-        return load_motion(self.case.motion, self.case.integration.dt_s, file)
+        return load_motion(self.case.motion, self.dt_s, file)
+
+    @property
+    def dt_s(self) -> float:
+        """Step [s], which is a number by now."""
+        return float(self.case.integration.dt_s)
 
     def _duration(self) -> float:
         if self.case.integration.duration_s:
             return self.case.integration.duration_s
+        assert self.motion and self.case.motion  # `check_duration` asks for one of the two
         return (
             len(self.motion.acceleration) * self.motion.dt
             + self.case.motion.longest_free_vibration_s
         )
 
-    def _cut(self, file) -> float | None:
+    def _cut(self, file: str) -> float | None:
         """Where the analysis cuts the motion short [s], which is told; None where it does not."""
         if self.steps >= self.motion_steps - 1:
             return None
-        dt = self.case.integration.dt_s
+        dt = self.dt_s
         warnings.warn(cut_text(file, self.steps * dt, (self.motion_steps - 1) * dt), stacklevel=2)
         return self.steps * dt
 
-    def ground(self, step: int) -> np.ndarray:
+    def ground(self, step: int) -> NDArray[Any]:
         """Ground acceleration (3,) [m/s2] at a step."""
         if self.motion is None or step >= len(self.motion.acceleration):
             return np.zeros(3)
-        return self.motion.acceleration[step]
+        acceleration: NDArray[Any] = self.motion.acceleration[step]
+        return acceleration
 
-    def grounds(self, step: int) -> np.ndarray:
+    def grounds(self, step: int) -> NDArray[Any]:
         """Accelerations (3 G,) of all grounds [m/s2] at a step."""
         return self.ground(step)
 
@@ -189,9 +208,9 @@ class Analysis:
     def field_steps(self) -> int:
         """Steps between frames of the fields; 0 for no fields."""
         every = self.case.output.fields_every_s
-        return max(1, round(every / self.case.integration.dt_s)) if every else 0
+        return max(1, round(every / self.dt_s)) if every else 0
 
-    def went_on(self, take) -> bool:
+    def went_on(self, take: Callable[[dict[str, NDArray[Any]]], None]) -> bool:
         """Whether the analysis goes on from its checkpoint; from one that cannot be used it does
         not, and says so.
 
@@ -226,7 +245,7 @@ class Analysis:
             )
         return not problem
 
-    def resumed(self, extra: dict) -> None:
+    def resumed(self, extra: dict[str, Any]) -> None:
         """Take over what an earlier run had, from the `extra` arrays of its checkpoint.
 
         Raises
@@ -274,7 +293,7 @@ class Analysis:
             )
         self.code["sources"] = f"{sources or 'not recorded'}+{self.code['sources']}"
 
-    def to_resume(self) -> dict:
+    def to_resume(self) -> dict[str, Any]:
         """The `extra` arrays of a checkpoint that `resumed` takes."""
         extra = {f"rows.{name}": values for name, values in self.history.arrays().items()}
         return (
@@ -291,7 +310,7 @@ class Analysis:
 
     def write_history(self) -> None:
         """Write history.h5 on rank 0, its rows as far apart as the case says."""
-        every = max(1, round(self.case.output.history_every_s / self.case.integration.dt_s))
+        every = max(1, round(self.case.output.history_every_s / self.dt_s))
 
         if self.comm.rank == 0:
             attributes = {"case_id": self.case.id, **self.code, "title": self.case.title}
@@ -307,13 +326,13 @@ class Analysis:
         )
         return max(0.0, kinetic, kinetic + strain + gravity - self.standing_j)
 
-    def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
+    def ending(self, fallen: int, rotation: NDArray[Any]) -> Ending:
         """How the analysis ends, from the answer of `overturning.fallen` and the last rotation (3,
         3).
         """
         from fecolumn.contact.overturning import CAPPED, NO_RETURN
 
-        last, dt = self.history.last(), self.case.integration.dt_s
+        last, dt = self.history.last(), self.dt_s
         if fallen == CAPPED:
             return Ending(
                 OVERTURNED,
@@ -334,6 +353,7 @@ class Analysis:
                 f"at rest {last['time'] - self.motion_steps * dt:.3f} s after the "
                 f"motion's end, at {last['time']:.3f} s",
             )
+        assert self.case.motion  # after which there is free vibration until rest
         return Ending(
             outcome,
             f"motion.rest_ceiling_s = {self.case.motion.rest_ceiling_s:g} s after the "
@@ -346,11 +366,11 @@ class Analysis:
         """
         return None
 
-    def results(self, ending: Ending) -> dict:
+    def results(self, ending: Ending) -> dict[str, Any]:
         """What the summary has beside what that of any analysis has."""
         return {}
 
-    def no_return(self, last: dict, rotation: np.ndarray) -> str:
+    def no_return(self, last: dict[str, Any], rotation: NDArray[Any]) -> str:
         """What the point of no return was, from the last row of the history and the last rotation
         (3, 3).
         """
@@ -361,7 +381,7 @@ class Analysis:
             f"{critical_tilt_along(self.stance, rotation):.3g} rad"
         )
 
-    def limits(self) -> dict:
+    def limits(self) -> dict[str, Any]:
         """Of the summary: tilt and displacement beyond which the column falls."""
         from fecolumn.contact.overturning import critical_displacement
 
@@ -370,7 +390,13 @@ class Analysis:
             u_critical_m=critical_displacement(self.stance, self.top_arm),
         )
 
-    def slid_off(self, failure, base, foot: np.ndarray, velocity: np.ndarray) -> Ending | None:
+    def slid_off(
+        self,
+        failure: StepFailed,
+        base: BasePlate | KnownBase | UnboundedBase,
+        foot: NDArray[Any],
+        velocity: NDArray[Any],
+    ) -> Ending | None:
         """The ending of a column whose step failed because its foot, at (n, 3) [m] with velocities
         (n, 3) [m/s] before, met the edge of the base; None for another failure.
         """
@@ -378,12 +404,14 @@ class Analysis:
 
         if failure.stop is not Stop.OFF_BASE:
             return None
-        way = self.case.integration.dt_s * np.hypot(velocity[:, 0], velocity[:, 1]).max()
+        way = self.dt_s * np.hypot(velocity[:, 0], velocity[:, 1]).max()
         if not base.grid.at_edge(foot, way + EDGE_SHARE * np.ptp(foot, axis=0)[:2].max()):
             return None
         return Ending(SLID_OFF, f"{Stop.OFF_BASE.value}, at {self.history.last()['time']:.3f} s")
 
-    def finish(self, ending: Ending, dofs: int, record, factorizations: int) -> dict:
+    def finish(
+        self, ending: Ending, dofs: int, record: Record, factorizations: int
+    ) -> dict[str, Any]:
         """Write the last history and the summary, which is returned; the checkpoint goes."""
         plan = self.case.integration
         of_steps = dict(
@@ -410,14 +438,14 @@ class Analysis:
             return None
         return step_doubt(
             self.history.arrays(),
-            self.case.integration.dt_s,
+            self.dt_s,
             self.rigid_loss_share(),
             self.barrier_j,
             self.limits()["critical_tilt_rad"],
             len(self.case.bodies) <= 1,
         )
 
-    def write_results(self, ending: Ending, dofs: int, more: dict) -> dict:
+    def write_results(self, ending: Ending, dofs: int, more: dict[str, Any]) -> dict[str, Any]:
         """Write the last history and the summary of any engine, with `more` entries of this one;
         the summary is returned.
         """
@@ -478,7 +506,8 @@ class Analysis:
         if self.comm.rank == 0:
             summary = write_sealed(self.folder, summary)
             (self.folder / CHECKPOINT).unlink(missing_ok=True)
-        return self.comm.bcast(summary)
+        shared: dict[str, Any] = self.comm.bcast(summary)
+        return shared
 
     def say(self, text: str) -> None:
         """Tell the user, unless quiet."""
@@ -488,7 +517,7 @@ class Analysis:
             print(text, file=sys.stderr, flush=True)
 
 
-def cut_text(file, end_s: float, motion_s: float) -> str:
+def cut_text(file: Path | str, end_s: float, motion_s: float) -> str:
     """Warning of a motion that is not analysed to its end."""
     return (
         f"{file}: integration.duration_s = {end_s:g} s cuts the motion short, which "
@@ -497,7 +526,7 @@ def cut_text(file, end_s: float, motion_s: float) -> str:
     )
 
 
-def energy_closure(rows: dict) -> float:
+def energy_closure(rows: dict[str, Any]) -> float:
     """Largest closure error relative to the largest energy that moved, or is held [-].
 
     Reference is the largest of kinetic energy, swing of the gravity energy, work of the base

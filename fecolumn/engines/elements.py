@@ -5,10 +5,15 @@ that the reduced engine has.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.bodies import Matrices, Storeys
+from fecolumn.case.body_keys import Solid
+from fecolumn.case.case import Case
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.layout import Layout, layout_of
@@ -18,6 +23,11 @@ from fecolumn.structures.patches import Patch, face_weights
 from fecolumn.structures.reduction import bare_model, body_of, top_face
 from fecolumn.structures.shapes import Shape
 from fecolumn.structures.structure import assembled
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+    from fecolumn.fem.body import Body
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,17 +40,17 @@ class MeshedBody:
     names of the surfaces.
     """
 
-    body: object
+    body: Body
     model: BodyModel
-    nodes: np.ndarray
-    top: np.ndarray
-    shares: np.ndarray
+    nodes: NDArray[Any]
+    top: NDArray[Any]
+    shares: NDArray[Any]
     shape: Shape
     patches: dict[str, Patch]
 
 
 def structure_of_elements(
-    case, comm, file, layout: Layout | None = None
+    case: Case, comm: MPI.Intracomm, file: Path | str, layout: Layout | None = None
 ) -> tuple[StructureModel, list[MeshedBody]]:
     """The structure of a case at its start, and the elements of each part; the same on every rank.
 
@@ -61,7 +71,7 @@ def structure_of_elements(
     return structure, [made[name] for name in case.bodies for _ in case.names_of(name)]
 
 
-def checked_layout(case, file) -> Layout:
+def checked_layout(case: Case, file: Path | str) -> Layout:
     """Meshes and contact points of the bodies of a case.
 
     Raises
@@ -78,6 +88,7 @@ def checked_layout(case, file) -> Layout:
                 'has no elements: engine = "full" takes bodies of elements, engine = '
                 '"reduced" takes all kinds',
             )
+        assert isinstance(body, Solid)
         if not body.deforms:
             raise InputError(
                 file,
@@ -91,11 +102,13 @@ def checked_layout(case, file) -> Layout:
     return layout
 
 
-def meshed(drawing: Drawing, patches: dict[str, Patch], comm) -> MeshedBody:
+def meshed(drawing: Drawing, patches: dict[str, Patch], comm: MPI.Intracomm) -> MeshedBody:
     """Elements and contact points of a drawing."""
     from fecolumn.engines.dynamics.checkpoint import node_order
 
-    body = body_of(drawing.shape, drawing.material, comm)
+    shape, material = drawing.shape, drawing.material
+    assert shape and material  # `checked_layout` refuses matrices
+    body = body_of(shape, material, comm)
     found = {name: body.find_nodes(patch.positions, patch.part) for name, patch in patches.items()}
     order = node_order(body)
     # by part and place, so that it does not matter how the ranks share them
@@ -103,7 +116,7 @@ def meshed(drawing: Drawing, patches: dict[str, Patch], comm) -> MeshedBody:
     row = np.full(body.n_nodes, -1)
     row[nodes] = np.arange(len(nodes))
     face = top_face(drawing.faces)
-    positions, shares = face_weights(face, drawing.shape.order)
+    positions, shares = face_weights(face, shape.order)
     model = bare_model(
         body,
         nodes,
@@ -111,5 +124,5 @@ def meshed(drawing: Drawing, patches: dict[str, Patch], comm) -> MeshedBody:
         shares @ positions,
     )
     return MeshedBody(
-        body, model, nodes, body.find_nodes(positions, face.part), shares, drawing.shape, patches
+        body, model, nodes, body.find_nodes(positions, face.part), shares, shape, patches
     )

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 #: Outcomes. Only a column at rest has shown its residual slide, and only one that is not lost,
 #: overturned or slid off, its peak.
@@ -41,7 +43,7 @@ class Ending:
     lost_at_s: float | None = None
 
 
-def ending_text(summary: dict) -> str:
+def ending_text(summary: dict[str, Any]) -> str:
     """What became of the column, for a reader, from the summary of its analysis."""
     if summary["overturned"]:
         return (
@@ -77,7 +79,7 @@ def energy_text(left: float, barrier: float) -> str:
     )
 
 
-def cut_short(summaries) -> str:
+def cut_short(summaries: Iterable[dict[str, Any]]) -> str:
     """How many of some analyses ended within their motion, and what that means, from their
     summaries; "" where none did.
     """
@@ -97,14 +99,14 @@ def cut_short(summaries) -> str:
     )
 
 
-def lost(summary: dict) -> bool:
+def lost(summary: dict[str, Any]) -> bool:
     """Whether the column overturned or slid off its base: what its top did after that is not
     known.
     """
     return bool(summary["overturned"] or summary.get("slid_off"))
 
 
-def peak_text(summary: dict) -> str:
+def peak_text(summary: dict[str, Any]) -> str:
     """Largest top displacement of an analysis, for a reader; of a column that is lost it is only
     where the analysis stopped.
     """

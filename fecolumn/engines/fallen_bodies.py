@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import FAR
@@ -34,7 +37,7 @@ class FallenBodies:
         self.still_j = _STILL * lightest * float(thickness.min())
         self.turn_s = float(np.sqrt(thickness.max() / GRAVITY))
 
-    def fallen(self, rows: dict[str, np.ndarray]) -> dict[str, float]:
+    def fallen(self, rows: dict[str, NDArray[Any]]) -> dict[str, float]:
         """Bodies that have fallen at the end of a history, by name, and when they began to lie
         farther from their places than they stand [s], the first one first.
         """

@@ -5,8 +5,10 @@ one time step to another.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 #: Change by half the step, over the value at half the step, of the mean loss at the first impacts
 #: and of the largest tilt after them, below which a step is taken; and standard error of that
@@ -55,17 +57,17 @@ class TrialResult:
     """
 
     dt: float
-    share: np.ndarray
-    energy: np.ndarray
-    after: np.ndarray
-    tilt: np.ndarray
+    share: NDArray[Any]
+    energy: NDArray[Any]
+    after: NDArray[Any]
+    tilt: NDArray[Any]
     lost: int
 
-    def loss(self, shares: bool) -> np.ndarray:
+    def loss(self, shares: bool) -> NDArray[Any]:
         """Loss (starts,), over the rigid loss or [J]."""
         return self.share if shares else self.energy
 
-    def told(self, shares: bool) -> dict:
+    def told(self, shares: bool) -> dict[str, Any]:
         """Of the summary; shares: whether the loss is that over the rigid loss."""
         loss = self.loss(shares)
         mean = float(loss.mean()) if loss.size else None
@@ -104,7 +106,7 @@ def change(longer: TrialResult, shorter: TrialResult) -> Changes:
     )
 
 
-def window_of(rows: dict[str, np.ndarray], barrier_j: float) -> Window | None:
+def window_of(rows: dict[str, NDArray[Any]], barrier_j: float) -> Window | None:
     """The first impacts in the columns of a history; None where nothing lands in time.
 
     barrier_j: energy to overturn [J].
@@ -126,8 +128,8 @@ def window_of(rows: dict[str, np.ndarray], barrier_j: float) -> Window | None:
 
 
 def landings(
-    rows: dict[str, np.ndarray], barrier_j: float, until_s: float = np.inf
-) -> tuple[np.ndarray, np.ndarray]:
+    rows: dict[str, NDArray[Any]], barrier_j: float, until_s: float = np.inf
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Times (n,), (n,) [s] at which impacts begin and end; what is less than a hundredth of the
     largest until a time counts for none.
 

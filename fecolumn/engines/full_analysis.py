@@ -4,19 +4,36 @@ from __future__ import annotations
 
 import dataclasses
 import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fecolumn.engines.analysis import CHECKPOINT, Analysis
+from fecolumn.case.case import Case
+from fecolumn.engines.analysis import CHECKPOINT
+from fecolumn.engines.ending import Ending
 from fecolumn.engines.pace import Pace
 from fecolumn.engines.reduced_engine import begins_unstrained
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.fem.rotation import out_of_frames
+from fecolumn.structures.model import BodyModel, Joint
 from fecolumn.structures.pads import warn_of_grounds
 
+if TYPE_CHECKING:
+    from mpi4py import MPI
 
-class FullAnalysis(OfStructure, Analysis):
+    from fecolumn.engines.dynamics.cuts import StepFailed
+    from fecolumn.engines.dynamics.static_rest import StaticRest
+    from fecolumn.engines.dynamics.system import State, System
+    from fecolumn.engines.observer import Observer
+    from fecolumn.engines.scene.fields import FieldWriter
+    from fecolumn.engines.scene.full_fields import StructureFields
+
+
+class FullAnalysis(OfStructure):
     """A running analysis of bodies with all their degrees of freedom.
 
     Attributes beside those of Analysis: structure: StructureModel at its start, standing: the same
@@ -24,7 +41,13 @@ class FullAnalysis(OfStructure, Analysis):
     `dynamics`. observer: measures states and says when all is lost.
     """
 
-    def __init__(self, case, folder, comm, file, quiet):
+    state: State
+    fields: FieldWriter[StructureFields] | None
+    rest: StaticRest | None
+
+    def __init__(
+        self, case: Case, folder: Path, comm: MPI.Intracomm, file: str, quiet: bool
+    ) -> None:
         from fecolumn.engines.dynamics.energy import Ledger
         from fecolumn.engines.dynamics.stepper import Stepper
 
@@ -36,15 +59,8 @@ class FullAnalysis(OfStructure, Analysis):
         self.began += time.perf_counter() - began  # what is compiled is so for all analyses
         warn_of_grounds(case, self.structure, file)
         self.ledger = Ledger(self.system)
-        self.stepper = Stepper(
-            self.system,
-            self.ledger,
-            case.contact.impact,
-            plan.tolerance,
-            plan.max_iterations,
-            plan.max_cuts,
-            plan.substeps,
-        )
+        stops = plan.tolerance, plan.max_iterations, plan.max_cuts, plan.substeps
+        self.stepper = Stepper(self.system, self.ledger, case.contact.impact, *stops)
         self.stance, self.top_arm = self.observer.stance, self.observer.top_arm
         self.fields, self.rest = self._fields() if self.field_steps else None, None
         if self.went_on(self._take):
@@ -58,7 +74,7 @@ class FullAnalysis(OfStructure, Analysis):
             if self.fields:
                 self._write_fields()
 
-    def built(self, file):
+    def built(self, file: str) -> tuple[System, Observer]:
         """The System of the case, and what observes it."""
         from fecolumn.engines.full_system import full_system
         from fecolumn.engines.observer import Observer
@@ -71,22 +87,21 @@ class FullAnalysis(OfStructure, Analysis):
         #: measured from there.
         self.standing = system.model
         limits = limits_of(self.standing, standing_of(case, self.standing))
-        return system, Observer(
-            system, self.meshed, self.standing, limits, case.overturn.displacement_m
-        )
+        cap = case.overturn.displacement_m
+        return system, Observer(system, self.meshed, self.standing, limits, cap)
 
     @property
     def unstrained(self) -> bool:
         """Whether the start is not from gravity equilibrium, which may not exist then."""
         return begins_unstrained(self.case, self.structure)
 
-    def _released(self, standing):
+    def _released(self, standing: State | None) -> State:
         """The State that the case begins with, from that of gravity equilibrium."""
         from fecolumn.engines.dynamics.structure import released
 
         return released(self.system, self.structure.parts, None if self.unstrained else standing)
 
-    def drawn(self):
+    def drawn(self) -> StructureFields:
         """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
         from fecolumn.engines.scene.full_fields import StructureFields
         from fecolumn.engines.scene.structure_scene import scene_of
@@ -95,21 +110,19 @@ class FullAnalysis(OfStructure, Analysis):
         points = self.system.interface.points
         return StructureFields(scene, self.system.bodies, self.meshed, self.standing, points)
 
-    def off_base(self, failure):
+    def off_base(self, failure: StepFailed) -> Ending | None:
         """The Ending of a step that failed because a foot met the edge of its ground, or None."""
+        return self.off_ground(failure, self.system.bases, self.state.grounds, self._foot)
 
-        def foot(joint, _, nodes):
-            return self.foot(joint.slave, self.meshed[joint.slave].nodes[nodes])
+    def _foot(
+        self, joint: Joint, _: BodyModel, rows: NDArray[Any]
+    ) -> tuple[NDArray[Any], NDArray[Any]]:
+        """As `off_ground` takes it."""
+        bodies, nodes = self.system.bodies, self.meshed[joint.slave].nodes[rows]
+        part, own = bodies.parts[joint.slave], bodies.rows[joint.slave]
+        return part.gather(nodes, self.state.x[own]), part.gather(nodes, self.state.v[own])
 
-        return self.off_ground(failure, self.system.bases, self.state.grounds, foot)
-
-    def foot(self, part: int, nodes) -> tuple[np.ndarray, np.ndarray]:
-        """Places (n, 3) [m] and velocities (n, 3) [m/s] of nodes (n,) of a body."""
-        bodies, state = self.system.bodies, self.state
-        own = bodies.rows[part]
-        return tuple(bodies.parts[part].gather(nodes, values[own]) for values in (state.x, state.v))
-
-    def _standing(self):
+    def _standing(self) -> State | None:
         """Gravity equilibrium, its energy noted; None of what leans and cannot stand."""
         from fecolumn.engines.dynamics import gravity
 
@@ -123,17 +136,15 @@ class FullAnalysis(OfStructure, Analysis):
         self.standing_j = sum(terms.values()) - self.energy_to_fall()
         return state
 
-    def _take(self, arrays: dict) -> None:
+    def _take(self, arrays: dict[str, Any]) -> None:
         from fecolumn.engines.dynamics.checkpoint import read_state
         from fecolumn.engines.dynamics.energy import TERMS
         from fecolumn.engines.dynamics.record import Record
 
         state, extra = read_state(arrays, self.system)
         start = float(extra["start"])
-        work, record = (
-            dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True)),
-            Record(*extra["record"].tolist()),
-        )
+        work = dict(zip(TERMS[3:-1], extra["work"].tolist(), strict=True))
+        record = Record(*extra["record"].tolist())
         points, kept = self.system.interface.points, extra["points"]
         if kept.shape != points.shape or not np.can_cast(kept.dtype, points.dtype, "equiv"):
             raise ValueError("points do not fit")
@@ -141,14 +152,10 @@ class FullAnalysis(OfStructure, Analysis):
         self.system.interface.stay.take(extra)
         points[...] = kept
         self.system.interface.list_present()
-        self.state, self.ledger.start, self.ledger.work, self.stepper.record = (
-            state,
-            start,
-            work,
-            record,
-        )
+        self.state, self.stepper.record = state, record
+        self.ledger.start, self.ledger.work = start, work
 
-    def _fields(self):
+    def _fields(self) -> FieldWriter[StructureFields]:
         from fecolumn.engines.scene.fields import FieldWriter
 
         return FieldWriter(self.folder / "fields", self.drawn())
@@ -156,13 +163,12 @@ class FullAnalysis(OfStructure, Analysis):
     def _write_fields(self) -> None:
         from fecolumn.engines.dynamics.static_rest import StaticRest
 
+        assert self.fields
         system, state = self.system, self.state
         interface, R, rows = system.interface, state.rotation, system.bodies.rows
         self.rest = self.rest or StaticRest(system)
-        at_nodes, local = (
-            interface.at_nodes(state.forces, R),
-            system.kinematics.local_displacement(state.x),
-        )
+        at_nodes = interface.at_nodes(state.forces, R)
+        local = system.kinematics.local_displacement(state.x)
         rest = self.rest.displacement(at_nodes, R)
         drawn = self.fields.fields
         positions = (
@@ -171,7 +177,7 @@ class FullAnalysis(OfStructure, Analysis):
         moved = state.x + out_of_frames(rest, R, rows)
         self.fields.add(state.time, drawn.values(moved, local + rest, positions, state.forces))
 
-    def run(self, stop) -> dict:
+    def run(self, stop: Callable[[], bool]) -> dict[str, Any]:
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         from fecolumn.contact.overturning import STANDS
         from fecolumn.engines.dynamics.cuts import StepFailed
@@ -225,8 +231,8 @@ class FullAnalysis(OfStructure, Analysis):
         votes = self.comm.allreduce(np.array([due, ended], int))
         return bool(votes[0]), bool(votes[1])
 
-    def _note(self, iterations: int) -> dict:
-        measures = self.observer.measure(self.state)
+    def _note(self, iterations: int) -> dict[str, Any]:
+        measures: dict[str, Any] = self.observer.measure(self.state)
         self.history.add(measures, self.ledger.row(self.state), iterations)
         return measures
 

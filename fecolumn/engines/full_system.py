@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from fecolumn.case.case import Case
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.links_of_model import StiffLink
@@ -16,6 +18,9 @@ from fecolumn.engines.reduced_engine import begins_unstrained, upright
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.layout import Layout
 from fecolumn.structures.model import StructureModel
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
 
 
 class FullSystem(NamedTuple):
@@ -30,7 +35,9 @@ class FullSystem(NamedTuple):
     meshed: list[MeshedBody]
 
 
-def full_system(case, comm, file, layout: Layout | None = None) -> FullSystem:
+def full_system(
+    case: Case, comm: MPI.Intracomm, file: Path | str, layout: Layout | None = None
+) -> FullSystem:
     """The system of a case on all ranks of `comm`.
 
     Parameters
@@ -69,7 +76,7 @@ def full_system(case, comm, file, layout: Layout | None = None) -> FullSystem:
         system = structure_system(
             upright(case, structure),
             [one.body for one in meshed],
-            HHT(plan.dt_s, plan.alpha_hht),
+            HHT(float(plan.dt_s), plan.alpha_hht),
             np.array([0.0, 0.0, -GRAVITY]),
             filtered=plastic,
             nodes=[one.nodes for one in meshed],

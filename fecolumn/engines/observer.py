@@ -4,7 +4,10 @@ bodies' mean motion and the tops' nodes.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from fecolumn.contact.overturning import (
@@ -20,6 +23,12 @@ from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.engines.structure_analysis import of_both_sides
 from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.foundation._compiled import interpreted
+
+if TYPE_CHECKING:
+    from fecolumn.contact.overturning import Limits
+    from fecolumn.engines.dynamics.system import State, System
+    from fecolumn.engines.elements import MeshedBody
+    from fecolumn.structures.model import StructureModel
 
 
 class Observer:
@@ -39,7 +48,14 @@ class Observer:
         horizontal displacement of the observed mark that counts as overturned [m], 0 for none.
     """
 
-    def __init__(self, system, meshed: list, structure, limits, cap: float):
+    def __init__(
+        self,
+        system: System,
+        meshed: list[MeshedBody],
+        structure: StructureModel,
+        limits: Limits,
+        cap: float,
+    ) -> None:
         self._limits = limits
         self.system, self.structure, self._meshed = system, structure, meshed
         self.body, self._mark = structure.observed
@@ -66,7 +82,7 @@ class Observer:
             None,
         )
 
-    def measure(self, state) -> dict:
+    def measure(self, state: State) -> dict[str, Any]:
         """Measures of a state by the names of the history file, in SI units; as
         `analysis.columns_of` tells them.
         """
@@ -147,12 +163,13 @@ class Observer:
             }
         return of_both_sides(row, structure)
 
-    def _slid(self, x: np.ndarray, moved: np.ndarray) -> np.ndarray:
+    def _slid(self, x: NDArray[Any], moved: NDArray[Any]) -> NDArray[Any]:
         """Displacement (3,) [m] of the middle of the observed body's foot, on the mean over its
         area; of its centre of mass, as `moved` (nb, 3) has it, where it has none.
         """
         if self._surface is None:
-            return moved[self.body]
+            shifted: NDArray[Any] = moved[self.body]
+            return shifted
         one, part, rows = (
             self._meshed[self.body],
             self.structure.parts[self.body],
@@ -160,16 +177,17 @@ class Observer:
         )
         share = self._surface.areas / self._surface.areas.sum()
         places = one.body.gather(one.nodes[self._surface.nodes], x[rows])
-        return share @ (places - part.center - part.model.arms[self._surface.nodes])
+        slid: NDArray[Any] = share @ (places - part.center - part.model.arms[self._surface.nodes])
+        return slid
 
-    def _top(self, b: int, x: np.ndarray) -> np.ndarray:
+    def _top(self, b: int, x: NDArray[Any]) -> NDArray[Any]:
         """Displacement (3,) [m] of the mean of a body's top face."""
         one, part = self._meshed[b], self.structure.parts[b]
-        return one.shares @ one.body.gather(one.top, x[self.system.bodies.rows[b]]) - (
-            part.center + part.model.marks["top"][0]
-        )
+        now = one.shares @ one.body.gather(one.top, x[self.system.bodies.rows[b]])
+        moved: NDArray[Any] = now - (part.center + part.model.marks["top"][0])
+        return moved
 
-    def fallen(self, state, measures: dict, steepest: float) -> int:
+    def fallen(self, state: State, measures: dict[str, Any], steepest: float) -> int:
         """As `reduced.observe.outcome_of_row`; on all ranks together."""
         tilts = []
         for center, part in zip(self._centers, self.structure.parts):
@@ -191,7 +209,7 @@ class Observer:
                     return NO_RETURN
         return CAPPED if np.hypot(*measures["u_top"][:2]) >= self.stance.cap else STANDS
 
-    def _spins(self, state) -> np.ndarray:
+    def _spins(self, state: State) -> NDArray[Any]:
         """Angular velocities (nb, 3) [rad/s] in the frames of the bodies, of rigid ones with their
         angular momentum.
         """

@@ -6,13 +6,17 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from fecolumn.case.sections import POINTS_OF_SEVERAL
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.progress import clock
 
 if TYPE_CHECKING:
+    from fecolumn.case.case import Case
+    from fecolumn.engines.dynamics.record import Record
+    from fecolumn.engines.structure_analysis import OfStructure
     from fecolumn.structures.model import StructureModel
 
 #: File of a running analysis with its pace, from which a study knows how long it will take
@@ -43,7 +47,7 @@ class Pace:
         Record of the steps before.
     """
 
-    def __init__(self, analysis, say, record):
+    def __init__(self, analysis: OfStructure, say: Callable[[str], None], record: Record) -> None:
         self._analysis, self._say = analysis, say
         # step and wall time at the begin, when steps were last judged, at the last look
         self._began = self._judged = self._looked = analysis.step, analysis.stepping_s
@@ -60,7 +64,7 @@ class Pace:
             return min(_FIRST_STEPS, most)
         return max(1, min(most, int(LOOK_S / self._s_per_step)))
 
-    def look(self, record) -> None:
+    def look(self, record: Record) -> None:
         """Look at the clock after some steps; `record`: Record of all steps so far."""
         now = self._analysis.step, self._analysis.stepping_s
         if now[0] == self._looked[0]:
@@ -84,7 +88,7 @@ class Pace:
             self._told = True
             self._tell()
 
-    def _note_step(self, record) -> None:
+    def _note_step(self, record: Record) -> None:
         """Note a step where each is timed."""
         analysis = self._analysis
         made_in_s = analysis.made_in_s()
@@ -127,7 +131,7 @@ class Pace:
             said += f"; {cheaper_keys}"
         self._say(said)
 
-    def _why(self, record, each: float) -> str:
+    def _why(self, record: Record, each: float) -> str:
         """Why steps take `each` so long [s], in words."""
         analysis = self._analysis
         steps = analysis.step - self._judged[0]
@@ -176,7 +180,7 @@ def contact_points_of(structure: StructureModel) -> dict[str, int]:
     return found
 
 
-def _busiest(structure: StructureModel, last: dict) -> str:
+def _busiest(structure: StructureModel, last: dict[str, Any]) -> str:
     """The joint that carries with the most contact points, in words."""
     points = contact_points_of(structure)
     if not points:
@@ -189,10 +193,10 @@ def _busiest(structure: StructureModel, last: dict) -> str:
     )
 
 
-def cheaper(case) -> dict[str, dict]:
+def cheaper(case: Case) -> dict[str, dict[str, Any]]:
     """Changes of a case that make it cheaper, by dotted key; each by itself."""
     plan = case.integration
-    found: dict[str, dict] = {}
+    found: dict[str, dict[str, Any]] = {}
     if plan.engine == "full":
         found["integration.engine"] = {"integration.engine": "reduced"}
     given = {
@@ -210,11 +214,11 @@ def cheaper(case) -> dict[str, dict]:
         if case.n_modes > 5:
             found["integration.n_modes"] = {"integration.n_modes": 5}
         found["integration.engine"] = {"integration.engine": "rigid"}
-    found["integration.dt_s"] = {"integration.dt_s": 2 * plan.dt_s}
+    found["integration.dt_s"] = {"integration.dt_s": 2 * float(plan.dt_s)}
     return found
 
 
-def cheaper_text(case, structure: StructureModel) -> str:
+def cheaper_text(case: Case, structure: StructureModel) -> str:
     """The same in words."""
     named = [f"{key} = {value!r}" for one in cheaper(case).values() for key, value in one.items()]
     return (

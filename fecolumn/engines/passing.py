@@ -4,13 +4,17 @@ and those of which a joint with two sides does not hold them apart.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.convex import hulls_of
 from fecolumn.contact.nearby import pair_keys
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.through import ThroughCheck, find_depths
+from fecolumn.engines.reduced.motion import MotionState
 from fecolumn.structures.hulls import hulls_of_parts
 from fecolumn.structures.model import StructureModel
 
@@ -62,14 +66,14 @@ class Passing:
         upright = [np.array([getattr(part, of) for part in parts]) for of in ("center", "rotation")]
         self._depth_before = self._depths(*upright)
 
-    def steps(self, motion, dt: float, most: int) -> int:
+    def steps(self, motion: MotionState, dt: float, most: int) -> int:
         """Steps [of dt s] after which to look again, `most` at most."""
         if not self._looks:
             return most
         fastest = float(self._speeds(motion).max()) + GRAVITY * most * dt
         return max(1, min(most, int(_WAY * self._thinnest / (fastest * dt))))
 
-    def fast(self, motion, dt: float) -> str:
+    def fast(self, motion: MotionState, dt: float) -> str:
         """Which body whose contact is found goes by more than its thickness in a step of dt s, in
         words; "" where none does, or one has been told.
         """
@@ -85,7 +89,7 @@ class Passing:
             f"{_rounded(dt * _FAST / ways[b]):g} s goes no further than that thickness"
         )
 
-    def overlaps(self, motion) -> str:
+    def overlaps(self, motion: MotionState) -> str:
         """Which two bodies a joint with two sides has let sink into each other, in words; "" where
         none has, or all have been told.
         """
@@ -106,21 +110,22 @@ class Passing:
             f"after that is not to be used; a shorter integration.dt_s may hold them apart"
         )
 
-    def _depths(self, centers, rotations) -> np.ndarray:
+    def _depths(self, centers: NDArray[Any], rotations: NDArray[Any]) -> NDArray[Any]:
         """How far [m] bodies of each joint with two sides are in each other, below 0 apart."""
         depths = np.zeros(len(self._joined))
         places = np.ascontiguousarray(centers, float), np.ascontiguousarray(rotations, float)
         find_depths(self._check.hulls, *places, self._joined, self._check.relation, depths)
         return np.maximum(depths, 0.0)
 
-    def _speeds(self, motion) -> np.ndarray:
+    def _speeds(self, motion: MotionState) -> NDArray[Any]:
         """Largest velocities (nb,) [m/s] that points of bodies may have."""
         velocity, spin = (
             np.linalg.norm(motion.frames[key], axis=1) for key in ("velocity", "spin")
         )
-        return velocity + spin * self._radii
+        speeds: NDArray[Any] = velocity + spin * self._radii
+        return speeds
 
-    def told(self, motion) -> str:
+    def told(self, motion: MotionState) -> str:
         """Which pair is in each other now, in words; "" where none is."""
         if not self._looks:
             return ""

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 #: Half the time over which accelerations are taken [s]: an impact changes a velocity at once, so
 #: that over a step it would be what the step says.
 HALF_WINDOW_S = 5e-3
 
 
-def peak_acceleration(time, displacement, ground) -> float | None:
+def peak_acceleration(
+    time: NDArray[Any], displacement: NDArray[Any], ground: NDArray[Any]
+) -> float | None:
     """Largest horizontal acceleration [m/s2] in space of a point, its mean over 10 ms with the
     weights of a triangle: the second difference of its places 5 ms apart, and as much of the
     ground's. None of a history that is shorter than that.

@@ -7,14 +7,21 @@ import io
 import math
 import time
 import warnings
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.case import Case
 from fecolumn.contact.arrays import arrays_of
 from fecolumn.contact.gathered import base_to_resume, gather_again
+from fecolumn.contact.known_base import KnownBase
 from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.problem import list_present
-from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
+from fecolumn.contact.unbounded_base import UnboundedBase
+from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
@@ -29,17 +36,26 @@ from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure, columns_of
 from fecolumn.foundation._compiled import compiled, interpreted
 from fecolumn.foundation.atomic import write_bytes
+from fecolumn.structures.model import BodyModel, Joint
 from fecolumn.structures.pads import warn_of_grounds
 from fecolumn.structures.structure import structure_model
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+    from fecolumn.engines.scene.fields import FieldWriter
+    from fecolumn.engines.scene.scene import SceneFields
 
 # Most steps between looks at the clock, Ctrl-C and the progress line; fewer where they are slow
 CHUNK = 500
 
 
-class ReducedAnalysis(OfStructure, Analysis):
+class ReducedAnalysis(OfStructure):
     """A running analysis of the reduced or the rigid engine."""
 
-    def __init__(self, case, folder, comm, file, quiet):
+    def __init__(
+        self, case: Case, folder: Path, comm: MPI.Intracomm, file: str, quiet: bool
+    ) -> None:
         super().__init__(case, folder, comm, file, quiet)
         self._file = file
         self.structure = structure_model(case, file, self.say)
@@ -65,7 +81,7 @@ class ReducedAnalysis(OfStructure, Analysis):
             self._note(self.engine.row()[None])
             self._keep()
 
-    def _standing_energy(self, file) -> float:
+    def _standing_energy(self, file: str) -> float:
         """Mechanical energy [J] in gravity equilibrium; 0, that of the unstrained structure, where
         there is none.
         """
@@ -77,7 +93,7 @@ class ReducedAnalysis(OfStructure, Analysis):
         except NoEquilibrium:
             return 0.0
 
-    def _fields(self):
+    def _fields(self) -> tuple[FieldWriter[SceneFields], SceneFields]:
         """Writer of the fields, and what expands a state to them."""
         from fecolumn.engines.scene.fields import FieldWriter
 
@@ -86,13 +102,9 @@ class ReducedAnalysis(OfStructure, Analysis):
 
     def _states(self) -> States | None:
         every = self.case.output.states_every_s
-        return (
-            States(max(1, round(every / self.case.integration.dt_s)), *self._bodies())
-            if every
-            else None
-        )
+        return States(max(1, round(every / self.dt_s)), *self._bodies()) if every else None
 
-    def _bodies(self) -> tuple:
+    def _bodies(self) -> tuple[list[BodyModel], list[str]]:
         return [part.model for part in self.structure.parts], [
             part.name for part in self.structure.parts
         ]
@@ -105,7 +117,7 @@ class ReducedAnalysis(OfStructure, Analysis):
             writer, fields = self.fields
             writer.add(self.engine.motion.time, fields.values(state_of(self.engine)))
 
-    def run(self, stop) -> dict:
+    def run(self, stop: Callable[[], bool]) -> dict[str, Any]:
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         cadence, engine = self.case.output, self.engine
         progress, passing = self.progress(), Passing(self.structure)
@@ -116,12 +128,12 @@ class ReducedAnalysis(OfStructure, Analysis):
                 count = min(CHUNK, self.steps - self.step)
                 if self.step < self.motion_steps:
                     count = min(count, self.motion_steps - self.step)
-                count = passing.steps(engine.motion, self.case.integration.dt_s, count)
+                count = passing.steps(engine.motion, self.dt_s, count)
                 for every in (self.field_steps, self.states.every if self.states else 0):
                     if every:
                         count = min(count, every - self.step % every)
                 over = self._advance_while_quick(count, pace) and self._stays()
-                if told := passing.fast(engine.motion, self.case.integration.dt_s):
+                if told := passing.fast(engine.motion, self.dt_s):
                     warnings.warn(f"{self._file}: {told}", stacklevel=2)
                 if told := passing.overlaps(engine.motion):
                     warnings.warn(f"{self._file}: {told}", stacklevel=2)
@@ -169,11 +181,13 @@ class ReducedAnalysis(OfStructure, Analysis):
         """Processor time [s] of the compiled steps so far."""
         return self.engine.spent_s
 
-    def off_base(self, failure) -> Ending | None:
+    def off_base(self, failure: StepFailed) -> Ending | None:
         """The Ending of a step that failed because a foot met the edge of its ground, or None."""
         motion = self.engine.motion
 
-        def foot(joint, model, nodes):
+        def foot(
+            joint: Joint, model: BodyModel, nodes: NDArray[Any]
+        ) -> tuple[NDArray[Any], NDArray[Any]]:
             frame, arms = motion.frames[joint.slave], model.arms[nodes]
             turn = motion.rotation[joint.slave].T
             return (
@@ -201,7 +215,7 @@ class ReducedAnalysis(OfStructure, Analysis):
         """
         if not self.collapse or self.engine.fallen(self.steepest(self.step)) != STANDS:
             return True
-        steps = math.ceil(self.collapse.turn_s / self.case.integration.dt_s)
+        steps = math.ceil(self.collapse.turn_s / self.dt_s)
         if self._advance(min(steps, self.steps - self.step), goes_on=True):
             return True
         return bool(self.engine.made[:, ENERGY].max(initial=0.0) <= self.still_j)
@@ -263,12 +277,13 @@ class ReducedAnalysis(OfStructure, Analysis):
 
     def _made(self) -> tuple[float, float]:
         """Wall and processor time spent on what grounds keep for later analyses [s]."""
+        kept = [base for base in self.bases if isinstance(base, (KnownBase, UnboundedBase))]
         return (
-            sum(base.made_s for base in self.bases),
-            sum(base.made_cpu_s for base in self.bases),
+            float(sum(base.made_s for base in kept)),
+            float(sum(base.made_cpu_s for base in kept)),
         )
 
-    def _note(self, rows: np.ndarray) -> None:
+    def _note(self, rows: NDArray[Any]) -> None:
         self.history.extend(columns_of(rows, self.structure))
 
     def _save(self) -> None:
@@ -284,7 +299,7 @@ class ReducedAnalysis(OfStructure, Analysis):
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
-    def _arrays(self, sticks: bool) -> dict[str, np.ndarray]:
+    def _arrays(self, sticks: bool) -> dict[str, NDArray[Any]]:
         """What a checkpoint keeps: with the points, the stick operator where there is one, and what
         is learnt of it, so that an analysis that was interrupted goes on to the last digit as if it
         had not been.
@@ -300,7 +315,7 @@ class ReducedAnalysis(OfStructure, Analysis):
         }
         return arrays | dict(points=engine.work.points, ledger=engine.ledger, counts=engine.counts)
 
-    def _take(self, saved: dict) -> None:
+    def _take(self, saved: dict[str, Any]) -> None:
         pairs = len(saved["motion.meetings.rows"])
         if pairs > len(self.engine.motion.meetings.rows):
             self.engine.make_room(pairs)

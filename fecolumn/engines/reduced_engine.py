@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fecolumn.case.case import Case
 from fecolumn.case.sections import GRAVITY, Integration
 from fecolumn.contact.overturning import Limits
 from fecolumn.contact.tolerances import PARTS
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.links_of_model import StiffLink
 from fecolumn.engines.reduced.engine import Engine
+from fecolumn.engines.reduced.model import Structure
+from fecolumn.engines.reduced.motion import MotionState
 from fecolumn.engines.reduced.start import of_parts
 from fecolumn.engines.reduced.structure import structure_of, view_of
 from fecolumn.foundation.schema import InputError
@@ -25,7 +32,7 @@ GRAVITY_DOWN = np.array([0.0, 0.0, -GRAVITY])
 _PLAN = Integration()
 
 
-def upright(case, model: StructureModel) -> StructureModel:
+def upright(case: Case, model: StructureModel) -> StructureModel:
     """The structure as it stands before any body leans or moves: displacements and links are
     measured from there.
     """
@@ -38,12 +45,14 @@ def upright(case, model: StructureModel) -> StructureModel:
     return replace(model, parts=tuple(parts))
 
 
-def begins_unstrained(case, model: StructureModel) -> bool:
+def begins_unstrained(case: Case, model: StructureModel) -> bool:
     """Whether the start is not gravity equilibrium: a body leans, or the case says so."""
     return case.integration.start == "drawn" or any(part.rotation[2, 2] < 1 for part in model.parts)
 
 
-def engine_of(case, model: StructureModel, file, stands: bool | None = None) -> Engine:
+def engine_of(
+    case: Case, model: StructureModel, file: Path | str, stands: bool | None = None
+) -> Engine:
     """The engine at the start of `model`, or of `upright` in gravity equilibrium.
 
     stands: whether it begins in that; as the case says unless given.
@@ -58,7 +67,7 @@ def engine_of(case, model: StructureModel, file, stands: bool | None = None) -> 
     try:
         return engine_on(
             upright(case, model),
-            HHT(plan.dt_s, plan.alpha_hht),
+            HHT(float(plan.dt_s), plan.alpha_hht),
             lambda engine: of_parts(engine, model.parts, stands),
             cap=case.overturn.displacement_m,
             plan=plan,
@@ -72,9 +81,9 @@ def engine_of(case, model: StructureModel, file, stands: bool | None = None) -> 
 def engine_on(
     standing: StructureModel,
     hht: HHT,
-    begin,
+    begin: Callable[[Engine], MotionState],
     *,
-    gravity=GRAVITY_DOWN,
+    gravity: NDArray[Any] = GRAVITY_DOWN,
     limits: Limits | None = None,
     cap: float = 0.0,
     plan: Integration = _PLAN,
@@ -105,7 +114,7 @@ def engine_on(
         a link is too stiff for the step.
     """
 
-    def build(step, meetings=None):
+    def build(step: HHT, meetings: int | None = None) -> tuple[Structure, NDArray[Any]]:
         parts = PARTS if plan.substeps == "impacts" else 1
         return structure_of(standing, step, gravity, parts, meetings)
 

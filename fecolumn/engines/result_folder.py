@@ -5,7 +5,9 @@ from __future__ import annotations
 import contextlib
 import fcntl
 import os
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from fecolumn.case.case import Case
 from fecolumn.foundation.atomic import disk_full, write_json
@@ -13,9 +15,18 @@ from fecolumn.foundation.files import Unreadable, read_json
 from fecolumn.foundation.lock import open_lock
 from fecolumn.foundation.schema import InputError
 
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
 
 @contextlib.contextmanager
-def held(folder: Path, case: Case, comm, file, chosen: dict | None = None):
+def held(
+    folder: Path,
+    case: Case,
+    comm: MPI.Intracomm,
+    file: Path | str,
+    chosen: dict[str, Any] | None = None,
+) -> Iterator[Callable[[], None]]:
     """Hold the folder for one process; yields the function that makes it this case's, for when the
     analysis has started.
 
@@ -66,7 +77,7 @@ def held(folder: Path, case: Case, comm, file, chosen: dict | None = None):
     if refusal:
         raise InputError(file, *refusal)
 
-    def claim():
+    def claim() -> None:
         if lock and not known.is_file():
             told = {"dt_chosen": chosen} if chosen else {}
             write_json(known, {"id": case.id, "file": str(file), "case": case.as_stated(), **told})
@@ -82,7 +93,7 @@ def held(folder: Path, case: Case, comm, file, chosen: dict | None = None):
             lock.close()
 
 
-def kept_choice(folder: Path) -> dict | None:
+def kept_choice(folder: Path) -> dict[str, Any] | None:
     """How the step of the case of a result folder was chosen, None where it was stated, or there
     is no case.
     """

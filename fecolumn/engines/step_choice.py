@@ -11,6 +11,7 @@ import time
 import warnings
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -62,7 +63,7 @@ class StepChoice:
         self._case, self._id = case, case.id
         self._steps = 0
 
-    def chosen(self, say: Callable[[str], None]) -> dict:
+    def chosen(self, say: Callable[[str], None]) -> dict[str, Any]:
         """How the step is chosen, of the summary; `say` takes lines of words."""
         began, allowed = time.perf_counter(), self._allowed()
         first, allowed = self._first(allowed)
@@ -157,7 +158,9 @@ class StepChoice:
             keys["integration.dt_s"] = dt / (1 + shift * dt / lands)
         return case.replace(keys)
 
-    def _trial(self, dt: float, shift: float, until_s: float, lands=0.0):
+    def _trial(
+        self, dt: float, shift: float, until_s: float, lands: float = 0.0
+    ) -> tuple[Analysis, str] | None:
         """The first steps, and how they ended; None where one does not converge."""
         case = self._at(dt, shift, lands)
         try:
@@ -216,7 +219,7 @@ def _changes_told(changes: Changes | None) -> dict[str, float | None]:
     return {key: one if np.isfinite(one) else None for key, one in zip(names, values, strict=True)}
 
 
-def _sentence(told: dict, last: Changes | None, shortest: float) -> str:
+def _sentence(told: dict[str, Any], last: Changes | None, shortest: float) -> str:
     """Why this step, in words; last: of `change`, shortest: step that could be tried [s]."""
     step = f"dt_s = auto: {told['dt_s']:g} s"
     if not told["impacts"]:

@@ -9,8 +9,10 @@ so because of the step: elastic bodies take 0.8 of it in the limit (theory, sect
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.engines.first_impacts import landings
 
@@ -26,7 +28,7 @@ _ROCKS = 0.02
 
 
 def step_doubt(
-    rows: dict[str, np.ndarray],
+    rows: dict[str, NDArray[Any]],
     dt: float,
     share: float | None,
     barrier_j: float,

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.engines.dynamics.record import Record
 from fecolumn.foundation.atomic import write_csv
@@ -47,12 +49,12 @@ class StepTimes:
         write_csv(folder / STEP_TIMES_FILE, [header, *self._rows])
 
 
-def read_step_times(path: Path) -> np.ndarray:
+def read_step_times(path: Path) -> NDArray[Any]:
     """Rows (k, 3 + counts) of `StepTimes.write`: time [s], step [us], points, counts."""
     return np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
 
 
-def kinds_of(rows: np.ndarray) -> list[tuple[str, np.ndarray]]:
+def kinds_of(rows: NDArray[Any]) -> list[tuple[str, NDArray[Any]]]:
     """Kinds of steps that occur, each with the rows (n, ...) of `read_step_times` that are of it;
     every step is of one kind.
     """
@@ -82,7 +84,7 @@ def kinds_of(rows: np.ndarray) -> list[tuple[str, np.ndarray]]:
     return found
 
 
-def step_table(rows: np.ndarray) -> str:
+def step_table(rows: NDArray[Any]) -> str:
     """Markdown table of the kinds of steps: how many, their share of the time, how long they take
     and how many iterations they need.
     """

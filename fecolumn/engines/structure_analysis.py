@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import FELL, critical_displacement
 from fecolumn.contact.points import GROUND
-from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
+from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.engines.dynamics.bonds import bonded
 from fecolumn.engines.ending import AT_REST, OVERTURNED, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.engines.fallen_bodies import FallenBodies
@@ -26,9 +29,17 @@ from fecolumn.engines.reduced.observe import (
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.lost import limits_of
-from fecolumn.structures.model import StructureModel
+from fecolumn.structures.model import BodyModel, Joint, Link, StructureModel
 from fecolumn.structures.shaking import accelerations, motions_of
 from fecolumn.structures.structure import standing_of
+
+if TYPE_CHECKING:
+    from fecolumn.contact.base_plate import BasePlate
+    from fecolumn.contact.known_base import KnownBase
+    from fecolumn.contact.unbounded_base import UnboundedBase
+    from fecolumn.engines.dynamics.cuts import StepFailed
+    from fecolumn.engines.scene.scene import Scene
+    from fecolumn.motions.record import GroundMotion
 
 _WHOLE = (
     "active_nodes",
@@ -42,13 +53,15 @@ _ALL = 1e-9
 _YIELDED = 0.9
 
 
-class OfStructure:
+class OfStructure(Analysis):
     """What an Analysis of a structure is, whatever its engine. structure: StructureModel at its
     start.
     """
 
     structure: StructureModel
-    _barrier_j, _off, _collapse = None, None, None
+    _barrier_j: float | None = None
+    _off: str | None = None
+    _collapse: FallenBodies | None = None
 
     def expected(self) -> str:
         """What is analysed, in words."""
@@ -56,7 +69,7 @@ class OfStructure:
 
         return str(expected(self.case, self.folder / "case.json"))
 
-    def scene(self):
+    def scene(self) -> Scene:
         """`post.scene.Scene` of the case."""
         from fecolumn.engines.scene.structure_scene import scene_of
 
@@ -107,16 +120,26 @@ class OfStructure:
             if part.airborne
         )
 
-    def _load_motion(self, file):
+    def off_base(self, failure: StepFailed) -> Ending | None:
+        """The Ending of a step that failed because a foot met the edge of its ground, or None."""
+        raise NotImplementedError
+
+    def _save(self) -> None:
+        """Write checkpoint and history."""
+        raise NotImplementedError
+
+    def _load_motion(self, file: str) -> GroundMotion | None:
         #: Motion of each ground, None of one at rest; that which lasts longest is told.
-        self.motions = motions_of(self.case, super()._load_motion(file), file)
+        self.motions: list[GroundMotion | None] = motions_of(
+            self.case, super()._load_motion(file), file
+        )
         return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
 
-    def ground(self, step: int) -> np.ndarray:
+    def ground(self, step: int) -> NDArray[Any]:
         """Acceleration (3,) of the first ground [m/s2] at a step."""
         return self.grounds(step)[:3]
 
-    def grounds(self, step: int) -> np.ndarray:
+    def grounds(self, step: int) -> NDArray[Any]:
         """Accelerations (3 G,) of all grounds [m/s2] at a step."""
         return accelerations(self.motions, step)
 
@@ -124,12 +147,12 @@ class OfStructure:
         """The line that shows how far the analysis is, of one rank alone."""
         return Progress(
             self.steps,
-            self.case.integration.dt_s,
+            self.dt_s,
             quiet=self.quiet or self.comm.rank > 0,
             until_rest_from=self.motion_steps if self.until_rest else None,
         )
 
-    def off_or_failed(self, failure) -> Ending:
+    def off_or_failed(self, failure: StepFailed) -> Ending:
         """The Ending of a step that failed because a foot met the edge of its ground.
 
         Raises
@@ -146,7 +169,13 @@ class OfStructure:
             raise AnalysisFailed("; ".join(told)) from None
         return off
 
-    def off_ground(self, failure, bases, grounds, foot) -> Ending | None:
+    def off_ground(
+        self,
+        failure: StepFailed,
+        bases: Sequence[BasePlate | KnownBase | UnboundedBase],
+        grounds: NDArray[Any],
+        foot: Callable[[Joint, BodyModel, NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]],
+    ) -> Ending | None:
         """The ending of a structure whose step failed because a foot met the edge of its ground,
         one of `bases` and of `grounds` (G,) of GROUND_STATE; None for another failure.
 
@@ -173,7 +202,7 @@ class OfStructure:
                 return replace(ending, ended_by=f'"{part.name}": {ending.ended_by}')
         return None
 
-    def limits(self) -> dict:
+    def limits(self) -> dict[str, Any]:
         """Of the summary: the least tilt of a body at which it would overturn by itself, None where
         none stands so, and of one body alone the displacement of its top there [m]; of many no
         displacement is known beyond which they fall.
@@ -190,7 +219,7 @@ class OfStructure:
             u_critical_m=displacement,
         )
 
-    def no_return(self, last: dict, rotation: np.ndarray) -> str:
+    def no_return(self, last: dict[str, Any], rotation: NDArray[Any]) -> str:
         """Which body has passed its point of no return, in words."""
         parts = self.structure.parts
         tilts = np.array([float(last[f"body/{part.name}/tilt"]) for part in parts])
@@ -200,14 +229,15 @@ class OfStructure:
         told = f"limit {limits.tilts[b]:.3g}" if far.any() else f"critical {critical[b]:.3g}"
         return f'"{parts[b].name}" has tilted by {tilts[b]:.3g} rad, {told} rad'
 
-    def ending(self, fallen: int, rotation: np.ndarray) -> Ending:
+    def ending(self, fallen: int, rotation: NDArray[Any]) -> Ending:
         """How the analysis ends, from the answer of `reduced.observe.outcome_of_row`."""
         if fallen != FELL:
             found = super().ending(fallen, rotation)
-            lie = self.collapse.fallen(self.history.arrays()) if self.collapse else {}
-            if not lie or found.outcome == OVERTURNED:
+            collapse = self.collapse
+            lie = collapse.fallen(self.history.arrays()) if collapse else {}
+            if not collapse or not lie or found.outcome == OVERTURNED:
                 return found
-            told = f"{self.collapse.told(lie)}; {self._how_it_lies(found)}"
+            told = f"{collapse.told(lie)}; {self._how_it_lies(found)}"
             return Ending(OVERTURNED, told, next(iter(lie.values())))
         return Ending(
             SLID_OFF,
@@ -230,9 +260,9 @@ class OfStructure:
             part.name: part.center[2] + float(last[f"body/{part.name}/displacement"][2])
             for part in standing_of(self.case, self.structure)
         }
-        return min(heights, key=heights.get)
+        return min(heights, key=lambda name: heights[name])
 
-    def results(self, ending) -> dict:
+    def results(self, ending: Ending) -> dict[str, Any]:
         """Of the summary: what bodies, interfaces, storeys and links have reached."""
         found = peaks(self.history.arrays(), self.structure)
         if ending.outcome == SLID_OFF:
@@ -241,7 +271,7 @@ class OfStructure:
         return found
 
 
-def columns_of(rows: np.ndarray, structure: StructureModel) -> dict[str, np.ndarray]:
+def columns_of(rows: NDArray[Any], structure: StructureModel) -> dict[str, NDArray[Any]]:
     """Rows (k, width) of the engine as columns by name: those of any analysis, and of the
     structure's parts.
 
@@ -306,7 +336,7 @@ def glued_names(structure: StructureModel) -> list[str]:
     ]
 
 
-def of_both_sides(columns: dict, structure: StructureModel) -> dict:
+def of_both_sides(columns: dict[str, Any], structure: StructureModel) -> dict[str, Any]:
     """Columns by name with one interface for each joint with two sides: its force is that of
     both, and so are its resultant and its centre of pressure.
     """
@@ -328,12 +358,12 @@ def of_both_sides(columns: dict, structure: StructureModel) -> dict:
     return columns
 
 
-def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
+def peaks(rows: dict[str, NDArray[Any]], structure: StructureModel) -> dict[str, Any]:
     """Of the summary: largest values of bodies, interfaces, storeys, links and glued joints by
     name, from the columns of a history.
     """
 
-    def largest(name):
+    def largest(name: str) -> float:
         values = rows[name]
         return float(
             np.abs(values).max() if values.ndim == 1 else np.linalg.norm(values, axis=1).max()
@@ -379,7 +409,7 @@ def peaks(rows: dict[str, np.ndarray], structure: StructureModel) -> dict:
     )
 
 
-def _peaks_of_bond(time: np.ndarray, rows: dict[str, np.ndarray]) -> dict:
+def _peaks_of_bond(time: NDArray[Any], rows: dict[str, NDArray[Any]]) -> dict[str, Any]:
     """Largest stresses of a glued joint, the share of its area that has failed, when the first and
     the last of it did, and what it has taken; from its columns.
     """
@@ -394,12 +424,12 @@ def _peaks_of_bond(time: np.ndarray, rows: dict[str, np.ndarray]) -> dict:
     )
 
 
-def _peaks_of_link(time: np.ndarray, rows: dict[str, np.ndarray], link) -> dict:
+def _peaks_of_link(time: NDArray[Any], rows: dict[str, NDArray[Any]], link: Link) -> dict[str, Any]:
     """Extremes of a Link's tension and of its elongation until it breaks, what it has taken, and
     when it first yielded, broke, and was slack after it had been tight; from its columns.
     """
 
-    def first(mask):
+    def first(mask: NDArray[Any]) -> float | None:
         return float(time[np.argmax(mask)]) if mask.any() else None
 
     tension, broken, over = (

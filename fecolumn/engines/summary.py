@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.digests import digest_of_json
@@ -35,7 +36,7 @@ _OPTIONAL = (
 _MOST_BYTES = 10_000_000
 
 
-def write_sealed(folder: Path, summary: dict) -> dict:
+def write_sealed(folder: Path, summary: dict[str, Any]) -> dict[str, Any]:
     """Write the summary of an analysis with the digest of what it says; returns it with that."""
     said = {key: value for key, value in summary.items() if key != "digest"}
     whole = said | {"digest": digest_of_json(said)}
@@ -43,7 +44,7 @@ def write_sealed(folder: Path, summary: dict) -> dict:
     return whole
 
 
-def summary_of_folder(folder: Path) -> dict:
+def summary_of_folder(folder: Path) -> dict[str, Any]:
     """The summary in a result folder, of the case of its case.json.
 
     Raises
@@ -89,7 +90,7 @@ def check_owner(file: Path) -> None:
         )
 
 
-def _id_of(folder: Path):
+def _id_of(folder: Path) -> Any:
     """Id of the case of a result folder; None where it does not say."""
     try:
         saved = read_json(folder / "case.json")
@@ -98,7 +99,7 @@ def _id_of(folder: Path):
     return saved.get("id") if isinstance(saved, dict) else None
 
 
-def read_summary(folder: Path, case_id: str) -> dict:
+def read_summary(folder: Path, case_id: str) -> dict[str, Any]:
     """The summary in a result folder.
 
     Raises
@@ -106,13 +107,13 @@ def read_summary(folder: Path, case_id: str) -> dict:
     Unreadable
         there is none, it is damaged, or it is of another case.
     """
-    summary = read_json(Path(folder) / SUMMARY_FILE, _MOST_BYTES)
+    summary: dict[str, Any] = read_json(Path(folder) / SUMMARY_FILE, _MOST_BYTES)
     if fault := fault_of(summary, case_id):
         raise Unreadable(f"is damaged: {fault}")
     return summary
 
 
-def fault_of(summary, case_id: str) -> str:
+def fault_of(summary: object, case_id: str) -> str:
     """What keeps `summary` from being the summary of a case, in words; empty where nothing does."""
     if not isinstance(summary, dict):
         return "not a table of keys"

@@ -247,4 +247,4 @@ def plate_of(sized: Sized, ground: Ground) -> BasePlate:
         return {}, np.flatnonzero(body.all_X[:, 2] < bottom - 1e-9 * sized.z[-1])
 
     body = Body(MPI.COMM_SELF, plate_mesh(sized), ground, 1, held)
-    return BasePlate(body)  # type: ignore[no-untyped-call]  # contact has no types
+    return BasePlate(body)

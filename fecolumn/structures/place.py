@@ -227,7 +227,7 @@ def _rolled(
         turn[:, 2] - normal * (turn[:, 2] @ normal),
     )
     interface["ball"], interface["edge"] = joint.ball.radius, joint.ball.edge
-    plain = interpreted(from_center)  # type: ignore[no-untyped-call]  # compiled code has no types
+    plain = interpreted(from_center)
     plain(interface[0], turn.T @ normal, offset)
     across = float(np.linalg.norm(offset - normal * (offset @ normal)))
     length = np.linalg.norm(lean)

@@ -9,7 +9,7 @@ from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.impact import (
     Collision,
-    Touching,
+    TouchingBodies,
     find_impact,
     landing_moment,
     mark_landing,
@@ -75,7 +75,7 @@ def struck(
     late = np.array(velocity if late is None else late, float)
     early, union = np.array(velocity, float), touched(np.arange(n), before, after, landing)
     answer, pushed, impulses = find_impact(
-        Touching(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
+        TouchingBodies(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
         Collision(
             union,
             points["arm"].copy(),
@@ -308,7 +308,7 @@ def test_an_impact_is_plastic_whatever_the_step_and_the_faces(made, give, parts)
     given = dt * after["force"].ravel()
     late, counts = velocity + (mobility @ given).reshape(n, 3), np.zeros(N_COUNTS, np.int64)
     answer, pushed, impulses = find_impact(
-        Touching(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
+        TouchingBodies(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
         Collision(
             listed,
             points["arm"].copy(),
@@ -363,7 +363,7 @@ def test_a_frame_keeps_what_the_theory_of_rocking_frames_says(slab):
         mobility,
     )
     answer, _, impulses = find_impact(
-        Touching(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
+        TouchingBodies(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
         Collision(
             listed,
             points["arm"].copy(),
@@ -400,7 +400,7 @@ def test_slip_ends_whatever_the_thrust_under_which_it_ended(thrust):
     before["force"], after["force"] = [-mu * thrust, 0, thrust], [-speed / step, 0, thrust]
     listed, late = np.arange(1), np.zeros((1, 3))
     answer, pushed, impulses = find_impact(
-        Touching(body(1.0, place), NO_BASE, points, interface, no_pads(np.zeros((1, 3)))),
+        TouchingBodies(body(1.0, place), NO_BASE, points, interface, no_pads(np.zeros((1, 3)))),
         Collision(
             listed,
             place.copy(),

@@ -187,7 +187,7 @@ def _alive(pid) -> bool:
 
 def test_worker_killed_from_outside_costs_one_analysis(tmp_path):
     study, folder = write_study(tmp_path, dt=[1e-3], alpha=[0, -0.1]), tmp_path / "out"
-    driver = _driver(tmp_path, study, folder, sleep_s=0.3)
+    driver = _driver(tmp_path, study, folder, sleep_s=1.0)
     os.kill(_first_worker(folder), signal.SIGKILL)
     _, err = driver.communicate(timeout=30)
     assert driver.returncode == 1 and "worker killed by SIGKILL" in err and "--retry-failed" in err

@@ -8,7 +8,7 @@ from fecolumn.contact.impact import (
     LANDS,
     NOTHING,
     Collision,
-    Touching,
+    TouchingBodies,
     find_impact,
     impact_event,
     landing_moment,
@@ -79,7 +79,7 @@ def collide(system, made: StepMade, contact_work: float, booked: dict, ledger, r
     if happens == LANDS:
         moment = interpreted(landing_moment)(union, before, after.contact, early, landing, hht.dt)
     answer, pushed, impulses = find_impact(
-        Touching(
+        TouchingBodies(
             interface.bodies,
             interface.surface,
             interface.points,

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.compliance import assemble
-from fecolumn.contact.impact import Collision, Touching, find_impact
+from fecolumn.contact.impact import Collision, TouchingBodies, find_impact
 from fecolumn.contact.joints import Joints, left_faces
 from fecolumn.contact.outline import lower_raised, raise_or_leave, was_beyond
 from fecolumn.contact.pad import begin_yielding, find_yielding, springs_of
@@ -93,7 +93,7 @@ class ContactInterface(Places):
         compile_for(
             find_impact,
             (
-                Touching(self.bodies, self.surface, self.points, self.interfaces, springs),
+                TouchingBodies(self.bodies, self.surface, self.points, self.interfaces, springs),
                 Collision(
                     self.near,
                     values,

@@ -12,7 +12,7 @@ from fecolumn.contact.impact import (
     LANDS,
     NOTHING,
     Collision,
-    Touching,
+    TouchingBodies,
     find_impact,
     impact_event,
     landing_moment,
@@ -455,7 +455,7 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
         moment,
     )
     answer, pushed, impulses = find_impact(
-        Touching(structure.bodies, base, points, interfaces, scheme.springs),
+        TouchingBodies(structure.bodies, base, points, interfaces, scheme.springs),
         collision,
         contact_work,
         counts,

@@ -15,8 +15,10 @@ outweighs what an impulse gives.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.overturning import critical_tilt_rate
@@ -42,17 +44,18 @@ def least_impulse(
         their number, at least 1.
     """
     given = p * p * math.cos(slenderness) / GRAVITY
-    return (
+    least: float = (
         p
         * critical_tilt_rate(slenderness)
         * (1 - restitution)
         / (given * (1 - restitution**impulses))
     )
+    return least
 
 
 def tilt_velocities(
     slenderness: float, p: float, restitution: float, impulse: float, impulses: int
-) -> np.ndarray:
+) -> NDArray[Any]:
     """Tilt velocities (n,) after each of equal impulses [m/s] at the impacts, from rest [rad/s];
     magnitudes, as if none overturned.
     """
@@ -83,7 +86,7 @@ def critical_motion(
     )
 
 
-def _samples(places, impulse: float, dt: float) -> np.ndarray:
+def _samples(places: list[int], impulse: float, dt: float) -> NDArray[Any]:
     """Accelerations (n, 3) of impulses at sample numbers, turn about; a positive one tilts the
     block to the negative side.
     """

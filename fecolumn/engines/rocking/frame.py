@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.case.model_sections import FrameSection
 from fecolumn.case.sections import GRAVITY
@@ -50,7 +52,7 @@ class RockingFrame(PlanarModel):
     planes: tuple[Plane, ...]
 
     @classmethod
-    def of_section(cls, section: FrameSection, file) -> RockingFrame:
+    def of_section(cls, section: FrameSection, file: Path | str) -> RockingFrame:
         """Frame of its table.
 
         Raises
@@ -144,13 +146,13 @@ class RockingFrame(PlanarModel):
         b = self.half_diagonal * math.sin(self.slenderness)
         return (1 + 2 * self.mass_ratio) * self.column_mass * GRAVITY / (b * self.slenderness)
 
-    def pushover(self, displacement) -> np.ndarray:
+    def pushover(self, displacement: ArrayLike) -> NDArray[Any]:
         """Horizontal force at the beam [N] that holds the frame at a displacement >= 0 [m]; exact,
         from virtual work.
         """
         return self.plane.pushover(displacement)
 
-    def linear_pushover(self, displacement) -> np.ndarray:
+    def linear_pushover(self, displacement: ArrayLike) -> NDArray[Any]:
         """The same for slender columns: (1/2 + gamma) N m_c g alpha + (k b alpha/2 - (1/2 + gamma)
         m_c g) N u/(2 h), k of each tendon over one joint.
         """

@@ -11,9 +11,14 @@ demand meet.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, SupportsFloat
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fecolumn.motions.record import GroundMotion
 
 #: Delta_1/Delta_u and Delta_2/Delta_u by the state of the mortar joints, of Doherty, Griffith, Lam
 #: and Wilson (2002)
@@ -37,17 +42,18 @@ class Capacity:
         (n,) force over the oscillator's mass [m/s2], 0 at the last.
     """
 
-    displacement: np.ndarray
-    acceleration: np.ndarray
+    displacement: NDArray[Any]
+    acceleration: NDArray[Any]
 
     @property
     def ultimate(self) -> float:
         """Displacement at which it falls [m]."""
         return float(self.displacement[-1])
 
-    def at(self, displacement):
+    def at(self, displacement: float | NDArray[Any]) -> NDArray[Any]:
         """Acceleration [m/s2] at a displacement >= 0 [m], 0 beyond the ultimate one."""
-        return np.interp(displacement, self.displacement, self.acceleration)
+        found: NDArray[Any] = np.interp(displacement, self.displacement, self.acceleration)
+        return found
 
     def secant_stiffness(self, displacement: float) -> float:
         """Force over mass and displacement [1/s2]."""
@@ -76,7 +82,10 @@ def bilinear(multiplier: float, ultimate: float, gravity: float = 9.80665) -> Ca
 
 
 def trilinear(
-    multiplier: float, ultimate: float, ratios=JOINTS["moderate"], gravity: float = 9.80665
+    multiplier: float,
+    ultimate: float,
+    ratios: tuple[float, float] = JOINTS["moderate"],
+    gravity: float = 9.80665,
 ) -> Capacity:
     """Wall of imperfect joints: up to Delta_1 elastic, level up to Delta_2, then along the rigid
     wall's line.
@@ -131,7 +140,7 @@ class Oscillator:
     displacement: float
 
 
-def oscillator(weights, shape, gravity: float = 9.80665) -> Oscillator:
+def oscillator(weights: ArrayLike, shape: ArrayLike, gravity: float = 9.80665) -> Oscillator:
     """Oscillator of a mechanism by its virtual displacements, such that mass, force and kinetic
     energy are those of the mechanism.
 
@@ -155,7 +164,9 @@ def oscillator(weights, shape, gravity: float = 9.80665) -> Oscillator:
 
 
 def secant_demand(
-    capacity: Capacity, spectral_displacement, share: float = SECANT_SHARE
+    capacity: Capacity,
+    spectral_displacement: Callable[[float], SupportsFloat],
+    share: float = SECANT_SHARE,
 ) -> tuple[float, float]:
     """Secant period [s] at a share of the ultimate displacement, and the displacement [m] that a
     spectrum demands there.
@@ -169,7 +180,9 @@ def secant_demand(
     return period, float(spectral_displacement(period))
 
 
-def performance_point(capacity: Capacity, spectral_displacement, points: int = 2000) -> float:
+def performance_point(
+    capacity: Capacity, spectral_displacement: Callable[[float], SupportsFloat], points: int = 2000
+) -> float:
     """Least displacement [m] at which the capacity's secant period demands no more than it:
     S_d(T(Delta)) <= Delta; inf where it falls before.
     """
@@ -187,7 +200,9 @@ def performance_point(capacity: Capacity, spectral_displacement, points: int = 2
     )
 
 
-def motion_spectrum(motion, damping: float = 0.05, longest: float = 10.0):
+def motion_spectrum(
+    motion: GroundMotion, damping: float = 0.05, longest: float = 10.0
+) -> Callable[[float], SupportsFloat]:
     """Spectral displacement [m] over a period [s] of a motion's horizontal components (median over
     directions), for `secant_demand`.
     """

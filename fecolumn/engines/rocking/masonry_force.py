@@ -150,7 +150,7 @@ def facade_multiplier(
     return righting / (floor_load * height + weight * height / 2)
 
 
-def _positive(**values) -> None:
+def _positive(**values: float) -> None:
     for name, value in values.items():
         if not value > 0:
             raise ValueError(f"{name} = {value:g} must be greater than 0")

@@ -16,8 +16,10 @@ n' from the programme before, slope -> 0, until what holds at n' holds at n.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linprog
 from scipy.sparse import coo_matrix, vstack
 
@@ -41,8 +43,8 @@ class StraightJoint:
 
     first: int
     second: int
-    ends: np.ndarray
-    normal: np.ndarray
+    ends: NDArray[Any]
+    normal: NDArray[Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,9 +70,9 @@ class Collapse:
     """
 
     multiplier: float
-    normal: np.ndarray
-    shear: np.ndarray
-    velocity: np.ndarray
+    normal: NDArray[Any]
+    shear: NDArray[Any]
+    velocity: NDArray[Any]
     residual: float
     iterations: int
 
@@ -91,18 +93,19 @@ class Wall:
         (blocks,) horizontal loads at the centres [N] for a multiplier of 1; towards +x positive.
     """
 
-    boxes: np.ndarray
-    weights: np.ndarray
+    boxes: NDArray[Any]
+    weights: NDArray[Any]
     joints: tuple[StraightJoint, ...]
-    loads: np.ndarray
+    loads: NDArray[Any]
 
     @property
-    def centres(self) -> np.ndarray:
+    def centres(self) -> NDArray[Any]:
         """(blocks, 2) [m]."""
-        return (self.boxes[:, :2] + self.boxes[:, 2:]) / 2
+        middles: NDArray[Any] = (self.boxes[:, :2] + self.boxes[:, 2:]) / 2
+        return middles
 
 
-def wall_of_boxes(boxes, unit_weight: float, depth: float = 1.0) -> Wall:
+def wall_of_boxes(boxes: ArrayLike, unit_weight: float, depth: float = 1.0) -> Wall:
     """Wall of rectangles, those at the lowest level standing on rough ground; loads are the
     weights, towards +x.
 
@@ -251,19 +254,23 @@ def non_associated(
     return min(found, key=lambda one: one.multiplier)
 
 
-def _residual(wall: Wall, normal, shear, friction: float) -> float:
+def _residual(wall: Wall, normal: NDArray[Any], shear: NDArray[Any], friction: float) -> float:
     return float((np.abs(shear) - friction * normal.sum(axis=1)).max() / wall.weights.sum())
 
 
-def _programme(wall: Wall, slope, kept, near=None):
+def _programme(
+    wall: Wall, slope: NDArray[Any], kept: NDArray[Any], near: NDArray[Any] | None = None
+) -> tuple[float, NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Multiplier, forces and mechanism for |s| <= kept + slope (n_1 + n_2) at each joint; of many
     forces those nearest to compressions `near`.
     """
     joints, blocks = len(wall.joints), len(wall.boxes)
     centres = wall.centres
-    rows, columns, values = [], [], []
+    rows: list[int] = []
+    columns: list[int] = []
+    values: list[float] = []
 
-    def act(block, column, force, at):
+    def act(block: int, column: int, force: NDArray[Any], at: NDArray[Any]) -> None:
         if block >= 0:
             arm = at - centres[block]
             rows.extend((3 * block, 3 * block + 1, 3 * block + 2))
@@ -291,7 +298,7 @@ def _programme(wall: Wall, slope, kept, near=None):
     every, ones = np.arange(joints), np.ones(joints)
     first, second, shear, distance = 3 * every, 3 * every + 1, 3 * every + 2, 3 * joints + 1 + every
 
-    def limit(*terms):
+    def limit(*terms: tuple[NDArray[Any], NDArray[Any]]) -> coo_matrix:
         """Rows of sum of (coefficients, columns)."""
         return coo_matrix(
             (

@@ -11,9 +11,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.engines.ending import OVERTURNED
 from fecolumn.motions.record import GroundMotion
@@ -55,14 +57,14 @@ class ModelResponse:
         further peak values by name with unit, such as "friction demanded [-]", "base shear [N]".
     """
 
-    time: np.ndarray
-    coordinates: dict[str, np.ndarray]
+    time: NDArray[Any]
+    coordinates: dict[str, NDArray[Any]]
     units: dict[str, str]
-    tilt: np.ndarray
-    u_top: np.ndarray
+    tilt: NDArray[Any]
+    u_top: NDArray[Any]
     overturned: bool
-    impact_times: np.ndarray
-    energy: dict[str, np.ndarray]
+    impact_times: NDArray[Any]
+    energy: dict[str, NDArray[Any]]
     notes: tuple[str, ...] = ()
     peaks: dict[str, float] = field(default_factory=dict)
 
@@ -101,7 +103,7 @@ class Model(Protocol):
         """Energy that takes it from upright to the critical tilt [J]."""
 
     @classmethod
-    def of_section(cls, section: Any, file) -> Model:
+    def of_section(cls, section: Any, file: Path | str) -> Model:
         """Model of its own table; InputError(file, "block.height_m", value, allowed) where keys do
         not fit.
         """
@@ -131,7 +133,7 @@ class Model(Protocol):
         """
 
 
-def balanced(**terms: np.ndarray) -> dict[str, np.ndarray]:
+def balanced(**terms: NDArray[Any]) -> dict[str, NDArray[Any]]:
     """Terms of the energy (n,) [J] as of ModelResponse, and their closure."""
     kinetic, strain, gravity = (terms[name] for name in STATE_TERMS)
     total = kinetic + strain + gravity
@@ -140,7 +142,13 @@ def balanced(**terms: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def check_friction(
-    what: str, peak: str, along, upward, time, counts, available: float
+    what: str,
+    peak: str,
+    along: NDArray[Any],
+    upward: NDArray[Any],
+    time: NDArray[Any],
+    counts: NDArray[Any],
+    available: float,
 ) -> tuple[list[str], dict[str, float]]:
     """Note where a model that does not slide demands more friction than there is, and the peak.
 

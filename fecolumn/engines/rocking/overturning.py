@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from fecolumn.case.sections import GRAVITY
@@ -44,25 +46,29 @@ class Band:
 
 
 def pulse_outcomes(
-    shape: str, frequency: float, amplitudes, slenderness: float, restitution: float | None = None
-) -> np.ndarray:
+    shape: str,
+    frequency: float,
+    amplitudes: ArrayLike,
+    slenderness: float,
+    restitution: float | None = None,
+) -> NDArray[Any]:
     """Impacts before the block overturns, -1 where it stays (n,), for amplitudes a_p/(g tan alpha)
     (n,) of a pulse of frequency w_p/p.
     """
     kept = housner_restitution(slenderness) if restitution is None else restitution
     ground, step = _unit_pulse(shape, frequency)
-    amplitudes = np.atleast_1d(np.asarray(amplitudes, float))
+    sizes = np.atleast_1d(np.asarray(amplitudes, float))
     found = rock_all(
         [ground],
         step,
-        np.zeros(len(amplitudes), int),
-        amplitudes * GRAVITY * math.tan(slenderness),
+        np.zeros(len(sizes), int),
+        sizes * GRAVITY * math.tan(slenderness),
         row_of_block(slenderness, 1.0, kept)[None],
     )
     return np.where(np.isinf(found[:, PEAK_TILT]), found[:, IMPACT_COUNT], -1).astype(int)
 
 
-def _unit_pulse(shape: str, frequency: float) -> tuple[np.ndarray, float]:
+def _unit_pulse(shape: str, frequency: float) -> tuple[NDArray[Any], float]:
     """Samples (n, 2) along x and z of a pulse of amplitude 1, and their step in units of 1/p."""
     pulse = Pulse(shape, 1.0, 2 * math.pi / frequency)
     count = math.ceil(_SAMPLES * (pulse.end - pulse.start) / pulse.period)
@@ -119,7 +125,7 @@ def overturning_bands(
     return bands
 
 
-def half_sine_overturning(frequency) -> float:
+def half_sine_overturning(frequency: float) -> float:
     """a_p/(g tan alpha) of the half-sine pulse that just overturns a slender block without impact;
     the pulse starts where it lifts the block.
 
@@ -131,7 +137,7 @@ def half_sine_overturning(frequency) -> float:
 
 def half_sine_phase(frequency: float) -> float:
     """Psi of `half_sine_overturning` [rad]."""
-    return brentq(
+    phase: float = brentq(
         lambda psi: (
             frequency * math.sin(psi) - math.cos(psi) - math.exp(-(math.pi - psi) / frequency)
         ),
@@ -139,19 +145,21 @@ def half_sine_phase(frequency: float) -> float:
         math.pi / 2,
         xtol=1e-14,
     )
+    return phase
 
 
-def linear_overturning(shape: str, frequency) -> np.ndarray:
+def linear_overturning(shape: str, frequency: ArrayLike) -> NDArray[Any]:
     """a_p/(g tan alpha) = 1 + beta w_p/p, for w_p/p <= pi: a line through computed spectra, not a
     bound.
 
     At alpha = 10 degrees the one-sine pulse overturns at 6 to 9 % less. Source: Makris and Roussos
     (1998).
     """
-    return 1 + LINEAR[shape] * np.asarray(frequency, float)
+    least: NDArray[Any] = 1 + LINEAR[shape] * np.asarray(frequency, float)
+    return least
 
 
-def slenderness_factor(duration, pulse: str = "rectangular") -> np.ndarray:
+def slenderness_factor(duration: ArrayLike, pulse: str = "rectangular") -> NDArray[Any]:
     """Factor phi by which a block has to be slender to survive a pulse (Makris and Vassiliou 2012).
 
     A slender block on rigid ground does not overturn where tan(alpha) >= phi a_p / g. Here alpha
@@ -172,7 +180,10 @@ def slenderness_factor(duration, pulse: str = "rectangular") -> np.ndarray:
     -------
     phi [-], in the shape of `duration`.
     """
-    return np.asarray(duration, float) / (DESIGN[pulse] + np.asarray(duration, float))
+    factor: NDArray[Any] = np.asarray(duration, float) / (
+        DESIGN[pulse] + np.asarray(duration, float)
+    )
+    return factor
 
 
 def critical_tilt_rate(slenderness: float) -> float:

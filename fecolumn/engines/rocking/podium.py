@@ -6,9 +6,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.model_sections import CRV, PodiumSection
 from fecolumn.case.sections import GRAVITY
@@ -52,7 +54,7 @@ class Podium:
     inertia: float = 4 / 3
 
     @classmethod
-    def of_section(cls, section: PodiumSection, file) -> Podium:
+    def of_section(cls, section: PodiumSection, file: Path | str) -> Podium:
         """Podium of its table.
 
         Raises
@@ -134,7 +136,9 @@ class Podium:
     def _weight(self) -> float:
         return (self.columns_mass + 2 * self.beam_mass + 2 * self.building_mass) * GRAVITY
 
-    def shake(self, ground: np.ndarray, dt: float, tilt: float = 0.0, tilt_rate: float = 0.0):
+    def shake(
+        self, ground: NDArray[Any], dt: float, tilt: float = 0.0, tilt_rate: float = 0.0
+    ) -> Any:
         """What `podium_motion.shake` returns for accelerations (n, 2) along x and up [m/s2] at
         steps dt [s].
         """

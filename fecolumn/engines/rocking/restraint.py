@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +76,7 @@ class Restraint:
         force, height, inside = self.thrust
         return force * height, force * inside
 
-    def tension(self, lean) -> np.ndarray:
+    def tension(self, lean: ArrayLike) -> NDArray[Any]:
         """Of all tendons together [N]."""
         return sum(
             (
@@ -84,7 +86,8 @@ class Restraint:
             0.0 * np.asarray(lean),
         )
 
-    def pull(self, lean) -> np.ndarray:
+    def pull(self, lean: NDArray[Any]) -> NDArray[Any]:
         """Horizontal force of springs and thrust on the structure, against the lean [N]."""
         rising, turning = self.forces
-        return rising * np.sin(lean) + turning * (1 - np.cos(lean)) - self.thrust[0]
+        pull: NDArray[Any] = rising * np.sin(lean) + turning * (1 - np.cos(lean)) - self.thrust[0]
+        return pull

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 from fecolumn.engines.rocking.overturning import Band, overturning_bands
 
 PULSE_SHAPES = ("one_sine", "one_cosine", "symmetric_ricker", "antisymmetric_ricker")
@@ -12,13 +14,13 @@ _POINTS = 801  # amplitudes of the grid: steps of 0.33 %
 def spectra_table(
     slenderness: float,
     restitution: float,
-    shapes=PULSE_SHAPES,
-    frequencies=FREQUENCIES,
+    shapes: Sequence[str] = PULSE_SHAPES,
+    frequencies: Sequence[float] = FREQUENCIES,
     *,
-    show=lambda text: None,
+    show: Callable[[str], object] = lambda text: None,
 ) -> list[tuple[str, float, Band]]:
     """(shape, w_p/p, band) of all that overturns, in this order; `show` is told what is done."""
-    found = []
+    found: list[tuple[str, float, Band]] = []
     for shape in shapes:
         for frequency in frequencies:
             found += [

@@ -8,8 +8,10 @@ diagonal, and at its plastic impact r = 1 - 3/2 sin^2 alpha.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.swing import PEAK_TILT, rock_all, row_of_block
@@ -19,11 +21,11 @@ from fecolumn.motions.record import GroundMotion
 
 def rocking_spectrum(
     motion: GroundMotion,
-    periods,
-    slenderness,
+    periods: ArrayLike,
+    slenderness: ArrayLike,
     restitution: float | None = None,
     angle_deg: float = 0.0,
-) -> np.ndarray:
+) -> NDArray[Any]:
     """Peak tilt over slenderness of planar rigid blocks.
 
     After the motion's end the free rocking that is left is followed by its energy. A block may pass
@@ -61,10 +63,13 @@ def rocking_spectrum(
     )
     peaks = rock_all([ground], motion.dt, np.zeros(len(blocks), int), 1.0, blocks)[:, PEAK_TILT]
     result = peaks.reshape(len(slendernesses), len(periods)) / slendernesses[:, None]
-    return result if np.ndim(slenderness) else result[0]
+    found: NDArray[Any] = result if np.ndim(slenderness) else result[0]
+    return found
 
 
-def larger_rocking_spectrum(motion: GroundMotion, periods, slenderness: float) -> np.ndarray:
+def larger_rocking_spectrum(
+    motion: GroundMotion, periods: ArrayLike, slenderness: float
+) -> NDArray[Any]:
     """Peak tilt over slenderness (n_periods,) of planar rectangular blocks along x or y, whichever
     tilts more; as rocking_spectrum.
     """
@@ -72,10 +77,11 @@ def larger_rocking_spectrum(motion: GroundMotion, periods, slenderness: float) -
         rocking_spectrum(motion, periods, slenderness, angle_deg=90.0 * axis)
         for axis in motion.horizontal_axes or (0,)
     ]
-    return np.max(along, axis=0)
+    larger: NDArray[Any] = np.max(along, axis=0)
+    return larger
 
 
-def tilt_quantile(peaks: np.ndarray, share: float) -> np.ndarray:
+def tilt_quantile(peaks: NDArray[Any], share: float) -> NDArray[Any]:
     """Least tilt within which at least `share` of the motions stay, inf where too many overturn.
 
     An order statistic: nothing is interpolated between a tilt and an overturning.
@@ -87,10 +93,11 @@ def tilt_quantile(peaks: np.ndarray, share: float) -> np.ndarray:
     share
         in (0, 1].
     """
-    return np.sort(peaks, axis=0)[math.ceil(share * len(peaks) - 1e-9) - 1]
+    tilts: NDArray[Any] = np.sort(peaks, axis=0)[math.ceil(share * len(peaks) - 1e-9) - 1]
+    return tilts
 
 
-def _block(period, slenderness, restitution):
+def _block(period: float, slenderness: float, restitution: float | None) -> NDArray[Any]:
     if not 0 < period < math.inf:
         raise ValueError(f"period 2 pi/p = {period:g} s must be finite and greater than 0")
     if not 0 < slenderness < math.pi / 2:

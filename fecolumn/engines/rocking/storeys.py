@@ -5,14 +5,17 @@ given profile, damped after Rayleigh.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.linalg import eigh
 
 #: First mode over the height x = i/n of floor i of n, after Thermou, Pantazopoulou and Elnashai
 #: (2012)
-PROFILES = {
+PROFILES: dict[str, Callable[[NDArray[Any]], NDArray[Any]]] = {
     "flexural": lambda x: 1 - np.cos(math.pi * x / 2),
     "shear": lambda x: np.sin(math.pi * x / 2),
     "triangular": lambda x: x,
@@ -37,30 +40,33 @@ class ElasticBuilding:
         modes (n, n) in columns, normalised to shapes^T M shapes = 1 [kg^-1/2].
     """
 
-    mass: np.ndarray
-    stiffness: np.ndarray
-    omega: np.ndarray
-    damping: np.ndarray
-    shapes: np.ndarray
+    mass: NDArray[Any]
+    stiffness: NDArray[Any]
+    omega: NDArray[Any]
+    damping: NDArray[Any]
+    shapes: NDArray[Any]
 
     @property
-    def participation(self) -> np.ndarray:
+    def participation(self) -> NDArray[Any]:
         """Gamma (n,) = shapes^T M 1 [kg^1/2]; its squares are the effective modal masses and add up
         to the mass.
         """
-        return self.shapes.T @ self.mass
+        factors: NDArray[Any] = self.shapes.T @ self.mass
+        return factors
 
     @property
-    def effective_mass(self) -> np.ndarray:
+    def effective_mass(self) -> NDArray[Any]:
         """Share of the mass in each mode (n,)."""
-        return self.participation**2 / self.mass.sum()
+        shares: NDArray[Any] = self.participation**2 / self.mass.sum()
+        return shares
 
     @property
-    def storey_shears(self) -> np.ndarray:
+    def storey_shears(self) -> NDArray[Any]:
         """(n, n): shear of each storey from below [N] for accelerations of the modal coordinates:
         sums of the floors' forces above.
         """
-        return np.cumsum((self.mass[:, None] * self.shapes)[::-1], axis=0)[::-1]
+        shears: NDArray[Any] = np.cumsum((self.mass[:, None] * self.shapes)[::-1], axis=0)[::-1]
+        return shears
 
 
 def storeys(
@@ -103,7 +109,7 @@ def storeys(
 
 
 def shear_building(
-    mass: np.ndarray, stiffness: np.ndarray, damping: float, rayleigh: tuple[int, ...] = ()
+    mass: NDArray[Any], stiffness: NDArray[Any], damping: float, rayleigh: tuple[int, ...] = ()
 ) -> ElasticBuilding:
     """Building of floors (n,) [kg] on storeys (n,) [N/m], from below.
 

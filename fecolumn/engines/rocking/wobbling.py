@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.case.model_sections import WobblingSection
 from fecolumn.case.sections import GRAVITY
@@ -50,13 +52,13 @@ class Wobbling:
     #: Rims on which the point rolls whose displacement counts: a slab lies on the upper one, too
     RIMS: ClassVar[int] = 1
 
-    body: np.ndarray
+    body: NDArray[Any]
     columns: int = 1
     restitution: float = 1.0
     friction: float = math.inf
 
     @classmethod
-    def of_section(cls, section: WobblingSection, file) -> Wobbling:
+    def of_section(cls, section: WobblingSection, file: Path | str) -> Wobbling:
         """Column of its table.
 
         Raises
@@ -76,7 +78,7 @@ class Wobbling:
         )
 
     @classmethod
-    def of_body(cls, column: RigidColumn, friction: float, file) -> Wobbling:
+    def of_body(cls, column: RigidColumn, friction: float, file: Path | str) -> Wobbling:
         """A body on its round foot, with its mass, centre and inertia.
 
         Raises
@@ -157,14 +159,17 @@ class Wobbling:
     @property
     def energy_to_overturn(self) -> float:
         """That takes it there from upright [J]."""
-        return self.columns * sum(interpreted(equations.potential)(self.body, self.critical_tilt))
+        energies = interpreted(equations.potential)(self.body, self.critical_tilt)
+        energy: float = self.columns * sum(energies)
+        return energy
 
     def righting_moment(self, tilt: float) -> float:
         """Of one column with its share of the slab [N m]: weight and tendon."""
         rise, _, tendon = interpreted(equations.moments)(self.body, float(tilt))
-        return self.body[9] * rise + tendon
+        moment: float = self.body[9] * rise + tendon
+        return moment
 
-    def moved(self, tilt) -> tuple[np.ndarray, np.ndarray]:
+    def moved(self, tilt: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
         """Displacement towards the azimuth and up [m] of the top's centre, or of the slab."""
         tilt, radius, height = np.asarray(tilt, float), self.RIMS * self.body[0], self.body[2]
         down = 2 * np.sin(tilt / 2) ** 2
@@ -223,7 +228,9 @@ class Wobbling:
             peaks=peaks,
         )
 
-    def _check_forces(self, foot, rows) -> tuple[list[str], dict[str, float]]:
+    def _check_forces(
+        self, foot: NDArray[Any], rows: NDArray[Any]
+    ) -> tuple[list[str], dict[str, float]]:
         """Notes and peaks of the friction demanded, while the column neither stands nor falls."""
         tilt = rows[:, 1]
         # a column's tendon presses it on the ground, a frame's one is between column and slab
@@ -264,7 +271,7 @@ def cylinder_body(
     slab: float,
     stiffness: float = 0.0,
     pull: float = 0.0,
-) -> np.ndarray:
+) -> NDArray[Any]:
     """Parameters (10,) of a tube or solid cylinder of mass [kg] with its share of a slab [kg] and a
     tendon's stiffness [N/m] and pull [N].
     """

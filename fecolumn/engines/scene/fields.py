@@ -5,14 +5,23 @@ file a frame.
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 import numpy as np
 from dolfinx import fem
+from numpy.typing import NDArray
 
 from fecolumn.fem.material.elasticity import isotropic_stress, von_mises
 from fecolumn.fem.material.kinematics import linear_strain
 from fecolumn.foundation import _dolfinx
 from fecolumn.foundation.atomic import write_bytes, write_hdf5
+
+if TYPE_CHECKING:
+    import h5py
+    from mpi4py import MPI
+
+    from fecolumn.fem.body import Body
+    from fecolumn.mesh.bricks import BrickMesh
 
 _TOPOLOGY = (
     '<Topology TopologyType="{kind}" NumberOfElements="{cells}"><DataItem '
@@ -31,7 +40,18 @@ _FIELD = (
 _XDMF = {3: 4, 4: 6, 8: 9}
 
 
-class FieldWriter:
+class _Drawn(Protocol):
+    """What has meshes whose fields are written."""
+
+    comm: MPI.Intracomm
+    of_cells: dict[str, NDArray[Any]]
+    meshes: list[BrickMesh]
+
+
+_D = TypeVar("_D", bound=_Drawn)
+
+
+class FieldWriter(Generic[_D]):
     """Writes frames of bodies into a folder; `fields.xdmf` always lists complete frames only.
 
     Displacements are relative to the shaking table. Frames of an interrupted analysis are kept and
@@ -43,7 +63,7 @@ class FieldWriter:
         what has meshes, of_cells, comm and values as `post.state_fields.StateFields` has.
     """
 
-    def __init__(self, folder: Path, fields):
+    def __init__(self, folder: Path, fields: _D) -> None:
         self.folder, self.fields = folder, fields
         self._mixed = any(mesh.cells.shape[1] != 8 for mesh in fields.meshes)
         if fields.comm.rank == 0:
@@ -73,7 +93,7 @@ class FieldWriter:
             },
         )
 
-    def add(self, time: float, values: dict[str, np.ndarray] | None) -> None:
+    def add(self, time: float, values: dict[str, NDArray[Any]] | None) -> None:
         """Add the frame of a time [s] from its `values`, or None of another rank than 0."""
         if values is not None:
             _write_h5(self.folder / f"frame_{round(time * 1e6):012d}.h5", values)
@@ -150,7 +170,7 @@ class FieldWriter:
 class StressField:
     """Von Mises stress at the middle of each element, in the order of the input mesh."""
 
-    def __init__(self, body):
+    def __init__(self, body: Body) -> None:
         self.body = body
         self._u = fem.Function(body.space)
         space = _dolfinx.cellwise_space(body.mesh)
@@ -163,7 +183,7 @@ class StressField:
         self._expression = fem.Expression(stress, _dolfinx.interpolation_points(space))
         self._result = fem.Function(space)
 
-    def values(self, displacement: np.ndarray) -> np.ndarray | None:
+    def values(self, displacement: NDArray[Any]) -> NDArray[Any] | None:
         """(n_cells,) [Pa] on rank 0 from local displacements (n_owned, 3)."""
         body = self.body
         self._u.x.array[: 3 * body.n_owned] = displacement.reshape(-1)
@@ -180,7 +200,7 @@ class StressField:
         return stress
 
 
-def vertex_nodes(body) -> np.ndarray:
+def vertex_nodes(body: Body) -> NDArray[Any]:
     """Node of each point of the body's input mesh."""
     nodes = np.empty(len(body.bricks.points), np.int64)
     for part in np.unique(body.bricks.part):
@@ -189,8 +209,8 @@ def vertex_nodes(body) -> np.ndarray:
     return nodes
 
 
-def _write_h5(path: Path, arrays: dict) -> None:
-    def fill(file):
+def _write_h5(path: Path, arrays: dict[str, NDArray[Any]]) -> None:
+    def fill(file: h5py.File) -> None:
         for name, values in arrays.items():
             file.create_dataset(name, data=values, compression="gzip")
 

@@ -4,12 +4,20 @@ one mesh that tells them apart.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from fecolumn.engines.dynamics.checkpoint import gather_all
 from fecolumn.engines.scene.fields import StressField, vertex_nodes
 from fecolumn.engines.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from fecolumn.engines.elements import MeshedBody
+    from fecolumn.fem.composite import Composite
+    from fecolumn.structures.model import StructureModel
 
 
 class StructureFields:
@@ -28,7 +36,14 @@ class StructureFields:
         (P,) of POINT.
     """
 
-    def __init__(self, scene: Scene, bodies, meshed: list, structure, points: np.ndarray):
+    def __init__(
+        self,
+        scene: Scene,
+        bodies: Composite,
+        meshed: list[MeshedBody],
+        structure: StructureModel,
+        points: NDArray[Any],
+    ) -> None:
         self.comm, self._bodies, self._points, self.scene = bodies.comm, bodies, points, scene
         self.meshes, self.of_cells, self.grounds = scene.meshes, scene.of_cells, scene.plates()
         self._nodes = bodies.of_each(lambda body, _: vertex_nodes(body))
@@ -39,7 +54,13 @@ class StructureFields:
             own = scene.pieces[joint.slave].points[contact.points - scene.first[joint.slave]]
             self._seats.append((cKDTree(patch.positions).query(own)[1], patch.areas))
 
-    def values(self, x, local, positions, forces) -> dict[str, np.ndarray] | None:
+    def values(
+        self,
+        x: NDArray[Any],
+        local: NDArray[Any],
+        positions: NDArray[Any] | None,
+        forces: NDArray[Any],
+    ) -> dict[str, NDArray[Any]] | None:
         """Displacement (n_points, 3) [m] from where the bodies stand upright, von Mises stress
         (n_cells,) [Pa], and pressure (n_points,) [Pa] on the faces of slaves; on rank 0.
 
@@ -57,16 +78,21 @@ class StructureFields:
             (P, 3) [N] on them in the frames of their joints.
         """
         bodies, scene = self._bodies, self.scene
-        moved = [
+        gathered = [
             gather_all(part, (x - bodies.placed)[rows])
             for part, rows in zip(bodies.parts, bodies.rows)
         ]
-        stress = [own.values(local[rows]) for own, rows in zip(self._stress, bodies.rows)]
+        stresses = [own.values(local[rows]) for own, rows in zip(self._stress, bodies.rows)]
         if bodies.comm.rank:
             return None
-        moved = [values[nodes] for values, nodes in zip(moved, self._nodes)]
+        # None on other ranks alone
+        moved = [
+            values[nodes] for values, nodes in zip(gathered, self._nodes) if values is not None
+        ]
+        stress = [values for values in stresses if values is not None]
         of = self._points["interface"]
         for plate, ground in self.grounds:
+            assert positions is not None
             on = [number for number, one in enumerate(scene.contacts) if one.stands_on(ground)]
             own = np.isin(of, on)
             for found, values in zip((moved, stress), plate.sunk(positions[own], forces[own])):

@@ -5,12 +5,52 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.contact.points import GROUND
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES, BrickMesh, outline_edges
 from fecolumn.mesh.mass import MassProperties
+
+if TYPE_CHECKING:
+    from mpi4py import MPI
+
+    from fecolumn.engines.reduced.states import Snapshot
+    from fecolumn.structures.model import BodyModel, Link
+
+
+class ElasticGround(Protocol):
+    """`state_fields.SunkPlate`."""
+
+    def sunk(
+        self, positions: NDArray[Any], forces: NDArray[Any]
+    ) -> tuple[NDArray[Any], NDArray[Any]]:
+        """Displacement and stress under forces at positions."""
+
+
+class SceneFields(Protocol):
+    """`state_fields.StateFields`, which tells what each of these is."""
+
+    comm: MPI.Intracomm
+    of_cells: dict[str, NDArray[Any]]
+    meshes: list[BrickMesh]
+    models: list[BodyModel]
+
+    def local(
+        self, state: Snapshot, stress: bool = True
+    ) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
+        """Displacement, deformation and stress of bodies in their frames."""
+
+    def positions(self, state: Snapshot, local: NDArray[Any]) -> NDArray[Any]:
+        """Positions of all points."""
+
+    def pressures(self, state: Snapshot) -> tuple[list[NDArray[Any]], NDArray[Any]]:
+        """Pressures on the joints' faces, and their centres."""
+
+    def values(self, state: Snapshot) -> dict[str, NDArray[Any]]:
+        """Displacement, stress and pressure by their names in files."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,21 +87,22 @@ class Piece:
 
     name: str
     kind: str
-    points: np.ndarray
-    faces: np.ndarray
-    elements: np.ndarray
-    cells: np.ndarray
-    place: np.ndarray
-    center: np.ndarray
+    points: NDArray[Any]
+    faces: NDArray[Any]
+    elements: NDArray[Any]
+    cells: NDArray[Any]
+    place: NDArray[Any]
+    center: NDArray[Any]
     held: bool = False
     stressed: bool = True
     carried: int = 0
-    struts: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), np.int64))
+    struts: NDArray[Any] = field(default_factory=lambda: np.zeros((0, 2), np.int64))
 
     @property
-    def upright(self) -> np.ndarray:
+    def upright(self) -> NDArray[Any]:
         """Points (n, 3) [m] where the piece stands at first."""
-        return self.points + self.place
+        points: NDArray[Any] = self.points + self.place
+        return points
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,9 +134,9 @@ class JointFace:
     slave: str
     piece: int
     master: int
-    faces: np.ndarray
-    origin: np.ndarray
-    axes: np.ndarray
+    faces: NDArray[Any]
+    origin: NDArray[Any]
+    axes: NDArray[Any]
     domed: bool = False
     ground: int = 0
     joint: str = ""
@@ -111,18 +152,20 @@ class JointFace:
         return self.on_ground and self.ground == ground
 
     @cached_property
-    def points(self) -> np.ndarray:
+    def points(self) -> NDArray[Any]:
         """Numbers (k,) of the points of the face, rising."""
-        return np.unique(self.faces)
+        points: NDArray[Any] = np.unique(self.faces)
+        return points
 
     @cached_property
-    def outline(self) -> np.ndarray:
+    def outline(self) -> NDArray[Any]:
         """(n, 2) numbers of the points at the ends of its edges."""
         return outline_edges(self.faces)
 
-    def plan(self, places: np.ndarray) -> np.ndarray:
+    def plan(self, places: NDArray[Any]) -> NDArray[Any]:
         """Coordinates (..., 2) [m] of places (..., 3) [m] along the tangents."""
-        return (places - self.origin) @ self.axes[:, :2]
+        plan: NDArray[Any] = (places - self.origin) @ self.axes[:, :2]
+        return plan
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,10 +184,10 @@ class Outside:
         (n_faces,) the piece.
     """
 
-    nodes: np.ndarray
-    faces: np.ndarray
-    cells: np.ndarray
-    part: np.ndarray
+    nodes: NDArray[Any]
+    faces: NDArray[Any]
+    cells: NDArray[Any]
+    part: NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,19 +218,19 @@ class Scene:
 
     pieces: tuple[Piece, ...]
     contacts: tuple[JointFace, ...]
-    of_cells: dict[str, np.ndarray]
-    expand: Callable
-    give: Callable
-    links: tuple = ()
+    of_cells: dict[str, NDArray[Any]]
+    expand: Callable[[Scene], SceneFields]
+    give: Callable[[], list[tuple[ElasticGround, int]]]
+    links: tuple[Link, ...] = ()
     mass: MassProperties | None = None
-    other_sides: frozenset = frozenset()
+    other_sides: frozenset[int] = frozenset()
     planes: dict[int, float] = field(default_factory=dict)
 
-    def fields(self):
+    def fields(self) -> SceneFields:
         """`post.state_fields.StateFields` of the scene; made anew, which takes time."""
         return self.expand(self)
 
-    def plates(self) -> list:
+    def plates(self) -> list[tuple[ElasticGround, int]]:
         """`post.state_fields.SunkPlate` and number of the ground of each elastic plate."""
         return self.give()
 
@@ -197,17 +240,17 @@ class Scene:
         return tuple(piece for piece in self.pieces if not piece.held)
 
     @cached_property
-    def first(self) -> np.ndarray:
+    def first(self) -> NDArray[Any]:
         """Of each piece among all points, one more at the end."""
         return np.cumsum([0] + [len(piece.points) for piece in self.pieces])
 
     @cached_property
-    def first_cell(self) -> np.ndarray:
+    def first_cell(self) -> NDArray[Any]:
         """Of each piece among all elements, one more at the end."""
         return np.cumsum([0] + [len(piece.elements) for piece in self.pieces])
 
     @cached_property
-    def points(self) -> np.ndarray:
+    def points(self) -> NDArray[Any]:
         """(n, 3) [m] of all pieces at rest."""
         return np.concatenate([piece.upright for piece in self.pieces])
 
@@ -222,7 +265,7 @@ class Scene:
         return float(np.ptp(self._of_bodies[:, :2], axis=0).max())
 
     @property
-    def _of_bodies(self) -> np.ndarray:
+    def _of_bodies(self) -> NDArray[Any]:
         return self.points[: self.first[len(self.bodies)]]
 
     @cached_property
@@ -236,7 +279,7 @@ class Scene:
         held = range(len(self.bodies), len(self.pieces))
         return self._surface(held) if held else None
 
-    def _surface(self, numbers) -> Outside:
+    def _surface(self, numbers: range) -> Outside:
         own = [self.pieces[k] for k in numbers]
         faces = same_corners([piece.faces + self.first[k] for k, piece in zip(numbers, own)])
         cells = [
@@ -248,7 +291,7 @@ class Scene:
         return Outside(nodes, corners.reshape(faces.shape), np.concatenate(cells), part)
 
     @cached_property
-    def struts(self) -> np.ndarray:
+    def struts(self) -> NDArray[Any]:
         """(n, 2) points between which buildings have columns."""
         return np.concatenate(
             [piece.struts + start for piece, start in zip(self.pieces, self.first)]
@@ -260,7 +303,7 @@ class Scene:
         return [k for k in range(len(self.contacts)) if k not in self.other_sides]
 
     @cached_property
-    def outlines(self) -> np.ndarray:
+    def outlines(self) -> NDArray[Any]:
         """Edges (n, 2, 3) [m] of the feet on the ground."""
         return np.concatenate(
             [self.points[one.outline] for one in self.contacts if one.on_ground]
@@ -286,7 +329,7 @@ class Scene:
         return slice(self.first[k], self.first[k + 1])
 
 
-def same_corners(faces: list[np.ndarray]) -> np.ndarray:
+def same_corners(faces: list[NDArray[Any]]) -> NDArray[Any]:
     """Faces of three and four corners as one array; a triangle among quadrilaterals names its last
     corner twice.
     """
@@ -296,7 +339,7 @@ def same_corners(faces: list[np.ndarray]) -> np.ndarray:
     )
 
 
-def cells_of(elements: np.ndarray, faces: np.ndarray) -> np.ndarray:
+def cells_of(elements: NDArray[Any], faces: NDArray[Any]) -> NDArray[Any]:
     """Element (n_faces,) to which each outer face belongs."""
     of_cell = TETRAHEDRON_FACES if elements.shape[1] == 4 else FACES
     every = np.sort(elements[:, of_cell].reshape(-1, of_cell.shape[1]), axis=1)
@@ -305,4 +348,5 @@ def cells_of(elements: np.ndarray, faces: np.ndarray) -> np.ndarray:
     )
     owner = np.empty(number.max() + 1, np.int64)
     owner[number.ravel()[: len(every)]] = np.arange(len(every)) // len(of_cell)
-    return owner[number.ravel()[len(every) :]]
+    cells: NDArray[Any] = owner[number.ravel()[len(every) :]]
+    return cells

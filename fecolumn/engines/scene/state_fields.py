@@ -4,13 +4,25 @@ reduced or rigid analysis keeps.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.contact.projection import nodes_under
 from fecolumn.engines.reduced.states import Snapshot
-from fecolumn.engines.scene.scene import Scene
+from fecolumn.engines.scene.scene import ElasticGround, Scene
+
+if TYPE_CHECKING:
+    from fecolumn.contact.base_plate import BasePlate
+    from fecolumn.fem.body import Body
+    from fecolumn.structures.model import BodyModel
+
+#: Of each copy: displacement (n_points, 3) [m] in its frame, what of it is deformation, and stress
+#: [Pa] of its elements, none where they have none.
+Deformed = list[tuple[NDArray[Any], NDArray[Any], NDArray[Any]]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,10 +41,10 @@ class Seat:
         (m,) place of that which each of the contact's points stands for.
     """
 
-    nodes: np.ndarray
-    areas: np.ndarray
-    plan: np.ndarray
-    nearest: np.ndarray
+    nodes: NDArray[Any]
+    areas: NDArray[Any]
+    plan: NDArray[Any]
+    nearest: NDArray[Any]
 
 
 class StateFields:
@@ -55,7 +67,14 @@ class StateFields:
         (SunkPlate, number of the ground) of each piece that belongs to one.
     """
 
-    def __init__(self, scene: Scene, movers, models, seats: list[Seat], grounds=()):
+    def __init__(
+        self,
+        scene: Scene,
+        movers: list[tuple[Rigid | Continuum | SwayingFloors, list[int]]],
+        models: list[BodyModel],
+        seats: list[Seat],
+        grounds: Sequence[tuple[ElasticGround, int]] = (),
+    ) -> None:
         from mpi4py import MPI
 
         self.scene, self.comm, self.of_cells = scene, MPI.COMM_SELF, scene.of_cells
@@ -66,7 +85,7 @@ class StateFields:
 
     def local(
         self, state: Snapshot, stress: bool = True
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    ) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
         """Displacement (n_points, 3) [m] of all points of bodies in their frames; what of it is
         deformation, of a building relative to its slab; and von Mises stress (n_cells,) [Pa], nan
         of bodies that have none or where not asked for.
@@ -90,7 +109,7 @@ class StateFields:
                 found[scene.first_cell[k] : scene.first_cell[k] + len(values)] = values
         return moved, bent, found
 
-    def positions(self, state: Snapshot, local: np.ndarray) -> np.ndarray:
+    def positions(self, state: Snapshot, local: NDArray[Any]) -> NDArray[Any]:
         """Positions (n, 3) [m] of all points, those of bodies displaced by `local` (n, 3) [m] in
         their frames.
         """
@@ -101,7 +120,7 @@ class StateFields:
             placed[own] = state.center[k] + arms @ state.rotation[k].T
         return placed
 
-    def pressures(self, state: Snapshot) -> tuple[list[np.ndarray], np.ndarray]:
+    def pressures(self, state: Snapshot) -> tuple[list[NDArray[Any]], NDArray[Any]]:
         """Pressure (k,) [Pa] at the nodes of each joint's face, and its centre (n_joints, 2) [m] in
         the plan of the face, nan of one that is open.
         """
@@ -117,7 +136,7 @@ class StateFields:
                 centres[number] = force @ seat.plan / force.sum()
         return found, centres
 
-    def values(self, state: Snapshot) -> dict[str, np.ndarray]:
+    def values(self, state: Snapshot) -> dict[str, NDArray[Any]]:
         """Displacement (n_points, 3) [m], von Mises stress (n_cells,) [Pa], 0 of bodies without
         any, and contact pressure (n_points,) [Pa] by their names in files.
         """
@@ -145,12 +164,11 @@ class Rigid:
 
     has_stress = False
 
-    def __init__(self, points: int):
+    def __init__(self, points: int) -> None:
         self._points = points
 
-    def deformed(self, modal: np.ndarray, loads: np.ndarray):
-        """Of each copy: displacement (n_points, 3) [m] in its frame, what of it is deformation, and
-        stress [Pa] of its elements, none where they have none.
+    def deformed(self, modal: NDArray[Any], loads: NDArray[Any]) -> Deformed:
+        """How copies deform under their loads.
 
         Parameters
         ----------
@@ -185,12 +203,14 @@ class Continuum:
 
     has_stress = True
 
-    def __init__(self, body, model, nodes: np.ndarray, shapes: np.ndarray):
+    def __init__(
+        self, body: Body, model: BodyModel, nodes: NDArray[Any], shapes: NDArray[Any]
+    ) -> None:
         from fecolumn.engines.scene.fields import StressField, vertex_nodes
         from fecolumn.fem.free_body import FreeBody
 
         self._body, self._nodes, self._shapes = body, nodes, shapes[: len(model.frequencies)]
-        self._free, self._stress, self._vertices = FreeBody(body), StressField(body), None
+        self._free, self._stress = FreeBody(body), StressField(body)
         self._vertices = vertex_nodes(body)
         if not (
             np.allclose(body.all_X[nodes], model.reference)
@@ -201,16 +221,19 @@ class Continuum:
                 "(fecolumn doctor tells where it is)"
             )
 
-    def deformed(self, modal, loads):
+    def deformed(self, modal: NDArray[Any], loads: NDArray[Any]) -> Deformed:
         """As of `Rigid`."""
         spread = np.stack(
             [self._body.spread(self._nodes, load).reshape(-1) for load in loads], axis=1
         )
         response = self._free.response(spread).T.reshape(len(modal), -1, 3)
         moved = response + np.tensordot(modal[:, : len(self._shapes)], self._shapes, 1)
-        return [
-            (one[self._vertices], one[self._vertices], self._stress.values(one)) for one in moved
-        ]
+        found = []
+        for one in moved:
+            stress = self._stress.values(one)
+            assert stress is not None  # of one process
+            found.append((one[self._vertices], one[self._vertices], stress))
+        return found
 
 
 class SwayingFloors:
@@ -224,7 +247,7 @@ class SwayingFloors:
 
     has_stress = False
 
-    def __init__(self, arms: np.ndarray, model, floors: int):
+    def __init__(self, arms: NDArray[Any], model: BodyModel, floors: int) -> None:
         self._model, self._points = model, arms
         marks = [model.marks[f"floor {number}"] for number in range(1, floors + 1)]
         self._arms, self._marks = (np.array(each) for each in zip(*marks))
@@ -233,7 +256,7 @@ class SwayingFloors:
             np.concatenate([np.tile(np.eye(3), (len(model.arms), 1)), _turning(model.arms)], axis=1)
         )
 
-    def deformed(self, modal, loads):
+    def deformed(self, modal: NDArray[Any], loads: NDArray[Any]) -> Deformed:
         """As of `Rigid`."""
         found, model = [], self._model
         for coordinates, load in zip(modal[:, : len(model.frequencies)], loads):
@@ -248,7 +271,7 @@ class SwayingFloors:
         return found
 
 
-def _turning(arms: np.ndarray) -> np.ndarray:
+def _turning(arms: NDArray[Any]) -> NDArray[Any]:
     """Displacements (3 n, 3) of points with arms (n, 3) by small turns about x, y and z."""
     return np.stack([np.cross(axis, arms).ravel() for axis in np.eye(3)], axis=1)
 
@@ -256,16 +279,20 @@ def _turning(arms: np.ndarray) -> np.ndarray:
 class SunkPlate:
     """An elastic base plate (`contact.base_plate.BasePlate`)."""
 
-    def __init__(self, plate):
+    def __init__(self, plate: BasePlate) -> None:
         from fecolumn.engines.scene.fields import StressField, vertex_nodes
 
         self._plate, self._stress = plate, StressField(plate.body)
         self._vertices = vertex_nodes(plate.body)
 
-    def sunk(self, positions: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def sunk(
+        self, positions: NDArray[Any], forces: NDArray[Any]
+    ) -> tuple[NDArray[Any], NDArray[Any]]:
         """Displacement (n_points, 3) [m] and stress (n_cells,) [Pa] under forces (k, 3) [N] on what
         stands at (k, 3) [m].
         """
         nodes = nodes_under(self._plate.grid, positions, forces[:, 2] > 0)
         displacement = self._plate.displacement(*nodes, -forces)
-        return displacement[self._vertices], self._stress.values(displacement)
+        stress = self._stress.values(displacement)
+        assert stress is not None  # of one process
+        return displacement[self._vertices], stress

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
-import numpy as np
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
-from fecolumn.case.bodies import Matrices, Storeys, rise
+import numpy as np
+from numpy.typing import NDArray
+
+from fecolumn.case.bodies import Block, Cylinder, Matrices, Storeys, Tube, rise
+from fecolumn.case.case import Case
+from fecolumn.case.ground import Ground
 from fecolumn.engines.scene.scene import JointFace, Piece, Scene, cells_of, same_corners
 from fecolumn.engines.scene.state_fields import (
     Continuum,
@@ -18,14 +24,17 @@ from fecolumn.mesh.bricks import BASE, FACES, outer_faces
 from fecolumn.mesh.mass import MassProperties
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.feet import ball_of
-from fecolumn.structures.model import StructureModel
+from fecolumn.structures.model import BodyModel, Joint, Part, StructureModel
 from fecolumn.structures.storeys import building_of
+
+if TYPE_CHECKING:
+    from fecolumn.structures.ground import Sized
 
 # Of faces in the plane of a contact surface, over the body's size and as a sine
 _SAME = 1e-5
 
 
-def scene_of(case, structure: StructureModel, file) -> Scene:
+def scene_of(case: Case, structure: StructureModel, file: Path | str) -> Scene:
     """The scene of a case, meshed anew.
 
     Parameters
@@ -46,7 +55,9 @@ def scene_of(case, structure: StructureModel, file) -> Scene:
     return structure_scene(case, upright(case, structure), layout_of(case, file).drawings, file)
 
 
-def structure_scene(case, structure: StructureModel, drawings: dict[str, Drawing], file) -> Scene:
+def structure_scene(
+    case: Case, structure: StructureModel, drawings: dict[str, Drawing], file: Path | str
+) -> Scene:
     """The scene of the bodies of a case.
 
     Parameters
@@ -89,13 +100,15 @@ def structure_scene(case, structure: StructureModel, drawings: dict[str, Drawing
         lambda scene: _expanded(case, structure, kinds, shown, scene, file),
         lambda: [(_plate(*plates[place]), place) for place in plates],
         structure.links,
-        alone and MassProperties(np.nan, alone.mass, parts[0].center, alone.inertia),
+        MassProperties(np.nan, alone.mass, parts[0].center, alone.inertia) if alone else None,
         frozenset(k for k, joint in enumerate(structure.joints) if joint.pair >= 0),
         {k: level for k, level in enumerate(structure.levels) if k not in plates},
     )
 
 
-def _plates(case, structure: StructureModel, file) -> dict:
+def _plates(
+    case: Case, structure: StructureModel, file: Path | str
+) -> dict[int, tuple[Sized, Ground]]:
     """(Sized, keys) of each elastic plate on which something stands, by the ground's number."""
     from fecolumn.structures.ground import feet_on, sized_ground
 
@@ -107,7 +120,7 @@ def _plates(case, structure: StructureModel, file) -> dict:
     return found
 
 
-def _ground_piece(case, place: int, sized, ground) -> Piece:
+def _ground_piece(case: Case, place: int, sized: Sized, ground: Ground) -> Piece:
     from fecolumn.structures.ground import plate_mesh
 
     mesh, name = plate_mesh(sized), list(case.grounds)[place]
@@ -122,9 +135,10 @@ class _Shown:
     matrices among them.
     """
 
-    def __init__(self, drawing: Drawing):
+    def __init__(self, drawing: Drawing) -> None:
         self.drawing, self.floors, self.points = drawing, 0, drawing.points
         if drawing.shape is None:
+            assert drawing.system
             self.kinds = [drawing.system.triangles]
             self.elements = drawing.system.triangles
             self.cells = np.full(len(self.elements), -1)
@@ -143,7 +157,7 @@ class _Shown:
         self.cells = cells_of(self.elements, np.concatenate(self.kinds))
         self.part = np.pad(mesh.part, (0, self.floors))
 
-    def piece(self, kind: str, part) -> Piece:
+    def piece(self, kind: str, part: Part) -> Piece:
         """The piece of a copy."""
         body = self.drawing.body
         soft = not (
@@ -166,7 +180,7 @@ class _Shown:
             struts=self._struts(),
         )
 
-    def _struts(self) -> np.ndarray:
+    def _struts(self) -> NDArray[Any]:
         """(n, 2) corners of a floor, or of the slab, and of the floor above."""
         from scipy.spatial import cKDTree
 
@@ -178,14 +192,15 @@ class _Shown:
         below = np.vstack([cKDTree(self.points[:slab]).query(top)[1], boxes[:-1, 4:]])
         return np.stack([below.ravel(), boxes[:, :4].ravel()], axis=1)
 
-    def face(self, model, name: str) -> np.ndarray:
+    def face(self, model: BodyModel, name: str) -> NDArray[Any]:
         """Faces (n, 3 or 4) in the plane of a surface of the body, those of one kind; of a dome
         those that look down.
         """
         surface, body = model.surfaces[name], self.drawing.body
         size, found = np.ptp(self.points, axis=0).max(), []
-        domed = name == "foot" and getattr(body, "foot_radius_m", None)
-        near = _SAME * size + (rise(body) if domed else 0.0)
+        near = _SAME * size
+        if name == "foot" and isinstance(body, (Tube, Cylinder, Block)) and body.foot_radius_m:
+            near += rise(body)
         level = np.abs(surface.plane(self.points - model.center)[:, 2]) < near
         for faces in self.kinds:
             chosen = faces[level[faces].all(axis=1)]
@@ -195,7 +210,7 @@ class _Shown:
         return max(found, key=len)
 
 
-def floor_boxes(body: Storeys) -> np.ndarray:
+def floor_boxes(body: Storeys) -> NDArray[Any]:
     """Corners (n, 8, 3) [m] of the floors of a building in the order of a VTK hexahedron, drawn a
     tenth of their storey thick.
     """
@@ -210,7 +225,7 @@ def floor_boxes(body: Storeys) -> np.ndarray:
     )
 
 
-def _contact(joint, shown: _Shown, part, first: np.ndarray) -> JointFace:
+def _contact(joint: Joint, shown: _Shown, part: Part, first: NDArray[Any]) -> JointFace:
     surface = part.model.surfaces[joint.slave_surface]
     # the second tangent of a face that looks down is -y
     axes = surface.axes * [1.0, -1.0 if surface.normal[2] < 0 else 1.0, 1.0]
@@ -233,13 +248,21 @@ def _contact(joint, shown: _Shown, part, first: np.ndarray) -> JointFace:
     )
 
 
-def _expanded(case, structure, kinds, shown, scene: Scene, file) -> StateFields:
+def _expanded(
+    case: Case,
+    structure: StructureModel,
+    kinds: list[str],
+    shown: dict[str, _Shown],
+    scene: Scene,
+    file: Path | str,
+) -> StateFields:
     from scipy.spatial import cKDTree
 
     from fecolumn.structures.made_layout import kept_keys
     from fecolumn.structures.store import body_folder
 
-    keys, copies = kept_keys(case, file), {}
+    keys = kept_keys(case, file)
+    copies: dict[str, list[int]] = {}
     for number, kind in enumerate(kinds):
         copies.setdefault(kind, []).append(number)
     movers = []
@@ -259,13 +282,15 @@ def _expanded(case, structure, kinds, shown, scene: Scene, file) -> StateFields:
     return StateFields(scene, movers, models, seats, scene.plates())
 
 
-def _plate(sized, ground) -> SunkPlate:
+def _plate(sized: Sized, ground: Ground) -> SunkPlate:
     from fecolumn.structures.ground import plate_of
 
     return SunkPlate(plate_of(sized, ground))
 
 
-def _mover(piece: Piece, model, one: _Shown, folder):
+def _mover(
+    piece: Piece, model: BodyModel, one: _Shown, folder: Path
+) -> Rigid | Continuum | SwayingFloors:
     """How the points of a piece move in the frame of its body."""
     from fecolumn.structures.reduction import body_of
 
@@ -273,6 +298,8 @@ def _mover(piece: Piece, model, one: _Shown, folder):
         return SwayingFloors(piece.points - model.center, model, one.floors)
     if not piece.stressed:
         return Rigid(len(piece.points))
-    body = body_of(one.drawing.shape, one.drawing.material)
+    shape, material = one.drawing.shape, one.drawing.material
+    assert shape and material
+    body = body_of(shape, material)
     shapes = np.load(folder / "fields.npy", mmap_mode="r")
     return Continuum(body, model, body.find_nodes(model.reference), shapes)

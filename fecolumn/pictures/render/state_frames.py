@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fecolumn.engines.reduced.states import Snapshot, modes_of, read_states, signature, state_at
-from fecolumn.engines.scene.scene import Scene
-from fecolumn.engines.scene.state_fields import StateFields
+from fecolumn.engines.scene.scene import Scene, SceneFields
 from fecolumn.engines.summary import check_owner
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.field_frames import FrameSeries
@@ -71,7 +70,7 @@ class StateFrames(FrameSeries):
                 "into a new folder",
             )
         self._file, self._scene = file, scene
-        self._expand: StateFields | None = None
+        self._expand: SceneFields | None = None
         super().__init__(self._arrays["time"])
 
     def state(self, k: int) -> Snapshot:
@@ -94,7 +93,7 @@ class StateFrames(FrameSeries):
         return self.drawn.values(self.state(k))
 
     @property
-    def drawn(self) -> StateFields:
+    def drawn(self) -> SceneFields:
         """What expands states, and what `post.fields.FieldWriter` takes."""
         if self._expand is None:
             expand = self._scene.fields()
