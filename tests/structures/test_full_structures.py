@@ -152,6 +152,35 @@ def test_fields_show_all_bodies_and_where_they_press(leaning):
     assert 1e4 < stress.max() < 1e8
 
 
+@pytest.mark.parametrize("aside", [0.0, 0.05])
+def test_pressure_between_equal_faces_carries_the_weight(aside, tmp_path):
+    """Two equal blocks, one on the other or beyond its edge by 50 mm, touch at points that are
+    nodes of neither face, too: the pressure at the nodes carries the weight all the same.
+    """
+    same = BRICKS | dict(length_m=0.4, width_m=0.4, height_m=0.4)
+    changes = dict(
+        bodies=dict(lower=same, upper=same | dict(at_m=[aside, 0.0, 0.4])),
+        contact=dict(interior_points=100),
+        integration=dict(duration_s=0.002),
+        output=dict(fields_every_s=0.002),
+    )
+    tables = {name: table for name, table in LEANING.items() if name != "initial"}
+    run(structure(**merge(tables, changes)), tmp_path / "run", quiet=True)
+    (*_, last) = sorted((tmp_path / "run" / "fields").glob("frame_*.h5"))
+    with h5py.File(tmp_path / "run" / "fields" / "mesh.h5") as mesh, h5py.File(last) as frame:
+        points, pressure = mesh["points"][:], frame["pressure"][:]
+        cells, body = mesh["cells"][:], mesh["body"][:]
+    force = 0.0
+    for number, middle in ((1, 0.0), (2, aside)):
+        own = np.unique(cells[body == number])
+        face = own[np.isclose(points[own, 2], 0.4)]
+        # a node stands for all of a face of the 0.2 x 0.2 m bricks, for a half, or for a quarter
+        at_edge = np.isclose(np.abs(points[face, :2] - [middle, 0.0]), 0.2).sum(axis=1)
+        force += pressure[face] @ (0.04 / 2.0**at_edge)
+    weight = STONE["density_kg_m3"] * 0.4**3 * 9.80665
+    assert force == pytest.approx(weight, rel=1e-3)
+
+
 def test_interrupted_analysis_goes_on_to_the_same_motion(leaning, tmp_path):
     _, _, whole = leaning
     asked = []

@@ -48,11 +48,17 @@ class StructureFields:
         self.meshes, self.of_cells, self.grounds = scene.meshes, scene.of_cells, scene.plates()
         self._nodes = bodies.of_each(lambda body, _: vertex_nodes(body))
         self._stress = bodies.of_each(lambda body, _: StressField(body))
-        self._seats = []
+        # of each joint the contact nodes of its slave's face, their areas, and of each point of the
+        # scene there the nearest of them
+        self._seats, first = [], np.cumsum([0] + [len(one.model.arms) for one in meshed])
+        self._contact_nodes = int(first[-1])
         for joint, contact in zip(structure.joints, scene.contacts):
-            patch = meshed[joint.slave].patches[joint.slave_surface]
+            body = meshed[joint.slave]
+            patch = body.patches[joint.slave_surface]
+            nodes = first[joint.slave] + body.model.surfaces[joint.slave_surface].nodes
             own = scene.pieces[joint.slave].points[contact.points - scene.first[joint.slave]]
-            self._seats.append((cKDTree(patch.positions).query(own)[1], patch.areas))
+            nearest = cKDTree(patch.positions).query(own)[1]
+            self._seats.append((nodes, patch.areas, nearest))
 
     def values(
         self,
@@ -98,8 +104,13 @@ class StructureFields:
             for found, values in zip((moved, stress), plate.sunk(positions[own], forces[own])):
                 found.append(values)
         pressure = np.zeros(len(scene.points))
-        for number, (contact, (nearest, areas)) in enumerate(zip(scene.contacts, self._seats)):
-            push = forces[of == number, 2]
+        for number, (contact, (nodes, areas, nearest)) in enumerate(
+            zip(scene.contacts, self._seats)
+        ):
+            # points between nodes, as those at corners of where two faces meet, push these
+            own, at_nodes = self._points[of == number], np.zeros(self._contact_nodes)
+            np.add.at(at_nodes, own["carriers"], own["weights"] * forces[of == number, 2:])
+            push = np.maximum(at_nodes[nodes], 0.0)
             shared = np.divide(push, areas, out=np.zeros(len(push)), where=areas > 0)
             pressure[contact.points] += shared[nearest]
         return {
