@@ -217,3 +217,46 @@ def test_keys_of_a_table_that_is_passed_over_are_checked(of):
     plan = dict(engine="reduced", duration_s=1.0)
     with pytest.raises(InputError, match="block.foo = 1: unknown key"):
         case_from_tables(of | dict(block=dict(foo=1), integration=plan), "case.toml")
+
+
+@pytest.mark.parametrize(
+    "changes, told",
+    [
+        ({"bodies.slab.at_m": [0.0, 0.0, 2.1]}, "lies on all columns"),
+        ({"bodies.slab.at_m": [9.0, 0.0, 1.6]}, 'is beside "slab"'),
+        ({"bodies.body.copies_m": [[-1.0, 0.0, 0.4], [1.0, 0.0, 0.4]]}, "the ground is at 0 m"),
+        ({"bodies.body.copies_m": [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.4]]}, "the ground is at 0 m"),
+    ],
+)
+def test_a_frame_whose_bodies_do_not_stand_on_one_another_is_refused(changes, told):
+    with pytest.raises(InputError, match=told):
+        model_of(frame("rocking_frame", PIER, SLAB).replace(changes), "case.toml")
+
+
+def test_a_block_in_the_air_is_refused():
+    made = case("housner", dict(body=BLOCK | dict(at_m=[0.0, 0.0, 0.5])), FOOT)
+    with pytest.raises(InputError, match=r"drawn at z = 0.5 m, the ground is at 0 m"):
+        model_of(made, "case.toml")
+
+
+@pytest.mark.parametrize(
+    "key, value",
+    [
+        ("output.fields_every_s", 0.1),
+        ("joints.foot.rolling_resistance", 0.02),
+        ("bodies.body.damping_ratio", 0.05),
+    ],
+)
+@pytest.mark.parametrize("engine", ["housner", "wobbling"])
+def test_what_a_rigid_model_does_not_know_is_refused_by_its_key(engine, key, value):
+    body = BLOCK if engine == "housner" else DRUM
+    made = case(engine, dict(body=body), FOOT)
+    with pytest.raises(InputError, match=key.replace(".", r"\.")):
+        model_of(made.replace({key: value}), "case.toml")
+
+
+def test_columns_that_lean_across_the_plane_of_a_frame_are_refused():
+    made = frame("rocking_frame", PIER, SLAB, initial=dict(body=dict(tilt_rad=0.03)))
+    start_of(made, "case.toml")
+    with pytest.raises(InputError, match="must be 0 or 180"):
+        start_of(made.replace({"initial.body.direction_deg": 90.0}), "case.toml")

@@ -9,6 +9,7 @@ from typing import NoReturn
 import numpy as np
 
 from fecolumn.case.bodies import Block, Cylinder, Meshed, Plate, Storeys, Tube
+from fecolumn.case.body_keys import Placed, WithMaterial
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.ground import GROUND_NAME
@@ -27,6 +28,9 @@ from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.storeys import building_of
 
+# Gap between two bodies, over the height of the lower one, up to which one stands on the other:
+# chosen, far above the rounding of places that are typed
+_TOUCHES = 1e-3
 # Kinds of bodies whose mass, inertia and foot are known here, as of rigid bodies
 _KNOWN_FEET = ("tube", "cylinder", "block", "plate", "slab", "storeys", "mesh")
 _CLASSES = (Tube, Cylinder, Block, Plate, Storeys, Meshed)
@@ -113,7 +117,13 @@ class _Reader:
             starts.add((0.0, 0.0))
         if len(starts) > 1:
             self._lacks(f'needs one start for all of "{name}", which lean alike')
-        return Start(*starts.pop()) if starts else Start()
+        start = Start(*starts.pop()) if starts else Start()
+        if self.engine in ("rocking_frame", "podium") and start.tilt_rad:
+            if start.direction_deg % 180.0:
+                self._lacks(
+                    f"rocks along x: direction_deg = {start.direction_deg:g} must be 0 or 180"
+                )
+        return start
 
     def _refuse(self, key: str, value: object, allowed: str) -> NoReturn:
         raise InputError(self.file, key, value, allowed)
@@ -128,13 +138,17 @@ class _Reader:
         stated: dict[str, float | None] = {
             "contact.restitution": contact.restitution,
             "contact.rolling_resistance": contact.rolling_resistance,
+            "output.fields_every_s": self.case.output.fields_every_s,
         }
         for name, interface in self.case.joints.items():
             stated[f"joints.{name}.restitution"] = interface.restitution
+            stated[f"joints.{name}.rolling_resistance"] = interface.rolling_resistance
             stated[f"joints.{name}.tension_pa"] = interface.tension_pa
         for name, body in self.case.bodies.items():
             for key in ("foot_radius_m", "edge_radius_m", "turned_deg"):
                 stated[f"bodies.{name}.{key}"] = getattr(body, key, None)
+            if body.kind != "storeys":  # those of a podium damp
+                stated[f"bodies.{name}.damping_ratio"] = self._damping(body)
         for key, value in stated.items():
             if value:
                 self._refuse(
@@ -146,6 +160,12 @@ class _Reader:
         self._refuse_grounds()
         if self.case.links:
             self._lacks("knows no links: leave them out, or choose the reduced or rigid engine")
+
+    def _damping(self, body: Placed) -> float | None:
+        """Damping ratio of a body, its own or of its material."""
+        if isinstance(body, WithMaterial):
+            return material_of(body, self.case.materials).damping_ratio
+        return body.damping_ratio
 
     def _refuse_grounds(self) -> None:
         """Refuse pads and grounds with a motion of their own."""
@@ -190,6 +210,7 @@ class _Reader:
             self._lacks(f"is of one body on the ground; there are {count}")
         if (name, GROUND_NAME) not in self._joints():
             self._lacks(f'needs an interface between "{name}" and the ground')
+        self._check_standing(name)
         return name
 
     def _columns(self) -> tuple[str, str]:
@@ -205,7 +226,44 @@ class _Reader:
         (slab,) = set(self.case.bodies) - set(below)
         if (slab, below[0]) not in joints or len(self.case.bodies[slab].places) > 1:
             self._lacks(f'needs one "{slab}" that has an interface with "{below[0]}"')
+        self._check_standing(below[0], slab)
         return below[0], slab
+
+    def _check_standing(self, name: str, slab: str = "") -> None:
+        """Refuse a body, all its copies or a slab on them that do not stand where they are drawn on
+        what is below them.
+        """
+        places, own = self.case.bodies[name].places, rigid_body(self.case, name, self.file)
+        levels = {
+            self.case.grounds[ground].level_m
+            for joint in self.case.joints.values()
+            for ground in (joint.slave, joint.on)
+            if {name, GROUND_NAME} <= set().union(*self._sides(joint))
+            and ground in self.case.grounds
+        } or {0.0}
+        for place in places:
+            if min(abs(place[2] - level) for level in levels) > _TOUCHES * own.top:
+                self._lacks(
+                    f'is of what stands on the ground: "{name}" is drawn at z = {place[2]:g} m, '
+                    f"the ground is at {', '.join(f'{one:g}' for one in sorted(levels))} m"
+                )
+        if not slab:
+            return
+        on, half = (
+            self.case.bodies[slab].places[0],
+            rigid_body(self.case, slab, self.file).half_foot,
+        )
+        for place in places:
+            if abs(place[2] + own.top - on[2]) > _TOUCHES * own.top:
+                self._lacks(
+                    f'is of a body that lies on all columns: "{slab}" is drawn at z = {on[2]:g} m, '
+                    f'the top of a "{name}" is at {place[2] + own.top:g} m'
+                )
+            if any(abs(place[a] - on[a]) > half[a] for a in range(2)):
+                self._lacks(
+                    f'is of a body that lies on all columns: the "{name}" at '
+                    f'({place[0]:g}, {place[1]:g}) m is beside "{slab}"'
+                )
 
     def _upright_block(self, name: str) -> tuple[float, float]:
         """Half width along x and height [m] of columns that rock along x."""
