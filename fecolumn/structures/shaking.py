@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
+from fecolumn.case.sections import Motion
+from fecolumn.foundation.schema import InputError
 
 if TYPE_CHECKING:
     from fecolumn.motions.record import GroundMotion
@@ -26,17 +28,28 @@ def motions_of(
     """Ground motion of each ground, `first` that of those which have none of their own; None of a
     ground at rest.
     """
-    from fecolumn.motions.load import load_motion
-
     found = [
-        load_motion(ground.motion, float(case.integration.dt_s), file) if ground.motion else first
-        for ground in case.grounds.values()
+        _own_motion(f"grounds.{name}", ground.motion, float(case.integration.dt_s), file)
+        if ground.motion
+        else first
+        for name, ground in case.grounds.items()
     ]
     names = list(case.grounds)
     for name, motion in zip(names[1:], found[1:]):
         if motion and found[0] and motion is not found[0]:
             _warn_of_drift(f"grounds.{name}", f"grounds.{names[0]}", motion, found[0], file)
     return found
+
+
+def _own_motion(key: str, motion: Motion, dt: float, file: Path | str) -> GroundMotion:
+    """The motion of one ground, whose table is at `key`."""
+    from fecolumn.motions.load import load_motion
+
+    try:
+        return load_motion(motion, dt, file)
+    except InputError as error:
+        own = f"{key}.{error.key}" if error.key.startswith("motion.") else error.key
+        raise InputError(error.file, own, error.value, error.allowed) from None
 
 
 def accelerations(motions: Sequence[GroundMotion | None], step: int) -> NDArray[Any]:

@@ -260,3 +260,12 @@ def test_columns_that_lean_across_the_plane_of_a_frame_are_refused():
     start_of(made, "case.toml")
     with pytest.raises(InputError, match="must be 0 or 180"):
         start_of(made.replace({"initial.body.direction_deg": 90.0}), "case.toml")
+
+
+def test_a_body_that_is_not_alike_about_its_axis_does_not_wobble():
+    aside = case("wobbling", dict(body=DRUM | dict(centre_m=[0.05, 0.0, 0.8])), FOOT)
+    with pytest.raises(InputError, match="it is 0.05 m beside it"):
+        model_of(aside, "case.toml")
+    unlike = case("wobbling", dict(body=DRUM | dict(inertia_kg_m2=[90.0, 120.0, 40.0])), FOOT)
+    with pytest.raises(InputError, match="alike about its axis"):
+        model_of(unlike, "case.toml")

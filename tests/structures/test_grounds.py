@@ -22,7 +22,9 @@ from small_structures import structure
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.history import read_history
+from fecolumn.foundation.schema import InputError
 from fecolumn.simulation import read_folder_case, run
+from fecolumn.structures.shaking import motions_of
 from fecolumn.structures.structure import structure_model
 
 SOFT = dict(youngs_modulus_pa=5e7, poissons_ratio=0.3, thickness_m=0.6, element_size_m=0.1)
@@ -223,3 +225,14 @@ def test_grounds_that_drift_apart_after_their_motions_are_told(tmp_path):
             motion=motion | dict(scale=0.0),
             integration=dict(dt_s=1e-3, duration_s=0.0),
         )
+
+
+def test_a_ground_whose_own_motion_cannot_be_is_named():
+    case = structure(
+        bodies=dict(block=BLOCK),
+        joints=dict(foot=dict(between=["block", "table"])),
+        grounds=dict(table=dict(motion=dict(source="lick:99999"))),
+        motion=dict(source="lick:12"),
+    )
+    with pytest.raises(InputError, match=r"grounds\.table\.motion\.source.*from 1 to 115"):
+        motions_of(case, None, "case.toml")

@@ -94,19 +94,20 @@ class Wobbling:
                 "needs a round foot: a tube or a solid cylinder",
             )
         across, radius = (column.inertia[0] + column.inertia[1]) / 2, column.half_foot[0]
-        if (
-            abs(column.inertia[0] - column.inertia[1]) > 2 * _ROUND * across
-            or math.hypot(*column.offset) > _ROUND * radius
-        ):
-            raise InputError(
-                file,
-                "cap",
-                None,
-                f"the inertias of the body about x and y, {column.inertia[0]:.3g} and "
-                f"{column.inertia[1]:.3g} kg m2, must differ by "
-                f'{2 * _ROUND:.0%} at most for integration.engine = "{cls.TABLE}", '
-                "which takes it for round",
+        aside, differ = math.hypot(*column.offset), abs(column.inertia[0] - column.inertia[1])
+        if aside > _ROUND * radius:
+            needs = (
+                f"needs a centre of mass on the axis of the foot, up to {_ROUND * radius:.2g} m; "
+                f"it is {aside:.3g} m beside it"
             )
+            raise InputError(file, "integration.engine", cls.TABLE, needs)
+        if differ > 2 * _ROUND * across:
+            needs = (
+                "needs a body that is alike about its axis: the inertias about x and y, "
+                f"{column.inertia[0]:.3g} and {column.inertia[1]:.3g} kg m2, must differ by "
+                f"{2 * _ROUND:.0%} at most; look at its cap and at inertia_kg_m2"
+            )
+            raise InputError(file, "integration.engine", cls.TABLE, needs)
         body = np.array(
             [
                 radius,
