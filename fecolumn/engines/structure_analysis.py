@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.contact.overturning import FELL, critical_displacement
+from fecolumn.contact.overturning import FELL, critical_displacement, critical_tilt_along
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.engines.dynamics.bonds import bonded
@@ -26,6 +26,7 @@ from fecolumn.engines.reduced.observe import (
     OF_LINK,
     OF_MARK,
 )
+from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import least_barrier, stances
 from fecolumn.structures.lost import limits_of
@@ -221,13 +222,17 @@ class OfStructure(Analysis):
 
     def no_return(self, last: dict[str, Any], rotation: NDArray[Any]) -> str:
         """Which body has passed its point of no return, in words."""
-        parts = self.structure.parts
+        parts, standing = self.structure.parts, standing_of(self.case, self.structure)
         tilts = np.array([float(last[f"body/{part.name}/tilt"]) for part in parts])
-        limits = limits_of(self.structure, standing_of(self.case, self.structure))
+        limits = limits_of(self.structure, standing)
         far, critical = tilts > limits.tilts, limits.standing["critical"]
         b = int(np.argmax(np.where(far, tilts, 0.0) if far.any() else tilts - critical))
-        told = f"limit {limits.tilts[b]:.3g}" if far.any() else f"critical {critical[b]:.3g}"
-        return f'"{parts[b].name}" has tilted by {tilts[b]:.3g} rad, {told} rad'
+        told = f"limit {limits.tilts[b]:.3g} rad"
+        if not far.any():
+            turn = rotation_matrix(np.asarray(last[f"body/{parts[b].name}/rotation"], float))
+            along = critical_tilt_along(stances(self.structure, standing)[b], turn)
+            told = f"critical {along:.3g} rad in that direction"
+        return f'"{parts[b].name}" has tilted by {tilts[b]:.3g} rad, {told}'
 
     def ending(self, fallen: int, rotation: NDArray[Any]) -> Ending:
         """How the analysis ends, from the answer of `reduced.observe.outcome_of_row`."""

@@ -11,6 +11,8 @@ import numpy as np
 from fecolumn.case.body_keys import WithMaterial
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
+from fecolumn.case.joint import Interface
+from fecolumn.case.sections import Contact
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.rim import Rim
@@ -18,6 +20,11 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.model import BodyModel, Joint
 from fecolumn.structures.place import Standing, loads
+
+# Keys of [contact] that a joint may have of its own, in their place
+_OWN = {field.name for field in dataclasses.fields(Contact)} & {
+    field.name for field in dataclasses.fields(Interface)
+} - {"between"}
 
 
 def joint_of(
@@ -48,16 +55,7 @@ def joint_of(
     """
     name, (body, number) = contact["interface"], contact["slave"]
     keys, model, master = case.joints[name], bodies[body], contact["master"]
-    own = {
-        key: getattr(keys, key)
-        for key in (
-            "friction_coefficient",
-            "law",
-            "penalty_factor",
-            "restitution",
-            "rolling_resistance",
-        )
-    }
+    own = {key: getattr(keys, key) for key in _OWN}
     contact_keys = dataclasses.replace(
         case.contact, **{key: value for key, value in own.items() if value is not None}
     )
