@@ -12,6 +12,12 @@ from fecolumn.case.column_keys import Base
 from fecolumn.case.sections import Initial, Integration
 
 OF_COLUMN = ("housner", "wobbling")  # models that a case's column makes
+#: Sections and keys that no rocking model of rigid bodies knows, whatever form its case has
+UNKNOWN_KEYS = (
+    ("contact", "restitution"),
+    ("contact", "rolling_resistance"),
+    ("output", "fields_every_s"),
+)
 
 
 class _OnBase(Protocol):
@@ -39,12 +45,7 @@ def check_model(case: _OnBase, models: Sequence[str], refuse: Refuse) -> None:
             f"needs a table of its own, [{engine.removeprefix('rocking_')}]; of a "
             f"[column] there are {' and '.join(OF_COLUMN)}",
         )
-    for section, key in (
-        ("contact", "restitution"),
-        ("contact", "rolling_resistance"),
-        ("material", "damping_ratio"),
-        ("output", "fields_every_s"),
-    ):
+    for section, key in (*UNKNOWN_KEYS, ("material", "damping_ratio")):
         if value := getattr(getattr(case, section), key):
             refuse(
                 f"{section}.{key}",

@@ -108,7 +108,7 @@ class FullAnalysis(OfStructure):
 
         scene = scene_of(self.case, self.standing, self.folder / "case.json")
         points = self.system.interface.points
-        return StructureFields(scene, self.system.bodies, self.meshed, self.standing, points)
+        return StructureFields(scene, self.system.bodies, self.standing, points)
 
     def off_base(self, failure: StepFailed) -> Ending | None:
         """The Ending of a step that failed because a foot met the edge of its ground, or None."""

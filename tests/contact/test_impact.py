@@ -50,6 +50,30 @@ def body(mass, arms, inertia=None, within=False):
     return one_body(arms, one.static, W)
 
 
+def landed(bodies, points, interface, ends, velocities, landing, dt, contact_work=0.0):
+    """What `find_impact` answers of points (n,) that land on the ground; ends: their CONTACT
+    before and after, velocities: (n, 3) [m/s] then.
+    """
+    n = len(points)
+    union = touched(np.arange(n), *ends, landing)
+    return find_impact(
+        TouchingBodies(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
+        Collision(
+            union,
+            points["arm"].copy(),
+            poses_on_base(np.eye(3)[None]),
+            *ends,
+            *velocities,
+            landing,
+            np.zeros(n, bool),
+            dt,
+            landing_moment(union, *ends, velocities[0], landing, dt),
+        ),
+        contact_work,
+        np.zeros(N_COUNTS, np.int64),
+    )
+
+
 def struck(
     bodies,
     points,
@@ -73,24 +97,9 @@ def struck(
     assert mark_landing(interface, points, np.arange(n), before, after, landing) == n
     # what the step's own impulse, about to be replaced, has done is taken out again
     late = np.array(velocity if late is None else late, float)
-    early, union = np.array(velocity, float), touched(np.arange(n), before, after, landing)
-    answer, pushed, impulses = find_impact(
-        TouchingBodies(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
-        Collision(
-            union,
-            points["arm"].copy(),
-            poses_on_base(np.eye(3)[None]),
-            before,
-            after,
-            early,
-            late,
-            landing,
-            np.zeros(n, bool),
-            DT,
-            landing_moment(union, before, after, early, landing, DT),
-        ),
-        contact_work,
-        np.zeros(N_COUNTS, np.int64),
+    early = np.array(velocity, float)
+    answer, pushed, impulses = landed(
+        bodies, points, interface, (before, after), (early, late), landing, DT, contact_work
     )
     assert answer == OK and (pushed or contact_work >= 0)
     return impulses + DT * after["force"]
@@ -306,24 +315,9 @@ def test_an_impact_is_plastic_whatever_the_step_and_the_faces(made, give, parts)
         mobility,
     )
     given = dt * after["force"].ravel()
-    late, counts = velocity + (mobility @ given).reshape(n, 3), np.zeros(N_COUNTS, np.int64)
-    answer, pushed, impulses = find_impact(
-        TouchingBodies(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
-        Collision(
-            listed,
-            points["arm"].copy(),
-            poses,
-            before,
-            after,
-            velocity,
-            late,
-            landing,
-            np.zeros(n, bool),
-            dt,
-            landing_moment(listed, before, after, velocity, landing, dt),
-        ),
-        0.0,
-        counts,
+    late = velocity + (mobility @ given).reshape(n, 3)
+    answer, pushed, impulses = landed(
+        bodies, points, interface, (before, after), (velocity, late), landing, dt
     )
     assert answer == OK and pushed
     total = impulses.ravel() + given
@@ -362,23 +356,8 @@ def test_a_frame_keeps_what_the_theory_of_rocking_frames_says(slab):
         np.zeros((n, 3)),
         mobility,
     )
-    answer, _, impulses = find_impact(
-        TouchingBodies(bodies, NO_BASE, points, interface, no_pads(np.zeros((n, 3)))),
-        Collision(
-            listed,
-            points["arm"].copy(),
-            poses,
-            before,
-            after,
-            velocity,
-            velocity,
-            ~carried,
-            np.zeros(n, bool),
-            1e-4,
-            landing_moment(listed, before, after, velocity, ~carried, 1e-4),
-        ),
-        0.0,
-        np.zeros(N_COUNTS, np.int64),
+    answer, _, impulses = landed(
+        bodies, points, interface, (before, after), (velocity, velocity), ~carried, 1e-4
     )
     left = velocity + (mobility @ impulses.ravel()).reshape(n, 3)
     kept = (1 - 1.5 * np.sin(SLENDER) ** 2 + 3 * ratio * np.cos(2 * SLENDER)) / (1 + 3 * ratio)

@@ -14,6 +14,7 @@ from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.ground import GROUND_NAME
 from fecolumn.case.joint import Interface
+from fecolumn.case.model_keys import UNKNOWN_KEYS
 from fecolumn.case.model_table import Start
 from fecolumn.case.sections import Initial
 from fecolumn.engines.rocking.block import RockingBlock
@@ -76,13 +77,15 @@ class _Reader:
         """As `model_of`."""
         self._refuse_laws()
         if self.engine in ("housner", "wobbling"):
-            body = rigid_body(self.case, self._alone(), self.file)
-            friction = self._friction(self._alone())
+            name = self._alone()
+            body, friction = rigid_body(self.case, name, self.file), self._friction(name)
+            self._check_standing(name, body)
             kind = RockingBlock if self.engine == "housner" else Wobbling
             return kind.of_body(body, friction, self.file)
         name, slab = self._columns()
         count, friction = len(self.case.bodies[name].places), self._friction(name)
         body = rigid_body(self.case, name, self.file)
+        self._check_standing(name, body, slab)
         if self.engine == "wobbling_frame":
             return self._wobbling_frame(name, body, slab, count, friction)
         half, height = self._upright_block(name)
@@ -134,11 +137,9 @@ class _Reader:
 
     def _refuse_laws(self) -> None:
         """Refuse keys of which the model knows nothing."""
-        contact = self.case.contact
         stated: dict[str, float | None] = {
-            "contact.restitution": contact.restitution,
-            "contact.rolling_resistance": contact.rolling_resistance,
-            "output.fields_every_s": self.case.output.fields_every_s,
+            f"{section}.{key}": getattr(getattr(self.case, section), key)
+            for section, key in UNKNOWN_KEYS
         }
         for name, interface in self.case.joints.items():
             stated[f"joints.{name}.restitution"] = interface.restitution
@@ -210,7 +211,6 @@ class _Reader:
             self._lacks(f"is of one body on the ground; there are {count}")
         if (name, GROUND_NAME) not in self._joints():
             self._lacks(f'needs an interface between "{name}" and the ground')
-        self._check_standing(name)
         return name
 
     def _columns(self) -> tuple[str, str]:
@@ -226,14 +226,13 @@ class _Reader:
         (slab,) = set(self.case.bodies) - set(below)
         if (slab, below[0]) not in joints or len(self.case.bodies[slab].places) > 1:
             self._lacks(f'needs one "{slab}" that has an interface with "{below[0]}"')
-        self._check_standing(below[0], slab)
         return below[0], slab
 
-    def _check_standing(self, name: str, slab: str = "") -> None:
+    def _check_standing(self, name: str, own: RigidColumn, slab: str = "") -> None:
         """Refuse a body, all its copies or a slab on them that do not stand where they are drawn on
-        what is below them.
+        what is below them; own: of the body.
         """
-        places, own = self.case.bodies[name].places, rigid_body(self.case, name, self.file)
+        places = self.case.bodies[name].places
         levels = {
             self.case.grounds[ground].level_m
             for joint in self.case.joints.values()

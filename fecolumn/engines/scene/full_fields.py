@@ -8,14 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from fecolumn.engines.dynamics.checkpoint import gather_all
 from fecolumn.engines.scene.fields import StressField, vertex_nodes
 from fecolumn.engines.scene.scene import Scene
+from fecolumn.engines.scene.state_fields import node_forces, seats_of
 
 if TYPE_CHECKING:
-    from fecolumn.engines.elements import MeshedBody
     from fecolumn.fem.composite import Composite
     from fecolumn.structures.model import StructureModel
 
@@ -28,8 +27,6 @@ class StructureFields:
     ----------
     bodies
         `fem.composite.Composite`.
-    meshed
-        `elements.MeshedBody` of each part.
     structure
         StructureModel, as it stands upright.
     points
@@ -40,7 +37,6 @@ class StructureFields:
         self,
         scene: Scene,
         bodies: Composite,
-        meshed: list[MeshedBody],
         structure: StructureModel,
         points: NDArray[Any],
     ) -> None:
@@ -48,17 +44,7 @@ class StructureFields:
         self.meshes, self.of_cells, self.grounds = scene.meshes, scene.of_cells, scene.plates()
         self._nodes = bodies.of_each(lambda body, _: vertex_nodes(body))
         self._stress = bodies.of_each(lambda body, _: StressField(body))
-        # of each joint the contact nodes of its slave's face, their areas, and of each point of the
-        # scene there the nearest of them
-        self._seats, first = [], np.cumsum([0] + [len(one.model.arms) for one in meshed])
-        self._contact_nodes = int(first[-1])
-        for joint, contact in zip(structure.joints, scene.contacts):
-            body = meshed[joint.slave]
-            patch = body.patches[joint.slave_surface]
-            nodes = first[joint.slave] + body.model.surfaces[joint.slave_surface].nodes
-            own = scene.pieces[joint.slave].points[contact.points - scene.first[joint.slave]]
-            nearest = cKDTree(patch.positions).query(own)[1]
-            self._seats.append((nodes, patch.areas, nearest))
+        self._seats = seats_of(structure, scene)
 
     def values(
         self,
@@ -104,15 +90,11 @@ class StructureFields:
             for found, values in zip((moved, stress), plate.sunk(positions[own], forces[own])):
                 found.append(values)
         pressure = np.zeros(len(scene.points))
-        for number, (contact, (nodes, areas, nearest)) in enumerate(
-            zip(scene.contacts, self._seats)
-        ):
-            # points between nodes, as those at corners of where two faces meet, push these
-            own, at_nodes = self._points[of == number], np.zeros(self._contact_nodes)
-            np.add.at(at_nodes, own["carriers"], own["weights"] * forces[of == number, 2:])
-            push = np.maximum(at_nodes[nodes], 0.0)
-            shared = np.divide(push, areas, out=np.zeros(len(push)), where=areas > 0)
-            pressure[contact.points] += shared[nearest]
+        for number, (contact, seat) in enumerate(zip(scene.contacts, self._seats)):
+            own = self._points[of == number]
+            force = node_forces(seat, own["carriers"], own["weights"], forces[of == number, 2])
+            shared = np.divide(force, seat.areas, out=np.zeros(len(force)), where=seat.areas > 0)
+            pressure[contact.points] += shared[seat.nearest]
         return {
             "displacement": np.vstack(moved),
             "von_mises": np.concatenate(stress),

@@ -18,7 +18,7 @@ from fecolumn.engines.scene.scene import ElasticGround, Scene
 if TYPE_CHECKING:
     from fecolumn.contact.base_plate import BasePlate
     from fecolumn.fem.body import Body
-    from fecolumn.structures.model import BodyModel
+    from fecolumn.structures.model import BodyModel, StructureModel
 
 #: Of each copy: displacement (n_points, 3) [m] in its frame, what of it is deformation, and stress
 #: [Pa] of its elements, none where they have none.
@@ -45,6 +45,34 @@ class Seat:
     areas: NDArray[Any]
     plan: NDArray[Any]
     nearest: NDArray[Any]
+
+
+def seats_of(structure: StructureModel, scene: Scene) -> list[Seat]:
+    """The Seat of each joint of a structure that stands upright as the scene does."""
+    from scipy.spatial import cKDTree
+
+    first = np.cumsum([0] + [len(part.model.arms) for part in structure.parts])
+    seats = []
+    for joint, contact in zip(structure.joints, scene.contacts):
+        part = structure.parts[joint.slave]
+        surface = part.model.surfaces[joint.slave_surface]
+        plan = contact.plan(part.center + part.model.arms[surface.nodes])
+        nearest = cKDTree(plan).query(contact.plan(scene.points[contact.points]))[1]
+        seats.append(Seat(first[joint.slave] + surface.nodes, surface.areas, plan, nearest))
+    return seats
+
+
+def node_forces(
+    seat: Seat, carriers: NDArray[Any], weights: NDArray[Any], push: NDArray[Any]
+) -> NDArray[Any]:
+    """Forces (k,) [N] that press the nodes of a Seat, by those `push` (m,) of the points of its
+    joint on the nodes carriers (m, 4), at shares weights (m, 4): points between nodes, as those at
+    corners of where two faces meet, push several.
+    """
+    at_nodes = np.zeros(max(carriers.max(initial=0), seat.nodes.max(initial=0)) + 1)
+    np.add.at(at_nodes, carriers, weights * push[:, None])
+    forces: NDArray[Any] = np.maximum(at_nodes[seat.nodes], 0.0)
+    return forces
 
 
 class StateFields:
@@ -128,9 +156,7 @@ class StateFields:
         for number, (contact, seat) in enumerate(zip(self.scene.contacts, self.seats)):
             own = state.interface == number
             push = -state.force[own] @ (state.rotation[contact.piece] @ contact.axes[:, 2])
-            at_nodes = np.zeros(self.first_node[-1])
-            np.add.at(at_nodes, state.carriers[own], state.weights[own] * push[:, None])
-            force = np.maximum(at_nodes[seat.nodes], 0.0)
+            force = node_forces(seat, state.carriers[own], state.weights[own], push)
             found.append(force / seat.areas)
             if force.sum() > 0:
                 centres[number] = force @ seat.plan / force.sum()

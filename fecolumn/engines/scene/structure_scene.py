@@ -15,10 +15,10 @@ from fecolumn.engines.scene.scene import JointFace, Piece, Scene, cells_of, same
 from fecolumn.engines.scene.state_fields import (
     Continuum,
     Rigid,
-    Seat,
     StateFields,
     SunkPlate,
     SwayingFloors,
+    seats_of,
 )
 from fecolumn.mesh.bricks import BASE, FACES, outer_faces
 from fecolumn.mesh.mass import MassProperties
@@ -256,8 +256,6 @@ def _expanded(
     scene: Scene,
     file: Path | str,
 ) -> StateFields:
-    from scipy.spatial import cKDTree
-
     from fecolumn.structures.made_layout import kept_keys
     from fecolumn.structures.store import body_folder
 
@@ -271,15 +269,8 @@ def _expanded(
         movers.append(
             (_mover(scene.pieces[numbers[0]], model, one, body_folder(keys[kind])), numbers)
         )
-    models, seats = [part.model for part in structure.parts], []
-    first = np.cumsum([0] + [len(model.arms) for model in models])
-    for joint, contact in zip(structure.joints, scene.contacts):
-        part = structure.parts[joint.slave]
-        surface = part.model.surfaces[joint.slave_surface]
-        plan = contact.plan(part.center + part.model.arms[surface.nodes])
-        nearest = cKDTree(plan).query(contact.plan(scene.points[contact.points]))[1]
-        seats.append(Seat(first[joint.slave] + surface.nodes, surface.areas, plan, nearest))
-    return StateFields(scene, movers, models, seats, scene.plates())
+    models = [part.model for part in structure.parts]
+    return StateFields(scene, movers, models, seats_of(structure, scene), scene.plates())
 
 
 def _plate(sized: Sized, ground: Ground) -> SunkPlate:
