@@ -45,6 +45,8 @@ def test_no_point_comes_down_by_more_than_the_bound(seed):
     positions.above[7] = -np.inf
     low = module._list_low(positions, np.arange(50), moved)
     assert 7 in low and set(low) == set(np.flatnonzero(positions.above <= moved))
+    # one that may have carried since stays among them when it rises again
+    assert set(module._list_low(positions, np.arange(50), 0.0)) == set(low)
 
 
 def test_a_growing_bend_lowers_points_by_their_share():

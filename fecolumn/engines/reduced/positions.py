@@ -27,12 +27,12 @@ class Positions(NamedTuple):
     """Positions of P points at the END of a step, and what tells which of them may matter.
 
     place: (P, 3) [m], in the frames of their interfaces, of points too high to matter the height
-    alone. frames: (2, ni, 3, 4) of the slaves, how
-    each is turned towards the frame of its interface and where its centre of mass [m] is there;
-    reach: (2, nb) by how much a mode's energy lets a node move: both when all points were placed in
-    this step, and now. above: (P,) how high a point was then above the height from which it matters
-    [m]; -inf for one that does. most: (2,) largest arm of a point [m], largest share of a reach in
-    such a height. low: (P,) room for a list of points.
+    alone. frames: (2, ni, 3, 4) of the slaves, how each is turned towards the frame of its
+    interface and where its centre of mass [m] is there; reach: (2, nb) by how much a mode's energy
+    lets a node move: both when all points were placed in this step, and now. above: (P,) how high a
+    point was then above the height from which it matters [m]; -inf for one that does, or did since.
+    most: (2,) largest arm of a point [m], largest share of a reach in such a height. low: (P,) room
+    for a list of points.
     """
 
     place: np.ndarray
@@ -172,10 +172,13 @@ def _most_moved(positions, rims):
 
 @njit
 def _list_low(positions, present, moved):
-    """Those of the present points (k,) that may matter after they came down by `moved` [m]."""
+    """Those of the present points (k,) that may matter after they came down by `moved` [m], or that
+    did in an earlier iteration of the step: these may carry.
+    """
     count = 0
     for i in present:
         if not positions.above[i] > moved:
+            positions.above[i] = -np.inf
             positions.low[count] = i
             count += 1
     return positions.low[:count]

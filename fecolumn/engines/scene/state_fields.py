@@ -12,10 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.contact.projection import nodes_under
+from fecolumn.contact.tolerances import SAME_PLACE
 from fecolumn.engines.reduced.states import Snapshot
 from fecolumn.engines.scene.scene import ElasticGround, Scene
 
 if TYPE_CHECKING:
+    from scipy.sparse import csr_array
+
     from fecolumn.contact.base_plate import BasePlate
     from fecolumn.fem.body import Body
     from fecolumn.structures.model import BodyModel, StructureModel
@@ -37,29 +40,45 @@ class Seat:
         (k,) [m2].
     plan
         (k, 2) [m] places in the plane of the face.
-    nearest
-        (m,) place of that which each of the contact's points stands for.
+    shares
+        (m, k) shares of these nodes in what each of the m points of the face shows: that of the
+        nearest node, or the mean of all that are equally near.
     """
 
     nodes: NDArray[Any]
     areas: NDArray[Any]
     plan: NDArray[Any]
-    nearest: NDArray[Any]
+    shares: csr_array
 
 
 def seats_of(structure: StructureModel, scene: Scene) -> list[Seat]:
     """The Seat of each joint of a structure that stands upright as the scene does."""
-    from scipy.spatial import cKDTree
-
     first = np.cumsum([0] + [len(part.model.arms) for part in structure.parts])
     seats = []
     for joint, contact in zip(structure.joints, scene.contacts):
         part = structure.parts[joint.slave]
         surface = part.model.surfaces[joint.slave_surface]
         plan = contact.plan(part.center + part.model.arms[surface.nodes])
-        nearest = cKDTree(plan).query(contact.plan(scene.points[contact.points]))[1]
-        seats.append(Seat(first[joint.slave] + surface.nodes, surface.areas, plan, nearest))
+        shares = _shares_of_nearest(plan, contact.plan(scene.points[contact.points]))
+        seats.append(Seat(first[joint.slave] + surface.nodes, surface.areas, plan, shares))
     return seats
+
+
+def _shares_of_nearest(nodes: NDArray[Any], points: NDArray[Any]) -> csr_array:
+    """Shares (m, k) of the nodes (k, 2) nearest to the points (m, 2), rows of which sum to 1: equal
+    ones of those equally near: the order of the nodes does not matter.
+    """
+    from scipy.sparse import csr_array
+    from scipy.spatial import cKDTree
+
+    tree = cKDTree(nodes)
+    reach = tree.query(points)[0] + SAME_PLACE * np.ptp(nodes, axis=0).max(initial=0.0)
+    near = tree.query_ball_point(points, reach)
+    counts = np.array([len(own) for own in near])
+    return csr_array(
+        (np.repeat(1 / counts, counts), np.concatenate(near).astype(int), np.cumsum([0, *counts])),
+        shape=(len(points), len(nodes)),
+    )
 
 
 def node_forces(
@@ -177,7 +196,7 @@ class StateFields:
             )
         pressure = np.zeros(len(scene.points))
         for contact, seat, values in zip(scene.contacts, self.seats, self.pressures(state)[0]):
-            pressure[contact.points] = values[seat.nearest]
+            pressure[contact.points] = seat.shares @ values
         return {
             "displacement": displacement,
             "von_mises": np.nan_to_num(stress),
