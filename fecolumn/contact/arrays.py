@@ -1,7 +1,7 @@
-"""Copies and products of small arrays for compiled code, and what a tuple has of them.
+"""Copy and multiply small arrays in compiled code; list the arrays of a NamedTuple.
 
-Plain loops: numba's assignment and arithmetic of whole arrays bring broadcasting and its error
-messages along, half a second of compilation at each place.
+These are plain loops: each assignment of a whole array would make numba compile broadcasting and
+its error messages, for half a second.
 """
 
 from __future__ import annotations

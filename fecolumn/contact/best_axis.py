@@ -30,11 +30,15 @@ from fecolumn.foundation._compiled import njit
 
 @njit(alone=TOGETHER)
 def _over_faces(hulls, a, b, relation, enough, band):
-    """Largest separation over the faces of a and of b [m], the face of a, and that of b or -1 where
-    it is not larger by `band` [m]; a face at which it is above `enough` ends the search. The
-    corners of the other body that are nearest there are put into relation.
+    """Largest gap between one body and the plane of a face of the other [m], over the faces of
+    both.
 
-    A face is passed over which that corner is not farther than the other body is over another one.
+    The search ends at a face whose gap is above `enough`. `relation.corner` gets the corners that
+    are nearest to the best faces of a and b. A face is passed over where the corner nearest to an
+    earlier face tells that its gap is smaller.
+
+    Returns: the gap, the face of a, and the face of b, -1 where its gap is not larger than that of
+    a by `band` [m].
     """
     T, s, corner = relation.turn, relation.shift, relation.corner
     most, face_a, face_b = -np.inf, -1, -1

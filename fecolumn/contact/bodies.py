@@ -41,11 +41,11 @@ class Bodies(NamedTuple):
     """Bodies that move, and their surface nodes, N in all, n at most on one body.
 
     body: (nb,) of BODY. arms: (N, 3) [m] of the nodes from the body's centre of mass, in its frame.
-    static: (3 N, 3 n) [m/N] displacement that follows forces at once, mobility: (3 N, 3 n) [1/kg]
-    velocity per impulse beside that of rigid motion:
-        rows by node, columns by node of the same body, in its frame.
-    facets: of FACET, of the surfaces on which others stand. pushes: (N, 3, m) [1/sqrt(kg)] root of
-    that mobility where it is of m modes a body; (0, 3, 0) where it is not.
+    static: (3 N, 3 n) [m/N] displacement that follows forces at once. mobility: (3 N, 3 n) [1/kg]
+    velocity per impulse beside that of rigid motion. Both have rows by node and columns by node of
+    the same body, in its frame. facets: of FACET, of the surfaces on which others stand. pushes:
+    (N, 3, m) [1/sqrt(kg)] shapes of m modes a body at its nodes, scaled so that pushes pushes^T is
+    the mobility; (0, 3, 0) where the mobility is not of modes.
     """
 
     body: np.ndarray

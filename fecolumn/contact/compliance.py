@@ -216,12 +216,13 @@ def _add_interpolated(compliance, first, number, rows, nodes, shares, count, fac
 
 @njit
 def even_out(bodies, base, points, i, poses):
-    """Find `uneven` of point i: compliance (3, 3) [m/N] that makes up for its place between nodes.
+    """Correct the compliance of point i for its place between nodes: find its `uneven` (3, 3)
+    [m/N].
 
-    A force between nodes of slave and base is shared by several nodes and meets less compliance
-    than a force at a node. `uneven` is the difference, zero at a node; of bodies that do not deform
-    it is what the point gives alone. Without it a rolling rim
-    would store energy at each node and give it back after it.
+    Several nodes share a force between them, so that it meets less compliance than a force at a
+    node. `uneven` is the difference, zero at a node; of bodies that do not deform it is the
+    compliance of the point itself. Without it a rolling rim would store energy at each node and
+    release it between nodes.
     """
     target, b, gives = points[i].uneven, points[i].slave, bodies.body[points[i].slave].gives
     if points[i].master != GROUND:

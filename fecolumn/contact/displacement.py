@@ -198,8 +198,8 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
 
 @njit
 def _share(base, point, side, q, own):
-    """What a point gives to node q of its slave (side 0) or of its master, negative there, and the
-    node; those gathered of the base come after the `own` of all bodies.
+    """Share of the force of a point that node q of its slave (side 0) or of its master (side 1,
+    negative) takes, and the number of the node: nodes of the base follow the `own` nodes of bodies.
     """
     w, node = (
         -point.shares[q] if side else point.weights[q],

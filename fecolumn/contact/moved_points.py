@@ -45,9 +45,11 @@ def carry_by_node(point, node, arms):
 
 @njit
 def carry_by_outline(overlaps, joint, which, side, place, interface, other, rim, points, i, arms):
-    """Let point i be carried by nodes of the outline OWN or OTHER so that it is at `place` (2,)
-    [m], which a side of it is near, -1 of a circle; other: interface whose master's surface that
-    face is.
+    """Place point i on the outline `which`, OWN or OTHER, at `place` (2,) [m]: find the nodes that
+    carry it and their shares.
+
+    side: of the outline that is near to the place; -1 where the outline is a circle. other: the
+    interface in which the face with that outline is the master's surface.
     """
     point = points[i]
     if side >= 0:

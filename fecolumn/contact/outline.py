@@ -1,11 +1,14 @@
 """Points that come back over an outline of a moving master and are below its surface then.
 
-A point without force lacks what it gives alone under one: where a face stands, each one that comes
-over an outline is below the surface by what those that carry give. It takes part as they do. Of
-deeper ones those are at the master's side to whose outline the way is the shorter one: were they
-let in, contact would push them up and make energy. They stay open, SUNK, in that step; each step
-asks again. Any other one is lifted to the surface, where it carries and lands as any point does,
-and sinks back slowly, as a place of found contact does: so bodies come out of each other.
+Points that carry lie below the surface by what they give alone. A point that comes over an outline
+no deeper than they are takes part as they do.
+
+A deeper one that is nearer to the master's outline than to its surface is beside the master, not on
+it. Contact would push it up and create energy. It stays open, SUNK, in that step; each step asks
+again.
+
+Any other deeper one is lifted to the surface by `lift`, where it carries and lands as any point
+does. The lift is undone slowly, so that bodies that overlap come apart.
 """
 
 from __future__ import annotations
@@ -69,7 +72,7 @@ def raise_or_leave(
 
 @njit
 def lower_raised(point, now, height, width):
-    """Lift a point that was raised by what is left of that in this step.
+    """Undo a part of the lift of a point in this step, and apply what is left of it.
 
     Parameters
     ----------

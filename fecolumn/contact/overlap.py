@@ -138,11 +138,11 @@ def beyond(overlap, sides, which, x, y):
 
 @njit
 def _beyond_any(sides, first, inner, x, y):
-    """As `beyond`, of the sides (n,) of any polygon, which are counted from `first`; inner: of the
-    outline that is smaller. The side is the nearest one.
+    """Signed distance [m] of a place x, y from a polygon of sides (n,), positive outside, and the
+    nearest side, counted from `first`; the polygon need not be convex.
 
-    Beyond a corner, which is as near as both its sides, the larger distance from their lines counts
-    as it does for a convex outline, and as the smaller outline has it.
+    inner: of the smaller outline, whose ends are `inner` of each side. Beyond a corner both sides
+    are equally near: the larger distance from their lines counts, as for a convex outline.
     """
     least, farther, nearest, inside = np.inf, 0.0, -1, False
     for q in range(len(sides)):

@@ -60,17 +60,6 @@ class Pad:
         return 1 / (self.stiffness * (0.5 + dashpot)), (dashpot - 0.5) / (dashpot + 0.5)
 
 
-def pad_of(case, areas: np.ndarray, mass: float) -> Pad | None:
-    """The pad of a case below points with tributary areas (n,) [m2] that carry `mass` [kg]; None
-    where its base is another.
-
-    One relaxation time for all: that at which the dashpots give the vertical mode of the column on
-    the whole pad, of angular frequency w = sqrt(k A / m), the damping ratio D of the case: c = 2 D
-    k / w.
-    """
-    return pad_below(case.base, areas, mass / areas.sum()) if case.base.kind == "pad" else None
-
-
 def pad_below(keys, areas: np.ndarray, mass: float) -> Pad:
     """A pad with the keys of a [base], a ground or an interface.
 

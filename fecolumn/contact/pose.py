@@ -141,8 +141,8 @@ def into_frame(pose, place):
 
 @njit
 def turns(poses):
-    """(ni, 2, 3, 3): what of poses (ni,) loops over points need; from a record each of them would
-    take as long as what is done with it.
+    """Rotations (ni, 2, 3, 3) of slave and master of all poses (ni,), as one array: loops over
+    points read it faster than the records.
     """
     result = np.empty((len(poses), 2, 3, 3))
     for k in range(len(poses)):

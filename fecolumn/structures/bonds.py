@@ -89,7 +89,7 @@ def pulls_of_bonds(
     surface, found = slave.model.surfaces[joint.slave_surface], []
     for row in bond.rows:
         place = slave.center + slave.model.arms[surface.nodes[row]]
-        area, axes = surface.areas[row], surface.axes.T
+        area, axes = surface.spring_areas[row], surface.axes.T
         found.append((place, axes[2], 0.0, bond.tension * area))
         found += [(place, one, -bond.cohesion * area, bond.cohesion * area) for one in axes[:2]]
     return found

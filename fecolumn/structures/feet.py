@@ -82,8 +82,9 @@ def with_balls(model: BodyModel, body: Placed) -> BodyModel:
         plane = np.column_stack([np.ones(count), places[:, :2]])
         means = np.linalg.solve(plane.T @ (foot.areas[:, None] * plane), plane.T * foot.areas)
         centers = np.tile([0.0, 0.0, ball.radius], (3, 1))
+        area = foot.areas.sum(keepdims=True)
         foot = dataclasses.replace(
-            foot, nodes=np.arange(1), areas=foot.areas.sum(keepdims=True), outlines=np.ones(1, bool)
+            foot, nodes=np.arange(1), areas=area, outlines=np.ones(1, bool), spring_areas=area
         )
     else:
         half = np.array(half_sides(body))

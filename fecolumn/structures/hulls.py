@@ -24,14 +24,16 @@ def hull_patch(drawing: Drawing) -> Patch:
     low, high = corners.min(axis=0), corners.max(axis=0)
     sides = high - low
     area = 2 * (sides[0] * sides[1] + sides[1] * sides[2] + sides[2] * sides[0])
+    shared = np.full(len(corners), area / len(corners))
     return Patch(
         None,
         corners,
         corners.mean(axis=0),
         np.eye(3),
-        np.full(len(corners), area / len(corners)),
+        shared,
         np.ones(len(corners), bool),
         np.zeros((0, 3), np.int64),
+        shared,
     )
 
 

@@ -35,8 +35,9 @@ class Surface:
     of mass. axes: (3, 3) columns: two tangents and the normal out of the body, right-handed. areas:
     (k,) [m2] tributary to the nodes. outlines: (k,) mask of the nodes on the outlines of the face.
     triangles: (t, 3) places in `nodes`: the face in triangles, holes left out, counter-clockwise
-    seen from outside; how a master finds what
-        lies on it. (0, 3) where the surface is never a master.
+    seen from outside; how a master finds what lies on it. (0, 3) where the surface is never a
+    master. spring_areas: (k,) [m2] by which stiffnesses per area are multiplied, see
+    `structures.spring_areas`; `areas` where not given.
     """
 
     nodes: NDArray[Any]
@@ -45,6 +46,11 @@ class Surface:
     areas: NDArray[Any]
     outlines: NDArray[Any]
     triangles: NDArray[Any]
+    spring_areas: NDArray[Any] = None  # type: ignore[assignment]  # never after __post_init__
+
+    def __post_init__(self) -> None:
+        if self.spring_areas is None:
+            object.__setattr__(self, "spring_areas", self.areas)
 
     @property
     def normal(self) -> NDArray[Any]:

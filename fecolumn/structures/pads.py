@@ -87,8 +87,8 @@ def with_pads(
 
 
 def _areas(standing: list[Standing], joint: Joint) -> NDArray[Any]:
-    """Areas (n,) [m2] tributary to the points of a joint."""
-    return standing[joint.slave].model.surfaces[joint.slave_surface].areas
+    """Areas (n,) [m2] of the springs below the points of a joint."""
+    return standing[joint.slave].model.surfaces[joint.slave_surface].spring_areas
 
 
 def _area_below(standing: list[Standing], joints: list[Joint], joint: Joint) -> float:

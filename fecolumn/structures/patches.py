@@ -17,6 +17,7 @@ from fecolumn.mesh.bricks import outline_edges
 from fecolumn.mesh.surface import face_points, nodal_areas
 from fecolumn.structures.faces import Face, apart_from_side
 from fecolumn.structures.model import Surface
+from fecolumn.structures.spring_areas import areas_by_moments
 
 # Over the size of a face: nodes within it are one
 _SAME_NODE = 1e-8
@@ -27,7 +28,7 @@ class Patch:
     """Nodes of a face that take part in contact, in the drawing of the body.
 
     part: of the mesh, None where the nodes are of no face. positions: (k, 3) [m]; origin: (3,) [m]
-    a point of the plane; axes, areas, outlines, triangles: as of `model.Surface`.
+    a point of the plane; axes, areas, outlines, triangles, spring_areas: as of `model.Surface`.
     """
 
     part: int | None
@@ -37,6 +38,7 @@ class Patch:
     areas: NDArray[Any]
     outlines: NDArray[Any]
     triangles: NDArray[Any]
+    spring_areas: NDArray[Any]
 
     def surface(self, nodes: NDArray[Any], center: NDArray[Any]) -> Surface:
         """The patch as surface of a model whose rows `nodes` (k,) are its positions, about its
@@ -49,6 +51,7 @@ class Patch:
             self.areas,
             self.outlines,
             self.triangles,
+            self.spring_areas,
         )
 
 
@@ -57,14 +60,12 @@ def slave_patch(face: Face, order: int, interior: int) -> Patch:
     inside; see `contact.footprint`.
     """
     whole = whole_face(face, order)
+    places = (whole.positions - whole.origin) @ whole.axes
     nodes, areas = footprint(
-        np.arange(len(whole.positions)),
-        (whole.positions - whole.origin) @ whole.axes,
-        whole.areas,
-        whole.outlines,
-        interior,
+        np.arange(len(whole.positions)), places, whole.areas, whole.outlines, interior
     )
-    return replace(node_patch(whole, nodes), areas=areas)
+    springs = areas_by_moments(places[nodes, :2], areas, places[whole.triangles, :2])
+    return replace(node_patch(whole, nodes), areas=areas, spring_areas=springs)
 
 
 def node_patch(whole: Patch, nodes: NDArray[Any]) -> Patch:
@@ -73,6 +74,7 @@ def node_patch(whole: Patch, nodes: NDArray[Any]) -> Patch:
         whole,
         positions=whole.positions[nodes],
         areas=whole.areas[nodes],
+        spring_areas=whole.areas[nodes],
         outlines=whole.outlines[nodes],
         triangles=np.zeros((0, 3), np.int64),
     )
@@ -107,6 +109,7 @@ def master_patch(face: Face, order: int, zones: Iterable[tuple[float, ...]]) -> 
         whole.areas[kept],
         whole.outlines[kept],
         triangles.reshape(-1, 3),
+        whole.areas[kept],
     )
 
 
@@ -149,6 +152,7 @@ def whole_face(face: Face, order: int) -> Patch:
         areas,
         outlines,
         _triangles(index, order, positions @ axes[:, :2]),
+        areas,
     )
 
 

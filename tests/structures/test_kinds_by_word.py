@@ -6,7 +6,7 @@ import pytest
 
 import fecolumn
 from fecolumn.case.bodies import Block
-from fecolumn.engines.rocking.of_bodies import rigid_body
+from fecolumn.engines.rocking.column import rigid_body
 from fecolumn.foundation.schema import InputError, parameter
 from fecolumn.foundation.section_class import section_class
 from fecolumn.pictures.mesh_report import closed_form_rows

@@ -38,7 +38,7 @@ def test_a_weighed_body_moves_as_it_was_measured(keys):
 
 
 def test_a_rocking_model_takes_what_was_measured():
-    from fecolumn.engines.rocking.of_bodies import rigid_body
+    from fecolumn.engines.rocking.column import rigid_body
 
     found = rigid_body(case(**WEIGHED), "stele", "weighed.toml")
     assert found.mass == 150.0 and 0.5 in vars_of(found) and (20.0, 22.0, 6.0) in vars_of(found)

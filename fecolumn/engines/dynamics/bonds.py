@@ -34,7 +34,7 @@ def bonded(model) -> list:
 
 def areas_of(model, joint) -> np.ndarray:
     """Areas (k,) [m2] of the points that a bonded joint holds."""
-    return _face(model, joint.slave, joint.slave_surface).areas[joint.bond.rows]
+    return _face(model, joint.slave, joint.slave_surface).spring_areas[joint.bond.rows]
 
 
 def bond_links(model) -> BondLinks:

@@ -193,7 +193,10 @@ class ContactInterface(Places):
             self._lay_points(state, poses, before, rims)
             # half of a force acts on what was below its point at the start
             self.points["beyond"] = OVER
-            self.start_positions(state.x, state.rotation, poses)
+            positions = self.start_positions(state.x, state.rotation, poses)
+            # a corner where two edges cross sticks where it is laid
+            far = ~before["located"]
+            before["relative"][far], before["anchor"][far] = positions[far], positions[far, :2]
         return before, rims
 
     def _mark_unused(self, x, poses, rims) -> None:
