@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from fecolumn.case.case import Case
 from fecolumn.engines.analysis import Analysis
 from fecolumn.engines.ending import AT_REST, OVERTURNED, STILL_ROCKING, Ending
+from fecolumn.engines.rocking.body_motion import body_motion
 from fecolumn.engines.rocking.model import STATE_TERMS, ModelResponse
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
 from fecolumn.motions.record import GroundMotion
@@ -91,6 +92,8 @@ class ModelAnalysis(Analysis):
             ground=ground,
         )
         columns |= {name: values[:rows] for name, values in response.coordinates.items()}
+        bodies = body_motion(self.case, response, self.file)
+        columns |= {name: values[:rows] for name, values in bodies.items()}
         self.history.extend(
             columns
             | {

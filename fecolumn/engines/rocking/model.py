@@ -55,6 +55,8 @@ class ModelResponse:
         is.
     peaks
         further peak values by name with unit, such as "friction demanded [-]", "base shear [N]".
+    floors
+        (n, k) displacement along x of each floor of a building, from below [m]; (0, 0) without one.
     """
 
     time: NDArray[Any]
@@ -67,6 +69,7 @@ class ModelResponse:
     energy: dict[str, NDArray[Any]]
     notes: tuple[str, ...] = ()
     peaks: dict[str, float] = field(default_factory=dict)
+    floors: NDArray[Any] = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
     def outcome(self) -> str:

@@ -62,22 +62,39 @@ def start_of(case: Case, file: Path | str) -> Start:
     return _Reader(case, file).start()
 
 
+def rocking_bodies(case: Case, file: Path | str) -> tuple[str, str]:
+    """The body that rocks, all its copies alike, and that on all of them, "" where there is none.
+
+    Raises
+    ------
+    InputError
+        the bodies are not those of the model; it says what they lack.
+    """
+    reader = _Reader(case, file)
+    return (reader.alone(), "") if reader.is_of_one else reader.columns()
+
+
 class _Reader:
     """Reads a Case for a model, which it refuses by name."""
 
     def __init__(self, case: Case, file: Path | str) -> None:
         self.case, self.file, self.engine = case, file, case.integration.engine
 
+    @property
+    def is_of_one(self) -> bool:
+        """Whether the model is of one body."""
+        return self.engine in ("housner", "wobbling")
+
     def model(self) -> Model:
         """As `model_of`."""
         self._refuse_laws()
-        if self.engine in ("housner", "wobbling"):
-            name = self._alone()
+        if self.is_of_one:
+            name = self.alone()
             body, friction = rigid_body(self.case, name, self.file), self._friction(name)
             self._check_standing(name, body)
             kind = RockingBlock if self.engine == "housner" else Wobbling
             return kind.of_body(body, friction, self.file)
-        name, slab = self._columns()
+        name, slab = self.columns()
         count, friction = len(self.case.bodies[name].places), self._friction(name)
         body = rigid_body(self.case, name, self.file)
         self._check_standing(name, body, slab)
@@ -93,8 +110,7 @@ class _Reader:
 
     def start(self) -> Start:
         """As `start_of`."""
-        single = self.engine in ("housner", "wobbling")
-        name, slab = (self._alone(), None) if single else self._columns()
+        name, slab = rocking_bodies(self.case, self.file)
         found: dict[int, Initial] = {}
         for key in sorted(self.case.initial, key=lambda one: one not in self.case.bodies):
             one = self.case.initial[key]
@@ -198,7 +214,7 @@ class _Reader:
         )
         return one, other
 
-    def _alone(self) -> str:
+    def alone(self) -> str:
         """The one body, which stands on the ground."""
         (name, body), *more = self.case.bodies.items()
         if more or len(body.places) > 1:
@@ -208,7 +224,7 @@ class _Reader:
             self._lacks(f'needs an interface between "{name}" and the ground')
         return name
 
-    def _columns(self) -> tuple[str, str]:
+    def columns(self) -> tuple[str, str]:
         """The body whose copies are the columns, and that on them."""
         joints = self._joints()
         below = [name for name in self.case.bodies if (name, GROUND_NAME) in joints]

@@ -155,7 +155,7 @@ class Podium:
             base,
             modes,
             building.storey_shears / root,
-            np.ascontiguousarray(building.shapes[-1] * root),
+            np.ascontiguousarray(building.shapes * root),
             self.restitution,
             self.law == CRV,
             2 * math.pi / building.omega[-1] / _SHARE,
@@ -178,10 +178,10 @@ class Podium:
         """
         from fecolumn.engines.rocking.podium_motion import (
             PODIUM_DAMPED,
+            PODIUM_FLOORS,
             PODIUM_GRAVITATIONAL,
             PODIUM_KINETIC,
             PODIUM_LOSS,
-            PODIUM_ROOF,
             PODIUM_SHEAR,
             PODIUM_STRAIN,
             PODIUM_TILT,
@@ -226,11 +226,12 @@ class Podium:
             },
             units={"theta": "rad", "beam": "m", "base shear": "N"},
             tilt=np.abs(theta),
-            u_top=np.column_stack([rows[:, PODIUM_ROOF], np.zeros(len(rows)), up]),
+            u_top=np.column_stack([rows[:, -1], np.zeros(len(rows)), up]),
             overturned=bool(fallen),
             impact_times=impacts,
             energy=balanced(**terms),
             peaks=peaks,
+            floors=rows[:, PODIUM_FLOORS:],
         )
 
     def describe(self) -> dict[str, tuple[float, str]]:

@@ -32,13 +32,13 @@ from fecolumn.foundation._compiled import njit
     PODIUM_RATE,
     PODIUM_SIDE,
     PODIUM_SHEAR,
-    PODIUM_ROOF,
     PODIUM_WORK,
     PODIUM_DAMPED,
     PODIUM_LOSS,
     PODIUM_KINETIC,
     PODIUM_STRAIN,
     PODIUM_GRAVITATIONAL,
+    PODIUM_FLOORS,
 ) = range(12)
 # of p alpha: a tilt's rate after an impact below this, the next swing would reach less than 1e-8
 # alpha
@@ -176,7 +176,7 @@ def _energy(x, side, base, modes, n):
 
 
 @njit(alone=True)
-def shake(ground, dt, base, modes, storey, roof, restitution, relative, step, tilt, rate):
+def shake(ground, dt, base, modes, storey, floors, restitution, relative, step, tilt, rate):
     """Motion of a podium.
 
     Parameters
@@ -189,8 +189,8 @@ def shake(ground, dt, base, modes, storey, roof, restitution, relative, step, ti
         (3, n) omega [rad/s], damping ratio, participation over sqrt(M).
     storey
         (n, n) shear of each storey over M for accelerations f_j.
-    roof
-        (n,) displacement of the roof for modal coordinates.
+    floors
+        (n, n) displacement of each floor, the roof last, for modal coordinates.
     restitution
         of the tilt's rate at an impact.
     relative
@@ -202,8 +202,8 @@ def shake(ground, dt, base, modes, storey, roof, restitution, relative, step, ti
 
     Returns
     -------
-    rows (m, 12); impact times [s]; peak shear of each storey over M (n,) [m/s2]; peak tilt
-        [rad]; whether it lies flat.
+    rows (m, 11 + n), the last n the displacements of the floors [m]; impact times [s]; peak shear
+        of each storey over M (n,) [m/s2]; peak tilt [rad]; whether it lies flat.
     """
     n = modes.shape[1]
     samples = len(ground)
@@ -231,7 +231,11 @@ def shake(ground, dt, base, modes, storey, roof, restitution, relative, step, ti
     for j in range(n):
         x[2 + j] = modes[2, j] * side * 2 * radius * (base[6] - math.sin(beta))
         x[2 + n + j] = modes[2, j] * 2 * radius * math.cos(beta) * rate
-    rows, peaks, impacts = np.zeros((samples, 12)), np.zeros(n), [0.0 for _ in range(0)]
+    rows, peaks, impacts = (
+        np.zeros((samples, PODIUM_FLOORS + n)),
+        np.zeros(n),
+        [0.0 for _ in range(0)],
+    )
     peak, loss = abs(tilt), 0.0
     pieces = max(1, math.ceil(dt / step - 1e-9))
     full = dt / pieces
@@ -394,7 +398,8 @@ def shake(ground, dt, base, modes, storey, roof, restitution, relative, step, ti
         )
         rows[sample, PODIUM_SHEAR] = shear
         for j in range(n):
-            rows[sample, PODIUM_ROOF] += roof[j] * x[2 + j]
+            for k in range(n):
+                rows[sample, PODIUM_FLOORS + k] += floors[k, j] * x[2 + j]
         rows[sample, PODIUM_WORK], rows[sample, PODIUM_DAMPED], rows[sample, PODIUM_LOSS] = (
             x[2 + 2 * n],
             -x[3 + 2 * n],

@@ -42,7 +42,8 @@ class Seat:
         (k, 2) [m] places in the plane of the face.
     shares
         (m, k) shares of these nodes in what each of the m points of the face shows: that of the
-        nearest node, or the mean of all that are equally near.
+        nearest node, or the mean of all that are equally near; on the other side of a joint, whose
+        nodes are on outlines alone, only of a node that is there.
     """
 
     nodes: NDArray[Any]
@@ -59,24 +60,30 @@ def seats_of(structure: StructureModel, scene: Scene) -> list[Seat]:
         part = structure.parts[joint.slave]
         surface = part.model.surfaces[joint.slave_surface]
         plan = contact.plan(part.center + part.model.arms[surface.nodes])
-        shares = _shares_of_nearest(plan, contact.plan(scene.points[contact.points]))
+        # of the other side of a joint only places on outlines carry: they do not stand for others
+        around = contact.pair < 0
+        shares = _shares_of_nearest(plan, contact.plan(scene.points[contact.points]), around)
         seats.append(Seat(first[joint.slave] + surface.nodes, surface.areas, plan, shares))
     return seats
 
 
-def _shares_of_nearest(nodes: NDArray[Any], points: NDArray[Any]) -> csr_array:
-    """Shares (m, k) of the nodes (k, 2) nearest to the points (m, 2), rows of which sum to 1: equal
-    ones of those equally near: the order of the nodes does not matter.
+def _shares_of_nearest(nodes: NDArray[Any], points: NDArray[Any], around: bool) -> csr_array:
+    """Shares (m, k) of the nodes (k, 2) nearest to the points (m, 2): equal ones of those equally
+    near, so that no order of the nodes tells which is shown. A point that is not at a node has
+    none unless the nodes stand for what is `around` them.
     """
     from scipy.sparse import csr_array
     from scipy.spatial import cKDTree
 
-    tree = cKDTree(nodes)
-    reach = tree.query(points)[0] + SAME_PLACE * np.ptp(nodes, axis=0).max(initial=0.0)
-    near = tree.query_ball_point(points, reach)
+    tree, at = cKDTree(nodes), SAME_PLACE * np.ptp(points, axis=0).max(initial=0.0)
+    near = tree.query_ball_point(points, at + (tree.query(points)[0] if around else 0.0))
     counts = np.array([len(own) for own in near])
     return csr_array(
-        (np.repeat(1 / counts, counts), np.concatenate(near).astype(int), np.cumsum([0, *counts])),
+        (
+            np.repeat(1 / np.maximum(counts, 1), counts),
+            np.array([node for own in near for node in own], int),
+            np.cumsum([0, *counts]),
+        ),
         shape=(len(points), len(nodes)),
     )
 

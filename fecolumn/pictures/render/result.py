@@ -9,7 +9,6 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.case.case import Case
-from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.reduced.states import STATES_FILE as STATES
 from fecolumn.engines.scene.scene import JointFace, Scene
@@ -211,13 +210,14 @@ def read_result(folder: Path | str, body: str = "") -> Result:
             f"{folder / 'analyses'}/CASE_ID",
         )
     case, _ = read_folder_case(folder)
-    if case.integration.engine in MODEL_ENGINES:
+    for table in case.own:
         raise InputError(
             folder,
-            "integration.engine",
+            table,
             None,
-            "is a rocking model of rigid bodies: nothing is meshed that could be "
-            "drawn; its history has figures",
+            "is the table of a rocking model, which tells no bodies that could be drawn; its "
+            "history has figures; with the model's name as integration.engine of a case with "
+            "[bodies] there are pictures",
         )
     if not is_file(folder / SUMMARY_FILE):
         raise InputError(

@@ -73,8 +73,7 @@ def read_scene_history(
     part = structure.parts[followed]
     column = f"mark/{part.name}.{mark}/displacement"
     moved = "displacement", "rotation"
-    wanted = [f"body/{one.name}/{what}" for one in structure.parts for what in moved]
-    for name in [*wanted, column]:
+    for name in [f"body/{one.name}/{what}" for one in structure.parts for what in moved]:
         if name not in history:
             raise InputError(
                 folder / "history.h5",
@@ -88,12 +87,14 @@ def read_scene_history(
         matrices = Rotation.from_rotvec(history[f"body/{one.name}/rotation"]).as_matrix()
         there = one.center + history[f"body/{one.name}/displacement"]
         moves.append(Poses(history["time"], matrices, there, one.center))
-    scene = scene_of(case, structure, file)
+    scene, top = scene_of(case, structure, file), part.center + part.model.marks[mark][0]
+    # a rocking model writes the tops alone: other places of a rigid body move as it does
+    u_top = moves[followed].move(top[None], slice(None))[:, 0] - top
     return SceneHistory(
         scene,
         tuple(moves),
-        history[column],
-        part.center + part.model.marks[mark][0],
+        history.get(column, u_top),
+        top,
         f"{mark} of {part.name}",
         followed,
         _floors(scene, structure, history, moves),

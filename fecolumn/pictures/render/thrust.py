@@ -79,8 +79,9 @@ class JointForces:
                     result.folder / "history.h5",
                     "",
                     None,
-                    f'has no column "{missing[0]}", which --forces draws: it is of a version '
-                    "before 0.9; run the case into a new folder",
+                    f'has no column "{missing[0]}", which --forces draws: it is of a rocking '
+                    "model, which knows no forces of joints, or of a version before 0.9; run the "
+                    "case with another integration.engine into a new folder",
                 )
             columns[name] = np.stack([history[one] for one in wanted], axis=1)
         self._force, self._resultant = columns["force"], columns["resultant"]

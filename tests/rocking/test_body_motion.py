@@ -1,0 +1,107 @@
+"""Motion of each body in the history of a rocking model, and its pictures."""
+
+from __future__ import annotations
+
+import h5py
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+from test_models_of_bodies import BLOCK, DRUM, FOOT, PIER, PLACES, POST, STOREYS, case, frame, own
+
+from fecolumn.case.case import case_of_table
+from fecolumn.engines.rocking.body_motion import body_motion
+from fecolumn.engines.rocking.of_bodies import model_of
+from fecolumn.foundation.schema import InputError
+from fecolumn.motions.record import GroundMotion
+from fecolumn.pictures.render.result import read_result
+from fecolumn.simulation import run
+
+SLAB = {name: value for name, value in STOREYS.items() if not name.startswith(("floor", "storey"))}
+SLAB |= dict(kind="slab")
+TIME = 1e-3 * np.arange(1500)
+SHAKEN = np.zeros((1500, 3))
+SHAKEN[:, 0] = 3.0 * np.sin(2 * np.pi * TIME)
+BOTH = SHAKEN.copy()
+BOTH[:, 1] = 4.0 * np.sin(2 * np.pi * 1.3 * TIME)
+
+
+def moved(made, ground=SHAKEN):
+    """Response of a case's model to a ground motion (n, 3) [m/s2], and columns of its bodies."""
+    response = model_of(made, "case.toml").respond(GroundMotion(ground, 1e-3, "", ""))
+    assert response.tilt.max() > 1e-3
+    return response, body_motion(made, response, "case.toml")
+
+
+@pytest.mark.parametrize("engine, body", [("housner", BLOCK), ("wobbling", DRUM)])
+def test_the_top_of_a_body_moves_as_the_response_says(engine, body):
+    response, columns = moved(case(engine, dict(body=body), FOOT), BOTH)
+    np.testing.assert_allclose(columns["mark/body.top/displacement"], response.u_top, atol=1e-12)
+    assert np.abs(response.u_top[:, 1]).max() > 1e-4
+
+
+def test_the_centre_of_mass_of_an_uneven_block_turns_about_the_edges():
+    """Its potential energy is the weight times the height of the centre in the columns."""
+    made = case("housner", dict(body=BLOCK | dict(centre_m=[0.05, 0.0, 0.7])), FOOT)
+    response, columns = moved(made)
+    mass = 2700.0 * 0.4 * 0.6 * 1.6
+    np.testing.assert_allclose(
+        mass * 9.80665 * columns["body/body/displacement"][:, 2],
+        response.energy["gravity"],
+        atol=1e-9 * mass,
+    )
+
+
+@pytest.mark.parametrize("engine, column", [("rocking_frame", PIER), ("wobbling_frame", POST)])
+def test_a_slab_lies_on_the_upper_edges_of_all_columns(engine, column):
+    made = frame(engine, column, SLAB)
+    response, columns = moved(made, BOTH if engine == "wobbling_frame" else SHAKEN)
+    slab = columns["body/slab/displacement"]
+    np.testing.assert_allclose(slab, response.u_top, atol=1e-12)
+    assert not columns["body/slab/rotation"].any()
+    for number, place in enumerate(PLACES, 1):
+        turned = Rotation.from_rotvec(columns[f"body/body {number}/rotation"])
+        top = np.array(place) + [0, 0, 1.6] + columns[f"mark/body {number}.top/displacement"]
+        lean = turned.apply([0.0, 0.0, 1.0])[:, :2]
+        tilted = np.hypot(*lean.T) > 1e-9
+        across = np.zeros((len(lean), 3))
+        across[tilted, :2] = -lean[tilted] / np.hypot(*lean[tilted].T)[:, None]
+        edge = top + turned.apply(0.1 * across)
+        # the edge that is highest: it touches the slab at the same place of that, always
+        np.testing.assert_allclose(
+            edge[tilted],
+            (np.array(place) + [0, 0, 1.6] + slab + 0.1 * across)[tilted],
+            atol=1e-12,
+        )
+
+
+def test_floors_of_a_podium_are_in_its_history_and_drawn(tmp_path):
+    """The roof is the top that the model tells; a run is drawn from its history alone."""
+    table = [f"{time:.3f},{value:.6f}" for time, value in zip(TIME, SHAKEN[:, 0])]
+    (tmp_path / "push.csv").write_text("time_s,ax_m_s2\n" + "\n".join(table) + "\n")
+    made = frame(
+        "podium",
+        PIER,
+        STOREYS | dict(period_s=0.3, profile="shear"),
+        motion=dict(source=str(tmp_path / "push.csv")),
+    ).replace({"integration.duration_s": 0.0})
+    run(made, tmp_path / "run", quiet=True)
+    with h5py.File(tmp_path / "run" / "history.h5") as file:
+        roof = file["mark/slab.floor 3/displacement"][:]
+        drifts = sum(file[f"storey/slab {number}/drift"][:] for number in (1, 2, 3))
+        slab = file["body/slab/displacement"][:]
+        np.testing.assert_allclose(roof, file["u_top"][:], atol=1e-12)
+        np.testing.assert_allclose((slab + np.pad(drifts, [(0, 0), (0, 1)])), roof, atol=1e-12)
+    result = read_result(tmp_path / "run", "slab")
+    assert len(result.poses) == 3
+    floors = result.scene_history.floors[2]
+    np.testing.assert_allclose(floors[:, -1], roof - slab, atol=1e-9)
+
+
+def test_a_model_of_its_own_table_has_no_bodies_to_draw(tmp_path):
+    table = dict(block=dict(width_m=0.4, height_m=1.6, density_kg_m3=2700.0))
+    response = own(**table).respond(GroundMotion(SHAKEN, 1e-3, "", ""))
+    made = case_of_table(table | dict(integration=dict(duration_s=0.1)), "case.toml")
+    assert body_motion(made, response, "case.toml") == {}
+    run(made, tmp_path / "run", quiet=True)
+    with pytest.raises(InputError, match="which tells no bodies"):
+        read_result(tmp_path / "run")
