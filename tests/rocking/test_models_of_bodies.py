@@ -15,7 +15,9 @@ BLOCK = dict(kind="block", length_m=0.4, width_m=0.6, height_m=1.6, density_kg_m
 DRUM = dict(kind="cylinder", outer_diameter_m=0.4, height_m=1.6, density_kg_m3=2700.0)
 PLACES = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
 PIER = dict(kind="block", length_m=0.2, width_m=0.3, height_m=1.6, mass_kg=250.0, copies_m=PLACES)
+AROUND = [[x, y, 0.0] for x in (-1.0, 1.0) for y in (-0.2, 0.2)]
 POST = dict(kind="tube", outer_diameter_m=0.2, wall_m=0.02, height_m=1.6, mass_kg=100.0)
+POST["copies_m"] = AROUND
 SLAB = dict(kind="slab", length_m=3.0, width_m=0.6, thickness_m=0.2, mass_kg=900.0)
 STOREYS = SLAB | dict(kind="storeys", floors=3, floor_masses_kg=[900.0], storey_heights_m=[3.0])
 FOOT = dict(foot=dict(between=["body", "ground"]))
@@ -58,7 +60,7 @@ def own(**tables):
             frame("wobbling_frame", POST, SLAB),
             dict(
                 wobbling_frame=dict(
-                    columns=2,
+                    columns=4,
                     column_mass_kg=100.0,
                     slab_mass_kg=900.0,
                     outer_diameter_m=0.2,
@@ -150,6 +152,13 @@ n_modes = 10
         (frame("rocking_frame", PIER | dict(length_m=0.4), SLAB), "must be no longer than wide"),
         (frame("wobbling_frame", PIER, SLAB), "needs round columns without flange and cap"),
         (frame("podium", PIER, SLAB), 'needs storeys on the columns; "slab" is a slab'),
+        (
+            frame("rocking_frame", PIER | dict(copies_m=[[0.3, 0, 0], [0.9, 0, 0]]), SLAB),
+            "both sides",
+        ),
+        (frame("rocking_frame", PIER | dict(copies_m=[[0, 0, 0]]), SLAB), "both sides"),
+        (frame("wobbling_frame", POST | dict(copies_m=AROUND[::2]), SLAB), "not in a line"),
+        (frame("wobbling_frame", POST | dict(copies_m=AROUND[:3]), SLAB), "outside of where"),
         (
             case("housner", dict(body=BLOCK | dict(foot_radius_m=2.0)), FOOT),
             "bodies.body.foot_radius_m = 2.0: must be left out",

@@ -19,7 +19,7 @@ from fecolumn.engines.analysis import Analysis
 from fecolumn.engines.ending import AT_REST, OVERTURNED, STILL_ROCKING, Ending
 from fecolumn.engines.rocking.body_motion import body_motion
 from fecolumn.engines.rocking.model import STATE_TERMS, ModelResponse
-from fecolumn.engines.rocking.of_bodies import model_of, start_of
+from fecolumn.engines.rocking.of_bodies import ALONG_X, model_of, start_of
 from fecolumn.motions.record import GroundMotion
 
 if TYPE_CHECKING:
@@ -77,7 +77,8 @@ class ModelAnalysis(Analysis):
             tilt=initial.tilt_rad,
             direction=math.radians(initial.direction_deg),
         )
-        for note in response.notes:
+        notes = (*response.notes, *self._left_out(samples))
+        for note in notes:
             warnings.warn(f"{self.file}: {note}", stacklevel=2)
         rows, ending = self._end(response)
         self.step = rows - 1
@@ -103,10 +104,18 @@ class ModelAnalysis(Analysis):
         )
         self.stepping_s = time.perf_counter() - self.began
         times, end = response.impact_times, self.history.last()["time"]
-        more = dict(
-            impacts=int((times <= end).sum()), notes=list(response.notes), peaks=response.peaks
-        )
+        more = dict(impacts=int((times <= end).sum()), notes=list(notes), peaks=response.peaks)
         return self.write_results(ending, len(response.coordinates), more)
+
+    def _left_out(self, samples: NDArray[Any]) -> list[str]:
+        """Sentences on what of a motion (n, 3) [m/s2] does nothing to the model."""
+        engine, across = self.case.integration.engine, float(np.abs(samples[:, 1]).max())
+        if engine not in ALONG_X or self.case.own or not across:
+            return []
+        return [
+            f"integration.engine = {engine!r} rocks along x alone: the motion along y, of up to "
+            f"{across:.3g} m/s2, does nothing to it"
+        ]
 
     def _energy(self, response: ModelResponse, rows: int) -> dict[str, NDArray[Any]]:
         """All terms of the ledger; those that a model has not are 0."""

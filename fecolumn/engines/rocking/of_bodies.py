@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.case.bodies import Block, Cylinder, Storeys, Tube
 from fecolumn.case.body_keys import Placed, WithMaterial
@@ -30,6 +33,8 @@ from fecolumn.structures.storeys import building_of
 # Gap between two bodies, over the height of the lower one, up to which one stands on the other:
 # chosen, far above the rounding of places that are typed
 _TOUCHES = 1e-3
+#: Models of a frame that rocks in the plane of x
+ALONG_X = ("rocking_frame", "podium")
 
 
 def model_of(case: Case, file: Path | str) -> Model:
@@ -259,10 +264,8 @@ class _Reader:
                 )
         if not slab:
             return
-        on, half = (
-            self.case.bodies[slab].places[0],
-            rigid_body(self.case, slab, self.file).half_foot,
-        )
+        on, beam = self.case.bodies[slab].places[0], rigid_body(self.case, slab, self.file)
+        half = beam.half_foot
         for place in places:
             if abs(place[2] + own.top - on[2]) > _TOUCHES * own.top:
                 self._lacks(
@@ -274,6 +277,34 @@ class _Reader:
                     f'is of a body that lies on all columns: the "{name}" at '
                     f'({place[0]:g}, {place[1]:g}) m is beside "{slab}"'
                 )
+        self._check_level(np.array(places)[:, :2], np.add(on[:2], beam.offset))
+
+    def _check_level(self, places: NDArray[Any], middle: NDArray[Any]) -> None:
+        """Refuse columns at places (n, 2) [m] that do not keep what lies on them level, with its
+        centre of mass at `middle` (2,) [m].
+        """
+        if self.engine in ALONG_X:
+            low, high = places[:, 0].min(), places[:, 0].max()
+            if not low < middle[0] < high:
+                self._lacks(
+                    "is of columns on both sides of what they carry, which stays level: its centre "
+                    f"of mass is at x = {middle[0]:g} m, the columns are at x = {low:g} to "
+                    f"{high:g} m"
+                )
+            return
+        ways = places - places.mean(axis=0)
+        if len(places) < 3 or np.linalg.matrix_rank(ways, tol=_TOUCHES * np.ptp(places)) < 2:
+            self._lacks(
+                "is of three columns or more that are not in a line, so that what they carry stays "
+                f"level; there are {len(places)}"
+            )
+        from scipy.spatial import ConvexHull
+
+        if (ConvexHull(places).equations @ [*middle, 1.0]).max() > 0:
+            self._lacks(
+                "is of columns around what they carry, which stays level: its centre of mass is at "
+                f"({middle[0]:g}, {middle[1]:g}) m, outside of where the columns are"
+            )
 
     def _upright_block(self, name: str) -> tuple[float, float]:
         """Half width along x and height [m] of columns that rock along x."""
