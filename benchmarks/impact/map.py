@@ -140,7 +140,7 @@ def _measured_table(formula: Formula | None) -> str:
             [
                 f"{one.source}, H/B {one.ratio:g}",
                 f"{one.group:.0e}",
-                f"{low:.2f} to {high:.2f}",
+                f"{low:.2f} to {high:.2f}" if low < high else f"{low:.2f}",
                 f"{formula.loss('block', one.ratio, one.group):.2f}" if told else "-",
             ]
         )
