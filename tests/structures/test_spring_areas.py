@@ -10,6 +10,8 @@ from fecolumn.structures.model import Surface
 from fecolumn.structures.spring_areas import LEAST_SHARE, areas_by_moments
 from fecolumn.structures.structure import structure_model
 
+pytestmark = pytest.mark.filterwarnings("error")
+
 SQUARE = np.array([[[-1.0, -1], [1, -1], [1, 1]], [[-1, -1], [1, 1], [-1, 1]]])
 
 
@@ -72,3 +74,24 @@ def test_one_point_and_points_on_a_line_keep_what_they_have():
     line = np.column_stack([np.linspace(-1, 1, 5), np.zeros(5)])
     found = areas_by_moments(line, np.full(5, 0.8), SQUARE)
     assert found.sum() == pytest.approx(4.0) and found @ line[:, 0] ** 2 == pytest.approx(4 / 3)
+
+
+def test_a_pad_under_a_body_that_overhangs_is_told():
+    block = dict(kind="block", length_m=0.4, width_m=0.3, height_m=0.4, density_kg_m3=2000.0)
+
+    def stacked(aside):
+        return case_from_tables(
+            dict(
+                bodies=dict(low=block, up=block | dict(at_m=[aside, 0.0, 0.4])),
+                joints=dict(
+                    foot=dict(between=["low", "ground"]),
+                    pad=dict(between=["low", "up"], stiffness_n_m3=2e8),
+                ),
+                integration=dict(engine="rigid", dt_s=1e-3, duration_s=1.0),
+            ),
+            "case",
+        )
+
+    structure_model(stacked(0.0))  # no warning: they are errors in tests of this file
+    with pytest.warns(UserWarning, match='joints.pad: "up" overhangs'):
+        structure_model(stacked(0.05))
