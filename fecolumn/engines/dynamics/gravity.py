@@ -90,7 +90,7 @@ def standing(system, tolerance: float = 1e-9) -> State:
     """
     bodies, interface, links = system.bodies, system.interface, system.links
     state, mover = system.unstrained(bodies.placed), None
-    firmness, turned = _firmness(system), bodies.rotations
+    firmness = _firmness(system)
     factors, load, pulls, straight = (firmness, 1.0), system.load(np.zeros(3)), None, 0.0
 
     def proximal_step():
@@ -103,7 +103,7 @@ def standing(system, tolerance: float = 1e-9) -> State:
             scale=1.0,
             before=before,
             dt=np.inf,
-            rotation=turned,
+            rotation=state.rotation,
             centers=bodies.centers(state.x) if links else None,
             grounds=(state.grounds, state.grounds),
             ties=state.ties,
