@@ -70,7 +70,7 @@ def test_a_podium_runs_as_any_case_and_gives_what_the_rocking_command_gives(fold
         ["render", str(folder / "run")],
     ):
         assert (
-            main(command) == 2 and "is a rocking model of rigid bodies" in capsys.readouterr().err
+            main(command) == 2 and "is the table of a rocking model" in capsys.readouterr().err
         )
     again, _ = read_folder_case(folder / "run")
     assert again.id == summary["case_id"] and again.own["podium"].storeys == 3
