@@ -150,7 +150,10 @@ n_modes = 10
         ),
         (frame("rocking_frame", POST, SLAB), '"body" is a tube: wobbling_frame is the model'),
         (frame("rocking_frame", PIER | dict(length_m=0.4), SLAB), "must be no longer than wide"),
-        (frame("wobbling_frame", PIER, SLAB), "needs round columns without flange and cap"),
+        (
+            frame("wobbling_frame", PIER | dict(copies_m=AROUND), SLAB),
+            "needs round columns without flange and cap",
+        ),
         (frame("podium", PIER, SLAB), 'needs storeys on the columns; "slab" is a slab'),
         (
             frame("rocking_frame", PIER | dict(copies_m=[[0.3, 0, 0], [0.9, 0, 0]]), SLAB),
@@ -158,7 +161,10 @@ n_modes = 10
         ),
         (frame("rocking_frame", PIER | dict(copies_m=[[0, 0, 0]]), SLAB), "both sides"),
         (frame("wobbling_frame", POST | dict(copies_m=AROUND[::2]), SLAB), "not in a line"),
-        (frame("wobbling_frame", POST | dict(copies_m=AROUND[:3]), SLAB), "outside of where"),
+        (
+            frame("wobbling_frame", POST | dict(copies_m=[*AROUND[:2], [-0.2, 0, 0]]), SLAB),
+            "outside of",
+        ),
         (
             case("housner", dict(body=BLOCK | dict(foot_radius_m=2.0)), FOOT),
             "bodies.body.foot_radius_m = 2.0: must be left out",
