@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fecolumn.case.bodies import Storeys
 from fecolumn.case.case import Case
 from fecolumn.engines.rocking.column import rigid_body
-from fecolumn.engines.rocking.model import ModelResponse
+from fecolumn.engines.rocking.model import ModelResponse, moved_about_edge
 from fecolumn.engines.rocking.of_bodies import rocking_bodies
 from fecolumn.structures.storeys import building_of
 
@@ -108,22 +108,12 @@ def _moved(
     if wobbles:
         tilt = np.hypot(lean[:, 0], lean[:, 1])
         towards = np.divide(lean, tilt[:, None], out=np.zeros_like(lean), where=tilt[:, None] > 0)
-        along, moved[:, 2] = _turned(tilt, height, half[0])
+        along, moved[:, 2] = moved_about_edge(tilt, height, half[0])
         moved[:, :2] = along[:, None] * towards
         return moved
     for axis in range(2):
         side = np.where(lean[:, axis] < 0, -1.0, 1.0)
-        along, up = _turned(np.abs(lean[:, axis]), height, half[axis] - side * aside[axis])
+        along, up = moved_about_edge(np.abs(lean[:, axis]), height, half[axis] - side * aside[axis])
         moved[:, axis] = side * along
         moved[:, 2] += up
     return moved
-
-
-def _turned(
-    lean: NDArray[Any], height: float, inside: float | NDArray[Any]
-) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Displacement (n,) along a lean of at least 0 [rad], and up [m], of a point at a height above
-    the edge about which it turns, `inside` [m] of it.
-    """
-    down = 2 * np.sin(lean / 2) ** 2
-    return height * np.sin(lean) + inside * down, inside * np.sin(lean) - height * down

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.engines.ending import OVERTURNED
 from fecolumn.motions.record import GroundMotion
@@ -134,6 +134,17 @@ class Model(Protocol):
         """Derived parameters for a table: name to (value, unit), such as {"frequency parameter p":
         (2.1, "rad/s")}.
         """
+
+
+def moved_about_edge(
+    lean: ArrayLike, height: ArrayLike, inside: ArrayLike
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Displacement (n,) along a lean of at least 0 [rad], and up [m], of a point at a height above
+    the edge about which it turns, `inside` [m] of it.
+    """
+    lean, height, inside = (np.asarray(one, float) for one in (lean, height, inside))
+    down = 2 * np.sin(lean / 2) ** 2
+    return inside * down + height * np.sin(lean), inside * np.sin(lean) - height * down
 
 
 def balanced(**terms: NDArray[Any]) -> dict[str, NDArray[Any]]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction
+from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction, moved_about_edge
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.swing import (
     FALL_TIME,
@@ -127,13 +127,8 @@ class Plane:
         arrays (n,).
         """
         inside = np.where(np.asarray(side) >= 0, *self.top_inside)
-        along = self.top * np.sin(lean) + inside * (1 - np.cos(lean))
-        return np.column_stack(
-            [
-                np.where(np.asarray(side) >= 0, along, -along),
-                inside * np.sin(lean) - self.top * (1 - np.cos(lean)),
-            ]
-        )
+        along, up = moved_about_edge(lean, self.top, inside)
+        return np.column_stack([np.where(np.asarray(side) >= 0, along, -along), up])
 
     def pushover(self, displacement: ArrayLike, side: int = 1) -> NDArray[Any]:
         """Horizontal force at the top [N] that holds the structure at a displacement of the top >=

@@ -20,7 +20,7 @@ from fecolumn.case.model_sections import WobblingSection
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.column import RigidColumn
-from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction
+from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction, moved_about_edge
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
@@ -172,9 +172,7 @@ class Wobbling:
 
     def moved(self, tilt: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
         """Displacement towards the azimuth and up [m] of the top's centre, or of the slab."""
-        tilt, radius, height = np.asarray(tilt, float), self.RIMS * self.body[0], self.body[2]
-        down = 2 * np.sin(tilt / 2) ** 2
-        return radius * down + height * np.sin(tilt), radius * np.sin(tilt) - height * down
+        return moved_about_edge(tilt, self.body[2], self.RIMS * self.body[0])
 
     def respond(
         self,
