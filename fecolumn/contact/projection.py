@@ -183,7 +183,8 @@ def project_on_body(bodies, interface, point, x, y):
 
     From the facet where the point was found last towards the place; all facets are looked at where
     nodes that are not known are in the way, or an outline of a surface that is not convex. Off the
-    surface, of the nearest facet, or of a convex one of the last on the way.
+    surface, of the facet with the nearest side where it ends, or of a convex one of the last on the
+    way.
     """
     first, count, facet, margin = (
         interface.facet_first,
@@ -192,7 +193,7 @@ def project_on_body(bodies, interface, point, x, y):
         EDGE_REACH * interface.width + interface.bulge,
     )
     # of room of their own, made at each call, they would take longer than to find
-    shares, nearest, least, side = point.shares, 0, np.inf, 0
+    shares, nearest, least, goes_on = point.shares, 0, np.inf, False
     for _ in range(count):
         across = _shares_of(bodies.facets[first + facet], x, y, margin, shares)
         if across < 0:
@@ -206,15 +207,31 @@ def project_on_body(bodies, interface, point, x, y):
             break
         facet = beside
     for facet in range(count):
+        corners = bodies.facets[first + facet].corners
         across = _shares_of(bodies.facets[first + facet], x, y, margin, shares)
         if across < 0:
             _take(bodies.facets[first + facet], facet, point)
             return ON
-        if -shares[across] < least:
-            nearest, least, side = facet, -shares[across], across
+        for q in range(3):
+            beside = bodies.facets[first + facet].neighbours[q]
+            if beside >= 0:
+                continue
+            away = distance_from_side(corners[(q + 1) % 3], corners[(q + 2) % 3], x, y)
+            # where the face ends and where it goes on meet in a corner: beyond it is off the face
+            if away < least or away == least and beside != GOES_ON:
+                nearest, least, goes_on = facet, away, beside == GOES_ON
     _shares_of(bodies.facets[first + nearest], x, y, margin, shares)
     _take(bodies.facets[first + nearest], nearest, point)
-    return UNKNOWN if bodies.facets[first + nearest].neighbours[side] == GOES_ON else OFF
+    return UNKNOWN if goes_on else OFF
+
+
+@njit
+def distance_from_side(start, end, x, y):
+    """Distance [m] of a place x, y from the side between two corners (2,)."""
+    u, v = end[0] - start[0], end[1] - start[1]
+    at = ((x - start[0]) * u + (y - start[1]) * v) / (u * u + v * v)
+    at = min(max(at, 0.0), 1.0)
+    return np.hypot(x - start[0] - at * u, y - start[1] - at * v)
 
 
 @njit

@@ -229,6 +229,9 @@ BALANCED, BALANCED_AT_LEAST, BALANCE_HALVES = 1e-10, 1e-4, 10
 #: tried, each half as long as the last; inertia beside that stiffness, over that of the iteration,
 #: for what nothing holds; compliance of contact in it, over the largest, where that is rounding.
 HASTEN_FROM, HASTEN_TRIES, LEAST_FIRM, LEAST_COMPLIANCE = 8, 4, 1e-9, 1e-9
+#: Gap over the height of a structure below which faces touch as they are drawn, and are expected to
+#: carry at rest.
+TOUCHES = 1e-8
 #: Iterations to equilibrium within which the displacement of one must fall to this share, else none
 #: is found: a slender column needs a pad whose stiffness against tilting is 1.6 times its weight
 #: times the height of its centre.

@@ -220,11 +220,7 @@ def _place(
             and was == FORWARD
             and out[s] <= SAME_OUTLINE * size
             and _stays(slot, points, before, arms)
-            and (
-                slot.side < 0
-                or slot.corner
-                or not _is_near(other[:count], at[s], SAME_POINT * size)
-            )
+            and (slot.corner or not _is_near(other[:count], at[s], SAME_POINT * size))
         ):
             continue
         if v >= 0:
@@ -267,9 +263,12 @@ def _place(
             )
             if (
                 role != NONE
-                and slot.side >= 0
                 and not slot.corner
-                and _is_near(other[:count], other_place, SAME_POINT * size)
+                and (
+                    _is_near(other[:count], other_place, SAME_POINT * size)
+                    or role == REVERSE
+                    and _is_near_inner_node(slots, at, other_place, SAME_POINT * size)
+                )
             ):
                 role = NONE
         if role == REVERSE and slot.reverse < 0:
@@ -453,6 +452,17 @@ def _is_near(places, place, within):
     for v in range(len(places)):
         x, y = abs(places[v, 0] - place[0]), abs(places[v, 1] - place[1])
         if x < within and y < within and np.hypot(x, y) < within:
+            return True
+    return False
+
+
+@njit
+def _is_near_inner_node(slots, at, place, within):
+    """Whether a node inside the slave's face is nearer than `within` [m] to a place (2,) on the
+    master's; at: (slots, 2) where the slots' nodes are there.
+    """
+    for s in range(len(slots)):
+        if slots[s].side < 0 and not slots[s].free and _is_near(at[s : s + 1], place, within):
             return True
     return False
 

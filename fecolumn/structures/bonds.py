@@ -15,6 +15,7 @@ from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import Bond, Joint
 from fecolumn.structures.place import Standing, touching
+from fecolumn.structures.spring_areas import spring_areas
 
 
 def with_bonds(
@@ -67,8 +68,10 @@ def _share(standing: list[Standing], joint: Joint) -> float:
 
 
 def _glued(joint: Joint, standing: list[Standing], keys: Interface) -> Joint:
+    areas, rows = spring_areas(standing, joint)
     bond = Bond(
-        touching(standing, joint),
+        rows,
+        areas[rows],
         keys.bond_stiffness_n_m3,
         shear_stiffness_of(keys),
         keys.tension_pa,
@@ -87,9 +90,9 @@ def pulls_of_bonds(
     slave, bond = standing[joint.slave], joint.bond
     assert bond is not None
     surface, found = slave.model.surfaces[joint.slave_surface], []
-    for row in bond.rows:
+    axes = surface.axes.T
+    for row, area in zip(bond.rows, bond.areas):
         place = slave.center + slave.model.arms[surface.nodes[row]]
-        area, axes = surface.spring_areas[row], surface.axes.T
         found.append((place, axes[2], 0.0, bond.tension * area))
         found += [(place, one, -bond.cohesion * area, bond.cohesion * area) for one in axes[:2]]
     return found

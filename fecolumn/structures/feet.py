@@ -83,15 +83,14 @@ def with_balls(model: BodyModel, body: Placed) -> BodyModel:
         means = np.linalg.solve(plane.T @ (foot.areas[:, None] * plane), plane.T * foot.areas)
         centers = np.tile([0.0, 0.0, ball.radius], (3, 1))
         area = foot.areas.sum(keepdims=True)
-        foot = dataclasses.replace(
-            foot, nodes=np.arange(1), areas=area, outlines=np.ones(1, bool), spring_areas=area
-        )
+        foot = dataclasses.replace(foot, nodes=np.arange(1), areas=area, outlines=np.ones(1, bool))
     else:
         half = np.array(half_sides(body))
         inset = 1 - ball.radius / (half if half[1] else half[0])
         means = np.eye(count)
         centers = np.column_stack([places[:, :2] * inset, np.full(count, ball.radius)])
-        foot = dataclasses.replace(foot, nodes=np.arange(count))
+        # what is flat ends where the edge begins to round
+        foot = dataclasses.replace(foot, nodes=np.arange(count), region=foot.region * inset)
     others = {name: surface for name, surface in model.surfaces.items() if name != "foot"}
     kept = np.unique(
         np.concatenate([np.zeros(0, np.int64), *(surface.nodes for surface in others.values())])

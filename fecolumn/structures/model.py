@@ -12,7 +12,7 @@ table's in the drawing the body was made from, arms measured from its centre of 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypedDict
 
 import numpy as np
@@ -36,8 +36,8 @@ class Surface:
     (k,) [m2] tributary to the nodes. outlines: (k,) mask of the nodes on the outlines of the face.
     triangles: (t, 3) places in `nodes`: the face in triangles, holes left out, counter-clockwise
     seen from outside; how a master finds what lies on it. (0, 3) where the surface is never a
-    master. spring_areas: (k,) [m2] by which stiffnesses per area are multiplied, see
-    `structures.spring_areas`; `areas` where not given.
+    master. region: (r, 3, 2) [m] corners of the triangles that make up the whole face, along the
+    tangents from the origin; (0, 3, 2) where it is not known.
     """
 
     nodes: NDArray[Any]
@@ -46,11 +46,7 @@ class Surface:
     areas: NDArray[Any]
     outlines: NDArray[Any]
     triangles: NDArray[Any]
-    spring_areas: NDArray[Any] = None  # type: ignore[assignment]  # never after __post_init__
-
-    def __post_init__(self) -> None:
-        if self.spring_areas is None:
-            object.__setattr__(self, "spring_areas", self.areas)
+    region: NDArray[Any] = field(default_factory=lambda: np.zeros((0, 3, 2)))
 
     @property
     def normal(self) -> NDArray[Any]:
@@ -190,12 +186,14 @@ class Ball:
 class Bond:
     """What glues the faces of a joint together: wax, putty or mortar.
 
-    rows: (k,) places of the points that it holds in the slave's surface. stiffness, shear_stiffness
-    [N/m3] of the layer per area; tension, cohesion [Pa]: its strengths across and along the faces;
+    rows: (k,) places of the points that it holds in the slave's surface; areas: (k,) [m2] of each,
+    see `structures.spring_areas`. stiffness, shear_stiffness [N/m3] of the layer per area; tension,
+    cohesion [Pa]: its strengths across and along the faces;
     energy [J/m2]: that it takes to fail, 0 of one that fails at once.
     """
 
     rows: NDArray[Any]
+    areas: NDArray[Any]
     stiffness: float
     shear_stiffness: float
     tension: float

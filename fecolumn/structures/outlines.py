@@ -68,11 +68,11 @@ def crossings(first: NDArray[Any], second: NDArray[Any]) -> NDArray[Any]:
     """Places (n, 2) [m] where sides (m, 2, 2) of two outlines cross or meet."""
     own, other = first[:, 0], second[:, 0]
     along, across = (first[:, 1] - own)[:, None], second[:, 1] - other
-    offset, turn = other - own[:, None], _turned(along, across)
+    offset, turn = other - own[:, None], cross_product(along, across)
     lengths = np.linalg.norm(along, axis=2) * np.linalg.norm(across, axis=1)
     parallel = np.abs(turn) <= 1e-12 * lengths
     turn = np.where(parallel, 1.0, turn)
-    at, there = _turned(offset, across) / turn, _turned(offset, along) / turn
+    at, there = cross_product(offset, across) / turn, cross_product(offset, along) / turn
     met = ~parallel & (at >= 0) & (at <= 1) & (there >= 0) & (there <= 1)
     places: NDArray[Any] = (own[:, None] + at[..., None] * along)[met]
     return places
@@ -92,7 +92,7 @@ def corners_of_overlap(first: NDArray[Any], second: NDArray[Any], slack: float) 
     )
 
 
-def _turned(one: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:
+def cross_product(one: NDArray[Any], other: NDArray[Any]) -> NDArray[Any]:
     """The cross products (...) of vectors (..., 2)."""
     products: NDArray[Any] = one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
     return products
@@ -126,4 +126,4 @@ def _loops(face: Face) -> list[NDArray[Any]]:
 
 def _area(sides: NDArray[Any]) -> float:
     """Area [m2] within an outline of sides (n, 2, 2), below 0 clockwise."""
-    return float(_turned(sides[:, 0], sides[:, 1]).sum() / 2)
+    return float(cross_product(sides[:, 0], sides[:, 1]).sum() / 2)

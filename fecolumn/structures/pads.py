@@ -18,11 +18,14 @@ from fecolumn.contact.pad import pad_below
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import Joint, StructureModel
-from fecolumn.structures.place import Standing, loads, touching
+from fecolumn.structures.place import Standing, loads
+from fecolumn.structures.spring_areas import spring_areas, stiffer_in_rocking
 
 # Steps in a period of the vertical vibration on a pad: needed, and for 3 % in frequency (period
 # error (w dt)^2 / 12)
 FEWEST_STEPS, FEW_STEPS = 4, 10
+# Error of the stiffness in rocking, from too few points, that is told
+ROCKS_AMISS = 0.03
 
 
 def pad_keys(case: Case, interface: str) -> tuple[Interface | Ground | None, str]:
@@ -59,15 +62,15 @@ def with_pads(
     found, carried = list(joints), loads(standing, joints)
     for where in dict.fromkeys(where for _, where in pads if where):
         own = [k for k, (_, other) in enumerate(pads) if other == where]
-        areas = [_areas(standing, joints[k]) for k in own]
+        springs = [spring_areas(standing, joints[k]) for k in own]
+        touched = np.array([areas[rows].sum() for areas, rows in springs])
         # several faces of one body on another carry its load together
         pressures = [carried[k] / _area_below(standing, joints, joints[k]) for k in own]
-        mass = np.dot(pressures, [one.sum() for one in areas]) / GRAVITY
-        mass /= sum(one.sum() for one in areas)
-        for k, area, pressure in zip(own, areas, pressures):
+        mass = np.dot(pressures, touched) / GRAVITY / touched.sum()
+        for k, (areas, rows), pressure in zip(own, springs, pressures):
             keys = pads[k][0]
             assert keys is not None
-            _tell_of_overhang(standing, joints[k], where, file)
+            _tell_of_few_points(standing, joints[k], areas, rows, where, file)
             if keys.yield_pa and pressure >= keys.yield_pa:
                 raise InputError(
                     file,
@@ -78,7 +81,7 @@ def with_pads(
                 )
             found[k] = dataclasses.replace(
                 joints[k],
-                pad=pad_below(keys, area, mass or _own_mass(standing, joints[k], area)),
+                pad=pad_below(keys, areas, mass or _own_mass(standing, joints[k], areas)),
                 restitution=0.0,
                 rolling=0.0,
                 # a node of a rim that comes down on a pad presses a spring
@@ -87,30 +90,35 @@ def with_pads(
     return found
 
 
-def _areas(standing: list[Standing], joint: Joint) -> NDArray[Any]:
-    """Areas (n,) [m2] of the springs below the points of a joint."""
-    return standing[joint.slave].model.surfaces[joint.slave_surface].spring_areas
-
-
-def _tell_of_overhang(standing: list[Standing], joint: Joint, where: str, file: Path | str) -> None:
-    """Warn of a pad between bodies of which the upper one is not wholly over the other."""
-    rows = touching(standing, joint)
-    if joint.pair < 0 and 0 < len(rows) < len(_areas(standing, joint)):
+def _tell_of_few_points(
+    standing: list[Standing],
+    joint: Joint,
+    areas: NDArray[Any],
+    rows: NDArray[Any],
+    where: str,
+    file: Path | str,
+) -> None:
+    """Warn of points that are too few to resist rocking as the region does in which both faces
+    touch.
+    """
+    ratio = stiffer_in_rocking(standing, joint, areas, rows)
+    if abs(ratio - 1) > ROCKS_AMISS:
+        slave = standing[joint.slave].name
         warnings.warn(
-            f'{file}: {where}: "{standing[joint.slave].name}" overhangs what is below: each spring '
-            "of the pad has its whole area up to the outline, so that stiffness in rocking is off "
-            "by tens of percent; a body of the pad's material between the two is exact",
+            f'{file}: {where}: the {len(rows)} contact points of "{slave}" on it resist rocking '
+            f"{ratio:.2f} times as the whole face does; more inside make it right "
+            "(contact.interior_points, or a smaller element_size_m)",
             stacklevel=3,
         )
 
 
 def _area_below(standing: list[Standing], joints: list[Joint], joint: Joint) -> float:
     """Area [m2] of all faces with which the slave of a joint stands on the master."""
-    area: float = sum(
-        _areas(standing, one).sum()
-        for one in joints
-        if (one.slave, one.master) == (joint.slave, joint.master)
-    )
+    area = 0.0
+    for one in joints:
+        if (one.slave, one.master) == (joint.slave, joint.master):
+            areas, rows = spring_areas(standing, one)
+            area += areas[rows].sum()
     return area
 
 

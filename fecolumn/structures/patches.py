@@ -4,6 +4,7 @@ touched.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -13,11 +14,11 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from fecolumn.contact.footprint import footprint
+from fecolumn.contact.rim import Rim
 from fecolumn.mesh.bricks import outline_edges
 from fecolumn.mesh.surface import face_points, nodal_areas
 from fecolumn.structures.faces import Face, apart_from_side
 from fecolumn.structures.model import Surface
-from fecolumn.structures.spring_areas import areas_by_moments
 
 # Over the size of a face: nodes within it are one
 _SAME_NODE = 1e-8
@@ -28,7 +29,7 @@ class Patch:
     """Nodes of a face that take part in contact, in the drawing of the body.
 
     part: of the mesh, None where the nodes are of no face. positions: (k, 3) [m]; origin: (3,) [m]
-    a point of the plane; axes, areas, outlines, triangles, spring_areas: as of `model.Surface`.
+    a point of the plane; axes, areas, outlines, triangles, region: as of `model.Surface`.
     """
 
     part: int | None
@@ -38,7 +39,7 @@ class Patch:
     areas: NDArray[Any]
     outlines: NDArray[Any]
     triangles: NDArray[Any]
-    spring_areas: NDArray[Any]
+    region: NDArray[Any]
 
     def surface(self, nodes: NDArray[Any], center: NDArray[Any]) -> Surface:
         """The patch as surface of a model whose rows `nodes` (k,) are its positions, about its
@@ -51,7 +52,7 @@ class Patch:
             self.areas,
             self.outlines,
             self.triangles,
-            self.spring_areas,
+            self.region,
         )
 
 
@@ -64,8 +65,13 @@ def slave_patch(face: Face, order: int, interior: int) -> Patch:
     nodes, areas = footprint(
         np.arange(len(whole.positions)), places, whole.areas, whole.outlines, interior
     )
-    springs = areas_by_moments(places[nodes, :2], areas, places[whole.triangles, :2])
-    return replace(node_patch(whole, nodes), areas=areas, spring_areas=springs)
+    region = places[whole.triangles, :2]
+    rim = Rim.find(places)
+    if rim is not None:
+        # as large as the circles of which the outlines are polygons
+        middle = places[rim.nodes, :2].mean(axis=0)
+        region = middle + (region - middle) * math.sqrt(rim.sector / math.sin(rim.sector))
+    return replace(node_patch(whole, nodes), areas=areas, region=region)
 
 
 def node_patch(whole: Patch, nodes: NDArray[Any]) -> Patch:
@@ -74,7 +80,6 @@ def node_patch(whole: Patch, nodes: NDArray[Any]) -> Patch:
         whole,
         positions=whole.positions[nodes],
         areas=whole.areas[nodes],
-        spring_areas=whole.areas[nodes],
         outlines=whole.outlines[nodes],
         triangles=np.zeros((0, 3), np.int64),
     )
@@ -109,7 +114,7 @@ def master_patch(face: Face, order: int, zones: Iterable[tuple[float, ...]]) -> 
         whole.areas[kept],
         whole.outlines[kept],
         triangles.reshape(-1, 3),
-        whole.areas[kept],
+        whole.region,
     )
 
 
@@ -152,7 +157,7 @@ def whole_face(face: Face, order: int) -> Patch:
         areas,
         outlines,
         _triangles(index, order, positions @ axes[:, :2]),
-        areas,
+        np.zeros((0, 3, 2)),
     )
 
 

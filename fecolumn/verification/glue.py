@@ -210,7 +210,7 @@ def points_of(case: Case) -> tuple[np.ndarray, np.ndarray]:
     (joint,) = bonded(model)
     surface = model.parts[joint.slave].model.surfaces[joint.slave_surface]
     arms = model.parts[joint.slave].model.arms[surface.nodes[joint.bond.rows]]
-    return _LENGTH / 2 - arms[:, 0], surface.spring_areas[joint.bond.rows]
+    return _LENGTH / 2 - arms[:, 0], joint.bond.areas
 
 
 def _overturned(

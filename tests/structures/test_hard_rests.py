@@ -150,6 +150,68 @@ def test_a_soft_post_stands_on_stiff_glue(modulus, layer):
     assert sunk == pytest.approx((cap + post / 2) * 1.5 / (modulus * 0.09), rel=0.05)
 
 
+SECTIONS = dict(
+    tube=dict(kind="tube", outer_diameter_m=0.5, wall_m=0.03),
+    drum=dict(kind="cylinder", outer_diameter_m=0.5),
+    block=dict(kind="block", length_m=0.4, width_m=0.3),
+)
+
+
+@pytest.mark.parametrize("layer, interior", [(1e10, 0), (1e10, 9), (3e12, 9)])
+@pytest.mark.parametrize("section", SECTIONS)
+def test_stone_stands_on_stone_and_a_thin_layer_of_glue(section, layer, interior):
+    """3e12 N/m3 is a millimetre of epoxy; the foot slides a little as the weight spreads it."""
+    body = SECTIONS[section] | STONE | dict(height_m=0.6, element_size_m=0.1)
+    case = structure(
+        bodies=dict(low=body, up=body | dict(at_m=[0, 0, 0.6])),
+        joints=dict(
+            foot=dict(between=["low", "ground"]),
+            glue=dict(between=["low", "up"], tension_pa=1e6, bond_stiffness_n_m3=layer),
+        ),
+        contact=dict(interior_points=interior),
+        integration=dict(engine="reduced", dt_s=2e-6),
+    )
+    made = engine_of(case, structure_model(case), "small.toml")
+    low, up = weights(made)
+    assert carried(made, 0) == pytest.approx(low + up, rel=2e-4)
+
+
+@pytest.mark.parametrize("engine", ["reduced", "rigid"])
+@pytest.mark.parametrize("aside", [(0.1, 0.0), (0.0, 0.1), (0.1, 0.1), (0.1003, 0.05)])
+def test_a_block_that_overhangs_an_equal_one_by_whole_elements_rests(engine, aside):
+    """Nodes inside the upper face lie on edges of the lower one, which has its own points there."""
+    body = STONE | dict(kind="block", length_m=0.4, width_m=0.3, height_m=0.4, element_size_m=0.1)
+    made = standing(
+        bodies=dict(low=body, up=body | dict(at_m=[*aside, 0.4])),
+        joints=dict(
+            foot=dict(between=["low", "ground"]),
+            top=dict(between=["low", "up"], friction_coefficient=0.5),
+        ),
+        integration=dict(engine=engine, dt_s=1e-3),
+    )
+    low, up = weights(made)
+    assert carried(made, 0) == pytest.approx(low + up, rel=EXACT)
+
+
+def test_points_far_beyond_the_outline_of_what_is_known_only_along_its_edges_touch_nothing():
+    """A pad below outline points alone, a quarter of which overhang: the middle of the face below
+    has no nodes in the contact, and it is not asked for them.
+    """
+    body = STONE | dict(kind="block", length_m=0.4, width_m=0.3, height_m=0.4)
+    case = structure(
+        bodies=dict(low=body, up=body | dict(at_m=[0.1, 0, 0.4])),
+        joints=dict(
+            foot=dict(between=["low", "ground"]),
+            pad=dict(between=["low", "up"], stiffness_n_m3=1e9),
+        ),
+        contact=dict(interior_points=0),
+        integration=dict(engine="rigid", dt_s=1e-3),
+    )
+    with pytest.warns(UserWarning, match="joints.pad: the 20 contact points"):
+        made = engine_of(case, structure_model(case), "small.toml")
+    assert force(made, 1)[2] == pytest.approx(weights(made)[1], rel=EXACT)
+
+
 @pytest.mark.parametrize("engine", ["rigid", "reduced"])
 def test_bodies_as_far_apart_as_they_may_be_placed_come_to_rest(engine):
     low = COARSE | STONE | dict(length_m=0.1, width_m=0.1, height_m=0.1)

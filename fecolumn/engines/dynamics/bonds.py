@@ -32,11 +32,6 @@ def bonded(model) -> list:
     return [joint for joint in model.joints if joint.bond is not None]
 
 
-def areas_of(model, joint) -> np.ndarray:
-    """Areas (k,) [m2] of the points that a bonded joint holds."""
-    return _face(model, joint.slave, joint.slave_surface).spring_areas[joint.bond.rows]
-
-
 def bond_links(model) -> BondLinks:
     """The links of all bonded joints of a StructureModel, number 1 those of the first of them."""
     links, shapes = [np.zeros(0, LINK)], []
@@ -51,7 +46,7 @@ def bond_links(model) -> BondLinks:
             slave.model.shapes[nodes],
             _shapes_below(model, joint, points),
         )
-        for point, area, *moved in zip(points, areas_of(model, joint), own, other):
+        for point, area, *moved in zip(points, joint.bond.areas, own, other):
             rows = _links_of_point(model, joint, point, area)
             rows["bond"] = number
             # as they are told: a is a body

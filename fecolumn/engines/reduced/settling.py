@@ -16,6 +16,7 @@ from fecolumn.contact.tolerances import (
     REST_WAY,
     SLIDES_KEPT,
     STICKS,
+    TOUCHES,
 )
 from fecolumn.contact.work import move_anchors
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
@@ -173,14 +174,22 @@ class Settling:
 
         From x0 it went to x1, so that k M (x0 - x1) is not balanced at x1; K being the stiffness
         there, x1 + (K + k e M)^-1 k M (x1 - x0) would be at rest (Newton). Where contact changes
-        too much on the way, a half of it, and so on. Not where anything slides: nothing would hold
-        it.
+        too much on the way, a half of it, and so on. Not where anything slides, unless links hold
+        it: nothing else would. Links are answered by small steps, in which faces that touch as they
+        are drawn come to carry but slowly: where the points that carry lead nowhere, all that touch
+        are taken to carry.
         """
-        if self._slides():
+        linked = len(self.structure.links) > 0
+        if self._slides() and not linked:
             return False
+        return self._leads(0.0) or linked and self._leads(TOUCHES * self.height)
+
+    def _leads(self, touches: float) -> bool:
+        """`_hastened` with the points that carry or are less than `touches` [m] apart."""
         start, engine, masses = self._start, self.engine, self._masses
+        yielding = self._flow != 0.0
         tangent = tangent_of(
-            self.structure, self._scheme.springs, engine.work, masses, start, self._flow != 0.0
+            self.structure, self._scheme.springs, engine.work, masses, start, yielding, touches
         )
         tangent[np.diag_indices_from(tangent)] += LEAST_FIRM * self._firmness
         place = self._coordinates(start)

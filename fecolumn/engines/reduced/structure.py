@@ -13,7 +13,7 @@ from fecolumn.contact.overturning import Limits, cap_only_stance
 from fecolumn.contact.points import GROUND, POINT
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.contact.tolerances import FOUND_ROWS, RIGID_GIVE
-from fecolumn.engines.dynamics.bonds import areas_of, bonded
+from fecolumn.engines.dynamics.bonds import bonded
 from fecolumn.engines.dynamics.links_of_model import links_of
 from fecolumn.engines.reduced.found_of_model import found_interfaces, found_of, found_points
 from fecolumn.engines.reduced.model import Structure, modal_sum
@@ -179,5 +179,5 @@ def view_of(model, structure, weight: float, limits: Limits, cap: float = 0.0) -
         len(model.links),
         np.array(model.levels, float),
         np.array([part.held for part in model.parts]),
-        np.array([areas_of(model, joint).sum() for joint in bonded(model)]),
+        np.array([joint.bond.areas.sum() for joint in bonded(model)]),
     )

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.tolerances import LEAST_COMPLIANCE
+from fecolumn.contact.problem import near_points
+from fecolumn.contact.tolerances import LEAST_COMPLIANCE, STICKS
 from fecolumn.engines.dynamics.links_of_model import rows_of_links
 from fecolumn.engines.reduced.elastic import END
 
@@ -52,12 +53,16 @@ def displacements_of(
     return rigid[:, :3] / np.sqrt(masses.mass)[:, None], turns, modal.reshape(count, -1)
 
 
-def tangent_of(structure, springs, work, masses: Masses, motion, yielding) -> np.ndarray:
+def tangent_of(
+    structure, springs, work, masses: Masses, motion, yielding, touches: float = 0.0
+) -> np.ndarray:
     """Stiffness (n, n) [1/s2] in the coordinates of `coordinates_of` about a motion to which a step
     of `springs` came; bodies that grounds hold have none.
 
-    Points that carry hold in all directions: none may slide. Links that are `yielding` (nl,) hold
-    by what they harden. The base's compliance and the turning of forces are left out.
+    Points that carry hold in all directions, those that slide along the normal alone; so do points
+    that carry nothing but are less than `touches` [m] above what they stand on. Links that are
+    `yielding` (nl,) hold by what they harden. The base's compliance and the turning of forces are
+    left out.
     """
     count, modes = len(masses.mass), structure.squares.shape[1]
     links = structure.links
@@ -70,7 +75,12 @@ def tangent_of(structure, springs, work, masses: Masses, motion, yielding) -> np
     if active.any():
         bodies = list(zip(masses.mass, masses.inertia, motion.frames["center"], motion.rotation))
         rows.append(rows_of_links(structure, stiffness, bodies, [np.ones(modes)] * count)[0])
-    rows.append(_contact_rows(structure, springs, work, masses, motion))
+    carrying = motion.contact["force"][:, 2] > 0
+    if touches:
+        near = np.zeros(len(carrying), bool)
+        near[near_points(work.problem)] = True
+        carrying |= near & (motion.contact["relative"][:, 2] < touches)
+    rows.append(_contact_rows(structure, springs, work, masses, motion, np.flatnonzero(carrying)))
     stacked = np.concatenate(rows)
     tangent = stacked.T @ stacked
     own = np.arange(6 * count, (6 + modes) * count)
@@ -80,12 +90,12 @@ def tangent_of(structure, springs, work, masses: Masses, motion, yielding) -> np
     return tangent
 
 
-def _contact_rows(structure, springs, work, masses, motion) -> np.ndarray:
+def _contact_rows(structure, springs, work, masses, motion, carrying) -> np.ndarray:
     """Rows (k, n) of which the squares add up to the stiffness of contact: C^-1/2 B, of points with
-    compliance C (k, k) that displacements move by B relative to one another.
+    compliance C (k, k) that displacements move by B relative to one another; carrying: (k,) numbers
+    of the points.
     """
     contact, bodies, points = motion.contact, structure.bodies, work.points
-    carrying = np.flatnonzero(contact["force"][:, 2] > 0)
     count, modes = len(masses.mass), structure.squares.shape[1]
     axes = work.poses[END]["frame"][points["interface"][carrying]].transpose(0, 2, 1)
     gives = np.append(bodies.body["gives"], 0.0)
@@ -125,9 +135,16 @@ def _contact_rows(structure, springs, work, masses, motion) -> np.ndarray:
             at = slice(6 * count + modes * b, 6 * count + modes * (b + 1))
             pushes = bodies.pushes.reshape(-1, modes)[rows]
             moved[..., at] = (flat @ pushes).reshape(len(carrying), 3, modes)
+    force, friction = contact["force"][carrying], points["friction"][carrying]
+    holds = np.ones((len(carrying), 3), bool)
+    slides = np.hypot(*force[:, :2].T) >= STICKS * friction * force[:, 2]
+    holds[:, :2] = ~(slides & (force[:, 2] > 0))[:, None]
+    kept = np.flatnonzero(holds)
+    compliance = compliance[np.ix_(kept, kept)]
+    moved = moved.reshape(3 * len(carrying), moved.shape[2])[kept]
     squares, shapes = np.linalg.eigh(compliance)
     if not (squares > 0.0).any():
-        return np.zeros((0, moved.shape[2]))
+        return np.zeros((0, moved.shape[1]))
     # points between the same nodes move as one but for rounding
     squares = np.maximum(squares, LEAST_COMPLIANCE * squares[-1:])
-    return (shapes / np.sqrt(squares)).T @ moved.reshape(3 * len(carrying), -1)
+    return (shapes / np.sqrt(squares)).T @ moved
