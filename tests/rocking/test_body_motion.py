@@ -26,6 +26,7 @@ from fecolumn.engines.rocking.of_bodies import model_of
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
 from fecolumn.pictures.render.result import read_result
+from fecolumn.pictures.render.thrust import JointForces
 from fecolumn.simulation import run
 
 SLAB = {name: value for name, value in STOREYS.items() if not name.startswith(("floor", "storey"))}
@@ -61,6 +62,41 @@ def test_the_centre_of_mass_of_an_uneven_block_turns_about_the_edges():
         response.energy["gravity"],
         atol=1e-9 * mass,
     )
+
+
+@pytest.mark.parametrize("engine, body", [("housner", BLOCK), ("wobbling", DRUM)])
+def test_the_ground_pushes_a_body_as_its_centre_of_mass_accelerates(engine, body):
+    """F = m (a + g) between impacts, at an edge or a place of the rim when it leans."""
+    made = case(engine, dict(body=body), FOOT)
+    response, columns = moved(made, BOTH)
+    n = min(len(TIME), int(np.argmax(np.append(response.tilt, 1.0) > 0.3)))  # what falls turns far
+    center = columns["body/body/displacement"][:n]
+    (name,) = {one.split("/")[1] for one in columns if one.startswith("interface/")}
+    force, foot = (columns[f"interface/{name}/{one}"][:n] for one in ("resultant", "center"))
+    mass = 2700.0 * 1.6 * (0.4 * 0.6 if engine == "housner" else np.pi / 4 * 0.4**2)
+    moves = (center[2:] - 2 * center[1:-1] + center[:-2]) / 1e-3**2
+    pushed = mass * (BOTH[1 : n - 1] + moves + [0.0, 0.0, 9.80665])
+    smooth = np.ones(n - 2, bool)  # without an impact within three steps
+    for time in response.impact_times:
+        smooth &= np.abs(TIME[1 : n - 1] - time) > 3e-3
+    assert smooth.sum() > 500
+    error = np.linalg.norm((force[1:-1] - pushed)[smooth], axis=1)
+    assert np.quantile(error, 0.95) < 0.01 * mass * 9.80665
+    leans = response.tilt[:n] > 1e-3
+    if engine == "housner":
+        assert (np.abs(foot[:, :2]) <= np.array([0.2, 0.3]) + 1e-12).all()
+        assert np.isclose(np.abs(foot[leans, :2]), [0.2, 0.3]).any(axis=1).all()
+    else:
+        np.testing.assert_allclose(np.hypot(*foot[leans, :2].T), 0.2)
+
+
+def test_forces_of_a_rocking_model_are_drawn(tmp_path):
+    made = case("wobbling", dict(body=DRUM), FOOT, initial=dict(body=dict(tilt_rad=0.05)))
+    run(made, tmp_path / "run", quiet=True)
+    drawn = read_result(tmp_path / "run")
+    forces = JointForces(drawn, 0.05)
+    weight = 2700.0 * 1.6 * np.pi / 4 * 0.4**2 * 9.80665
+    assert forces.largest == pytest.approx(weight, rel=0.2)
 
 
 @pytest.mark.parametrize("engine, column", [("rocking_frame", PIER), ("wobbling_frame", POST)])

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fecolumn.case.bodies import Storeys
 from fecolumn.case.case import Case
-from fecolumn.engines.rocking.column import rigid_body
+from fecolumn.engines.rocking.column import RigidColumn, rigid_body
 from fecolumn.engines.rocking.model import ModelResponse, moved_about_edge
 from fecolumn.engines.rocking.of_bodies import rocking_bodies
 from fecolumn.structures.storeys import building_of
@@ -21,7 +21,8 @@ from fecolumn.structures.storeys import building_of
 def body_motion(case: Case, response: ModelResponse, file: Path | str) -> dict[str, NDArray[Any]]:
     """Columns (n, ...) of the history by name: displacement [m] of the centre of mass, rotation
     vector [rad] and tilt [rad] of each body, displacement [m] of its top, drift [m] and shear [N]
-    of its storeys. Nothing of a model of its own table, which has no bodies.
+    of its storeys; of a single body also what the ground does to it, as of an interface. Nothing of
+    a model of its own table, which has no bodies.
     """
     if case.own:
         return {}
@@ -43,7 +44,7 @@ def body_motion(case: Case, response: ModelResponse, file: Path | str) -> dict[s
             f"mark/{column}.top/displacement": top,
         }
     if not slab:
-        return found
+        return found | _at_foot(case, name, own, lean, response)
     # it lies on the edges across, and stays level
     width = (2 * own.half_foot[0], 2 * own.half_foot[1])
     moved = _moved(lean, wobbles, own.top, width)
@@ -69,6 +70,39 @@ def body_motion(case: Case, response: ModelResponse, file: Path | str) -> dict[s
             f"storey/{slab} {number}/shear": stiffness * drift,
         }
     return found
+
+
+def _at_foot(
+    case: Case, name: str, own: RigidColumn, lean: NDArray[Any], response: ModelResponse
+) -> dict[str, NDArray[Any]]:
+    """Columns of the joint of a single body with the ground, by name: as of any interface. A body
+    that leans by `lean` (n, 2) [rad] stands on the middle of an edge, or on a place of its rim; one
+    that stands, where the resultant of weight and inertia meets its foot.
+    """
+    joint, keys = next(
+        (one, keys) for one, keys in case.joints.items() if name in (keys.slave, keys.on)
+    )
+    ground = keys.on if keys.slave == name else keys.slave
+    force, half = response.base_force, np.array(own.half_foot)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        away = own.offset - own.height * np.nan_to_num(force[:, :2] / force[:, 2:])
+    tilt = np.hypot(lean[:, 0], lean[:, 1])[:, None]
+    towards = np.divide(lean, tilt, out=np.zeros_like(lean), where=tilt > 0)
+    wobbles = "phi" in response.coordinates
+    edge = half * (towards if wobbles else np.sign(lean))
+    leans = tilt > 0 if wobbles else lean != 0
+    pressed = np.where(leans, edge, np.clip(away, -half, half))
+    foot = np.array(case.bodies[name].places[0]) + np.pad(pressed, [(0, 0), (0, 1)])
+    middle = _moved(lean, wobbles, 0.0, own.half_foot)
+    whole = f"interface/{joint}: {name} on {ground}"
+    return {
+        f"{whole}/tilt": response.tilt,
+        f"{whole}/rise": middle[:, 2],
+        f"{whole}/slide": np.zeros((len(lean), 2)),
+        f"{whole}/force": force[:, 2],
+        f"{whole}/resultant": force,
+        f"{whole}/center": foot,
+    }
 
 
 def _lean(response: ModelResponse) -> NDArray[Any]:

@@ -57,6 +57,9 @@ class ModelResponse:
         further peak values by name with unit, such as "friction demanded [-]", "base shear [N]".
     floors
         (n, k) displacement along x of each floor of a building, from below [m]; (0, 0) without one.
+    base_force
+        (n, 3) force of the ground on all columns along x, y and up [N], between impacts; (0, 3)
+        where the model does not tell it.
     """
 
     time: NDArray[Any]
@@ -70,6 +73,7 @@ class ModelResponse:
     notes: tuple[str, ...] = ()
     peaks: dict[str, float] = field(default_factory=dict)
     floors: NDArray[Any] = field(default_factory=lambda: np.zeros((0, 0)))
+    base_force: NDArray[Any] = field(default_factory=lambda: np.zeros((0, 3)))
 
     @property
     def outcome(self) -> str:

@@ -335,12 +335,17 @@ class PlanarModel:
         ground[: min(rows, len(motion.acceleration))] = motion.acceleration[:rows]
         peaks: dict[str, float] = {}
         notes, u_top, tilts = [], np.zeros((rows, 3)), np.zeros(rows)
+        base = np.zeros((rows, 3))
         for one in found:
             states, axis = one.states, one.plane.axis
             moved = one.plane.moved(np.abs(states[:, SWING_TILT]), states[:, SWING_EDGE])
             u_top[:, axis], u_top[:, 2] = moved[:, 0], u_top[:, 2] + moved[:, 1]
             tilts = np.hypot(tilts, states[:, SWING_TILT])
-            notes += _check_forces(one, ground[:, [axis, 2]], peaks)
+            force = one.base_force(ground[:, [axis, 2]])
+            # what carries the weight in each plane is one and the same
+            carries = one.plane.mass * (GRAVITY + ground[:, 2]) if base.any() else 0.0
+            base[:, axis], base[:, 2] = force[:, 0], base[:, 2] + force[:, 1] - carries
+            notes += _check_forces(one, force, peaks)
         energies = [one.energy for one in found]
         thetas = {f"theta_{'xy'[one.plane.axis]}": one.states[:, SWING_TILT] for one in found}
         return ModelResponse(
@@ -356,12 +361,15 @@ class PlanarModel:
             },
             notes=tuple(notes),
             peaks=peaks,
+            base_force=base,
         )
 
 
-def _check_forces(one: PlaneResponse, ground: NDArray[Any], peaks: dict[str, float]) -> list[str]:
-    """Add the largest friction and tension demanded to `peaks`; notes on friction that lacks."""
-    force, name, plane = one.base_force(ground), "xy"[one.plane.axis], one.plane
+def _check_forces(one: PlaneResponse, force: NDArray[Any], peaks: dict[str, float]) -> list[str]:
+    """Add the largest friction and tension demanded to `peaks`; notes on friction that lacks;
+    force: (n, 2) of the base, along the axis and up [N].
+    """
+    name, plane = "xy"[one.plane.axis], one.plane
     lean = np.abs(one.states[:, SWING_TILT])
     notes, found = check_friction(
         f"rocking along {name}",

@@ -207,7 +207,8 @@ class Wobbling:
             STEP_TOLERANCE,
             self.restitution,
         )
-        notes, peaks = self._check_forces(foot_forces(self.body, rows, ground[: len(rows)]), rows)
+        base = self._base_force(foot_forces(self.body, rows, ground[: len(rows)]), rows)
+        notes, peaks = self._check_forces(base, rows)
         kinetic, strain, gravity = self.columns * energies(self.body, rows).T
         work, impact = self.columns * rows[:, [WOBBLE_WORK, WOBBLE_LOSS]].T
         theta, phi = rows[:, 1], rows[:, 2]
@@ -225,18 +226,42 @@ class Wobbling:
             ),
             notes=tuple(notes),
             peaks=peaks,
+            base_force=self.columns * self._along_axes(base, rows, ground[: len(rows)]),
         )
+
+    def _base_force(self, foot: NDArray[Any], rows: NDArray[Any]) -> NDArray[Any]:
+        """Force of the ground on a column (n, 3) as of `foot_forces` [N], with what its tendon
+        presses.
+        """
+        if self.body[4]:
+            return foot  # a frame's tendon is between column and slab
+        tilt = rows[:, 1]
+        pull = self.body[8] + self.body[7] * 2 * self.body[0] * np.sin(tilt / 2)
+        along = np.column_stack([np.sin(tilt / 2), np.zeros(len(tilt)), np.cos(tilt / 2)])
+        pressed: NDArray[Any] = foot + pull[:, None] * along
+        return pressed
+
+    def _along_axes(
+        self, foot: NDArray[Any], rows: NDArray[Any], ground: NDArray[Any]
+    ) -> NDArray[Any]:
+        """Forces (n, 3) towards the azimuth, across it and up as such along x, y and up [N]; where
+        the column stands, by the acceleration of the ground (n, 3) [m/s2].
+        """
+        c, s = np.cos(rows[:, 2]), np.sin(rows[:, 2])
+        turned = np.column_stack(
+            [c * foot[:, 0] - s * foot[:, 1], s * foot[:, 0] + c * foot[:, 1], foot[:, 2]]
+        )
+        mass = self.body[3] + self.body[4]
+        standing = mass * (ground + np.array([0.0, 0.0, GRAVITY]))
+        standing[:, 2] += 0.0 if self.body[4] else self.body[8]
+        found: NDArray[Any] = np.where(rows[:, 1:2] > 0, turned, standing)
+        return found
 
     def _check_forces(
         self, foot: NDArray[Any], rows: NDArray[Any]
     ) -> tuple[list[str], dict[str, float]]:
         """Notes and peaks of the friction demanded, while the column neither stands nor falls."""
         tilt = rows[:, 1]
-        # a column's tendon presses it on the ground, a frame's one is between column and slab
-        if not self.body[4]:
-            pull = self.body[8] + self.body[7] * 2 * self.body[0] * np.sin(tilt / 2)
-            along = np.column_stack([np.sin(tilt / 2), np.zeros(len(tilt)), np.cos(tilt / 2)])
-            foot = foot + pull[:, None] * along
         return check_friction(
             "wobbling",
             "friction demanded [-]",

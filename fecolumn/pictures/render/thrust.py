@@ -80,8 +80,8 @@ class JointForces:
                     "",
                     None,
                     f'has no column "{missing[0]}", which --forces draws: it is of a rocking '
-                    "model, which knows no forces of joints, or of a version before 0.9; run the "
-                    "case with another integration.engine into a new folder",
+                    "model of a frame, which knows no forces of single joints, or of an earlier "
+                    "version; run the case with another integration.engine into a new folder",
                 )
             columns[name] = np.stack([history[one] for one in wanted], axis=1)
         self._force, self._resultant = columns["force"], columns["resultant"]
