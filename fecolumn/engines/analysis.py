@@ -51,7 +51,7 @@ class Analysis:
 
     Attributes
     ----------
-    case, folder, comm, quiet
+    case, folder, comm, file, quiet
         as of `run`. motion: None for a base at rest. steps: to be made at most; step: the last one
         made.
     motion_steps
@@ -78,6 +78,7 @@ class Analysis:
         from fecolumn.engines.dynamics.history import History
 
         self.case, self.folder, self.comm, self.quiet = case, folder, comm, quiet
+        self.file = file
         self.began, self.cpu_began, self.code = time.perf_counter(), time.process_time(), code()
         self.motion = self._load_motion(file)
         self.steps = int(round(self._duration() / self.dt_s))

@@ -14,7 +14,7 @@ from fecolumn.contact.overturning import FELL, critical_displacement, critical_t
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
 from fecolumn.engines.dynamics.bonds import bonded
-from fecolumn.engines.ending import AT_REST, OVERTURNED, SLID_OFF, STILL_ROCKING, Ending
+from fecolumn.engines.ending import AT_REST, OVERTURNED, REST_SHARE, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.engines.fallen_bodies import FallenBodies
 from fecolumn.engines.left_part import way_out
 from fecolumn.engines.peak_acceleration import peak_acceleration
@@ -28,7 +28,7 @@ from fecolumn.engines.reduced.observe import (
 )
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation.progress import Progress
-from fecolumn.structures.barrier import least_barrier, stances
+from fecolumn.structures.barrier import feet_on_springs, least_barrier, stances
 from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import BodyModel, Joint, Link, StructureModel
 from fecolumn.structures.shaking import accelerations, motions_of
@@ -50,6 +50,9 @@ _WHOLE = (
 
 # Rounding of the sum of areas that have failed, over all
 _ALL = 1e-9
+# Height by which a body is lifted that stands nowhere by itself, over its size (root of the sum of
+# its principal inertias over its mass): what lifts a block five times as high as wide onto its edge
+_LIFTED = 0.02
 # Share of its yield force at which a link is said to yield that comes to it along a curve
 _YIELDED = 0.9
 
@@ -61,6 +64,7 @@ class OfStructure(Analysis):
 
     structure: StructureModel
     _barrier_j: float | None = None
+    _still_j: float | None = None
     _off: str | None = None
     _collapse: FallenBodies | None = None
 
@@ -68,7 +72,7 @@ class OfStructure(Analysis):
         """What is analysed, in words."""
         from fecolumn.structures.size import expected
 
-        return str(expected(self.case, self.folder / "case.json"))
+        return str(expected(self.case, self.file))
 
     def scene(self) -> Scene:
         """`post.scene.Scene` of the case."""
@@ -95,9 +99,22 @@ class OfStructure(Analysis):
         """Largest `energy_left` [J] at which the structure counts as at rest.
 
         Where contact is found during the motion it is a bound of kinetic energy alone, as fallen
-        bodies come to rest anywhere; see `FallenBodies`.
+        bodies come to rest anywhere; see `FallenBodies`. Else it is a share of the least energy
+        that overturns a body, or that lifts one which stands nowhere by itself, as a voussoir or
+        what hangs or falls, by a share of its size.
         """
-        return self.collapse.still_j if self.collapse else super().still_j
+        if self.collapse:
+            return self.collapse.still_j
+        if self._still_j is None:
+            alone = stances(self.structure, standing_of(self.case, self.structure))
+            bounds = [
+                _LIFTED * np.sqrt(np.trace(part.model.inertia) * part.model.mass) * GRAVITY
+                for place, part in enumerate(self.structure.parts)
+                if part.held < 0 and place not in alone
+            ]
+            bounds += [self.barrier_j] if self.barrier_j > 0 else []
+            self._still_j = REST_SHARE * min(bounds, default=0.0)
+        return self._still_j
 
     def energy_left(self) -> float:
         """As of Analysis; kinetic energy alone [J] where contact is found, as bodies may come to
@@ -209,7 +226,11 @@ class OfStructure(Analysis):
         displacement is known beyond which they fall.
         """
         structure = self.structure
-        found = stances(structure, standing_of(self.case, structure))
+        standing = standing_of(self.case, structure)
+        found = stances(structure, standing)
+        for place, foot in feet_on_springs(structure, standing).items():
+            if place in found:
+                found[place] = found[place]._replace(critical=foot.critical)
         displacement = None
         if len(structure.parts) == 1 and found:
             place, mark = structure.observed

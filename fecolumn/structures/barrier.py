@@ -16,8 +16,10 @@ from fecolumn.contact.overturning import Stance, stance
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import edge_points
+from fecolumn.structures.foot_on_springs import FootOnSprings
 from fecolumn.structures.model import Joint, StructureModel
 from fecolumn.structures.place import Standing, footing, placed, supports_of
+from fecolumn.structures.spring_areas import spring_areas
 
 # Directions [deg] in which a body is leaned; the least energy is in that of its weakest edge
 _DIRECTIONS = (0.0, 90.0, 180.0, 270.0)
@@ -116,13 +118,17 @@ def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
                     )
                 )
                 break
-    lifts += [overturning.barrier(one) for one in _together(standing, joints)]
+    together = _together(standing, joints)
+    lifts += [overturning.barrier(one) for _, one, _ in together]
+    lifts += [foot.barrier for _, _, foot in together if foot is not None]
     return float(min((lift for lift in lifts if lift > 0), default=0.0))
 
 
-def _together(standing: list[Standing], joints: list[Joint]) -> list[Stance]:
-    """Stances of each part as one rigid body with all that stands on it, wherever these can stand
-    together.
+def _together(
+    standing: list[Standing], joints: list[Joint]
+) -> list[tuple[int, Stance, FootOnSprings | None]]:
+    """Places of parts, and stances of each as one rigid body with all that stands on it, wherever
+    these can stand together; with what soil or a pad makes of it, None where there is none.
     """
     supports, found = supports_of(standing, joints), []
     for place in range(len(standing)):
@@ -145,5 +151,33 @@ def _together(standing: list[Standing], joints: list[Joint]) -> list[Stance]:
             if is_level(standing, joint)
         ]
         if under and (one := _stance_of(sorted(moved), under, standing, np.eye(3), 0.0)):
-            found.append(one)
+            found.append((place, one, _foot_on_springs(one, sorted(moved), under, standing)))
     return found
+
+
+def _foot_on_springs(
+    one: Stance, places: list[int], under: list[Joint], standing: list[Standing]
+) -> FootOnSprings | None:
+    """Of parts that move as one rigid body on joints that all have pads; None of others."""
+    if any(joint.pad is None or joint.slave not in places for joint in under):
+        return None
+    masses = np.array([standing[place].model.mass for place in places])
+    center = masses @ np.array([standing[place].center for place in places]) / masses.sum()
+    arms, stiffness = [], []
+    for joint in under:
+        assert joint.pad is not None
+        slave, rows = standing[joint.slave], spring_areas(standing, joint)[1]
+        nodes = slave.model.surfaces[joint.slave_surface].nodes[rows]
+        arms.append(slave.center + slave.model.arms[nodes] - center)
+        stiffness.append(joint.pad.stiffness[rows, 2])
+    return FootOnSprings.of(one, np.concatenate(arms), np.concatenate(stiffness))
+
+
+def feet_on_springs(
+    structure: StructureModel, standing: list[Standing]
+) -> dict[int, FootOnSprings]:
+    """By place, of the parts of a structure that stand on soil or pads alone, each with all that is
+    on it as one rigid body.
+    """
+    together = _together(standing, list(structure.joints))
+    return {place: foot for place, _, foot in together if foot is not None}

@@ -25,6 +25,7 @@ from fecolumn.structures.check import (
     check_rest,
     tell_of_gaps,
 )
+from fecolumn.structures.check_soil import check_soil
 from fecolumn.structures.ground import bases_of
 from fecolumn.structures.hulls import found_contact
 from fecolumn.structures.made_layout import layout_on_disk
@@ -143,6 +144,7 @@ def assembled(
     tell_of_densities(case, bodies, layout["outlines"], file)
     check_sense(case, structure, standing, extents, file)
     check_rest(case, structure, standing, file)
+    check_soil(case, structure, standing, extents, file)
     return structure
 
 

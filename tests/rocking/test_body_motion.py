@@ -90,6 +90,17 @@ def test_the_ground_pushes_a_body_as_its_centre_of_mass_accelerates(engine, body
         np.testing.assert_allclose(np.hypot(*foot[leans, :2].T), 0.2)
 
 
+@pytest.mark.parametrize("seconds", [0.4, 1.5, 3.0])
+@pytest.mark.parametrize("engine, body", [("housner", BLOCK), ("wobbling", DRUM)])
+def test_what_is_let_go_beyond_its_critical_tilt_has_overturned_however_long_it_is_followed(
+    engine, body, seconds, tmp_path
+):
+    made = case(engine, dict(body=body), FOOT, initial=dict(body=dict(tilt_rad=0.26)))
+    made = made.replace({"integration.duration_s": seconds})
+    summary = run(made, tmp_path / "run", quiet=True)
+    assert summary["outcome"] == "overturned" and summary["overturn_time_s"] < 1e-2
+
+
 def test_forces_of_a_rocking_model_are_drawn(tmp_path):
     made = case("wobbling", dict(body=DRUM), FOOT, initial=dict(body=dict(tilt_rad=0.05)))
     run(made, tmp_path / "run", quiet=True)

@@ -36,7 +36,6 @@ class ModelAnalysis(Analysis):
         self, case: Case, folder: Path, comm: MPI.Intracomm, file: str, quiet: bool
     ) -> None:
         super().__init__(case, folder, comm, file, quiet)
-        self.file = file
         self.model, self.start = model_of(case, file), start_of(case, file)
         self.model.respond(
             GroundMotion(np.zeros((2, 3)), 1e-3, "", "")

@@ -23,6 +23,8 @@ from fecolumn.motions.record import GroundMotion
 SAFE = "safe"
 #: Terms of the energy that are of a state, not added up over time.
 STATE_TERMS = ("kinetic", "strain", "gravity")
+#: Times the free motion that is followed is doubled for a fall that is bound to come
+PATIENCE = 8
 
 
 @dataclass(frozen=True, slots=True, eq=False)

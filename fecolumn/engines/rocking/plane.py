@@ -12,7 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction, moved_about_edge
+from fecolumn.engines.rocking.model import (
+    PATIENCE,
+    ModelResponse,
+    balanced,
+    check_friction,
+    moved_about_edge,
+)
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.swing import (
     FALL_TIME,
@@ -38,9 +44,6 @@ from fecolumn.engines.rocking.swing import (
     rock_one,
 )
 from fecolumn.motions.record import GroundMotion
-
-# Times the free motion that is followed is doubled for a fall that is bound to come
-_PATIENCE = 8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -197,7 +200,7 @@ class Plane:
         followed to its end.
         """
         ground, row = motion.acceleration[:, [self.axis, 2]], self.row
-        for patience in range(_PATIENCE):
+        for patience in range(PATIENCE):
             longer = free_s if patience == 0 else free_s + 2.0**patience / row[P2] ** 0.5
             states, impacts, found = rock_one(
                 ground, motion.dt, row, free_s=longer, tilt=tilt, tilt_rate=rate

@@ -20,7 +20,13 @@ from fecolumn.case.model_sections import WobblingSection
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.column import RigidColumn
-from fecolumn.engines.rocking.model import ModelResponse, balanced, check_friction, moved_about_edge
+from fecolumn.engines.rocking.model import (
+    PATIENCE,
+    ModelResponse,
+    balanced,
+    check_friction,
+    moved_about_edge,
+)
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
@@ -183,7 +189,9 @@ class Wobbling:
         tilt_rate: float = 0.0,
         direction: float = 0.0,
     ) -> ModelResponse:
-        """As of Model; `impact_times` are those of passing upright in a plane or nearly so."""
+        """As of Model; `impact_times` are those of passing upright in a plane or nearly so. What
+        leans beyond its critical tilt at the end is followed until it has fallen or comes back.
+        """
         from fecolumn.engines.rocking.wobbling_motion import (
             LIFTED_TILT,
             WOBBLE_LOSS,
@@ -194,19 +202,24 @@ class Wobbling:
             wobble,
         )
 
-        ground = np.concatenate([motion.acceleration, np.zeros((math.ceil(free_s / motion.dt), 3))])
         start = np.array(
             [max(tilt, LIFTED_TILT) if tilt or tilt_rate else 0.0, direction, tilt_rate, 0.0]
         )
-        rows, passages, fallen = wobble(
-            self.body,
-            ground,
-            motion.dt,
-            start,
-            self.critical_tilt,
-            STEP_TOLERANCE,
-            self.restitution,
-        )
+        for patience in range(PATIENCE):
+            longer = free_s if patience == 0 else free_s + 2.0**patience / self.frequency
+            still = np.zeros((math.ceil(longer / motion.dt), 3))
+            ground = np.concatenate([motion.acceleration, still])
+            rows, passages, fallen = wobble(
+                self.body,
+                ground,
+                motion.dt,
+                start,
+                self.critical_tilt,
+                STEP_TOLERANCE,
+                self.restitution,
+            )
+            if fallen or rows[-1, 1] <= self.critical_tilt:
+                break
         base = self._base_force(foot_forces(self.body, rows, ground[: len(rows)]), rows)
         notes, peaks = self._check_forces(base, rows)
         kinetic, strain, gravity = self.columns * energies(self.body, rows).T
