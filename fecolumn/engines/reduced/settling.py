@@ -174,13 +174,13 @@ class Settling:
 
         From x0 it went to x1, so that k M (x0 - x1) is not balanced at x1; K being the stiffness
         there, x1 + (K + k e M)^-1 k M (x1 - x0) would be at rest (Newton). Where contact changes
-        too much on the way, a half of it, and so on. Not where anything slides, unless links hold
-        it: nothing else would. Links are answered by small steps, in which faces that touch as they
-        are drawn come to carry but slowly: where the points that carry lead nowhere, all that touch
-        are taken to carry.
+        too much on the way, a half of it, and so on. Not where anything slides that no link pulls
+        at: nothing would hold it. Links are answered by small steps, in which faces that touch as
+        they are drawn come to carry but slowly: where the points that carry lead nowhere, all that
+        touch are taken to carry.
         """
         linked = len(self.structure.links) > 0
-        if self._slides() and not linked:
+        if self._slides_freely():
             return False
         return self._leads(0.0) or linked and self._leads(TOUCHES * self.height)
 
@@ -208,11 +208,17 @@ class Settling:
             motions.copy(self._kept, start)
         return False
 
-    def _slides(self) -> bool:
-        """Whether any point that carries slides."""
-        force, friction = self._start.contact["force"], self.engine.work.points["friction"]
+    def _slides_freely(self) -> bool:
+        """Whether any point that carries slides between bodies at which no link pulls."""
+        force, points = self._start.contact["force"], self.engine.work.points
         shear = np.hypot(*force[:, :2].T)
-        return bool(((force[:, 2] > 0) & (shear >= STICKS * friction * force[:, 2])).any())
+        slides = (force[:, 2] > 0) & (shear >= STICKS * points["friction"] * force[:, 2])
+        links, ties = self.structure.links, self._start.ties
+        pulls = links[(ties["force"] != 0.0) & ~ties["broken"]]
+        held = np.union1d(pulls["a"], pulls["b"])
+        held = held[held >= 0]
+        tied = np.isin(points["slave"], held) | np.isin(points["master"], held)
+        return bool((slides & ~tied).any())
 
     def _is_used_up(self) -> bool:
         """Whether the last step breaks or settles anything, which stays, or yields otherwise than
