@@ -63,8 +63,7 @@ def _stance_of(
     """Stance of parts that move as one rigid body on `joints`; None where what is below them is not
     level, or no area.
     """
-    masses = np.array([standing[place].model.mass for place in places])
-    center = masses @ np.array([standing[place].center for place in places]) / masses.sum()
+    mass, center = _mass_of(standing, places)
     arms = np.concatenate([_footing(standing, joint) for joint in joints]) - center
     width = np.ptp(arms[:, :2], axis=0)
     if (
@@ -72,7 +71,14 @@ def _stance_of(
         or np.ptp(arms[:, 2]) > _LEVEL * width.max()
     ):
         return None
-    return stance(arms, inertia, masses.sum() * GRAVITY, friction, 0.0)
+    return stance(arms, inertia, mass * GRAVITY, friction, 0.0)
+
+
+def _mass_of(standing: Sequence[Standing], places: Sequence[int]) -> tuple[float, NDArray[Any]]:
+    """Mass [kg] and centre of mass (3,) [m] of parts together."""
+    masses = np.array([standing[place].model.mass for place in places])
+    centers = np.array([standing[place].center for place in places])
+    return float(masses.sum()), masses @ centers / masses.sum()
 
 
 def _footing(standing: list[Standing], joint: Joint) -> NDArray[Any]:
@@ -161,16 +167,14 @@ def _foot_on_springs(
     """Of parts that move as one rigid body on joints that all have pads; None of others."""
     if any(joint.pad is None or joint.slave not in places for joint in under):
         return None
-    masses = np.array([standing[place].model.mass for place in places])
-    center = masses @ np.array([standing[place].center for place in places]) / masses.sum()
-    arms, stiffness = [], []
+    center, arms, stiffness = _mass_of(standing, places)[1], [], []
     for joint in under:
         assert joint.pad is not None
         slave, rows = standing[joint.slave], spring_areas(standing, joint)[1]
         nodes = slave.model.surfaces[joint.slave_surface].nodes[rows]
         arms.append(slave.center + slave.model.arms[nodes] - center)
         stiffness.append(joint.pad.stiffness[rows, 2])
-    return FootOnSprings.of(one, np.concatenate(arms), np.concatenate(stiffness))
+    return FootOnSprings(one, np.concatenate(arms), np.concatenate(stiffness))
 
 
 def feet_on_springs(

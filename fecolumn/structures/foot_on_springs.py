@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -23,36 +24,49 @@ _TILTS = 200
 
 @dataclass(frozen=True)
 class FootOnSprings:
-    """critical: tilt [rad] towards the weakest edge at which it is lost without help, 0 of a body
-    that does not stand upright; barrier: energy [J] that takes it there slowly. sinks: way [m] by
-    which it settles upright. holds: stiffness of its springs against tilting over its weight times
-    the height of its centre of mass, less than 1 of a body that does not stand.
+    """stance: of the body on rigid ground. arms: (n, 3) [m] points of its foot from the centre of
+    mass, stiffness: (n,) [N/m] of the springs below them.
     """
 
-    critical: float
-    barrier: float
-    sinks: float
-    holds: float
+    stance: Stance
+    arms: NDArray[Any]
+    stiffness: NDArray[Any]
 
-    @classmethod
-    def of(cls, stance: Stance, arms: NDArray[Any], stiffness: NDArray[Any]) -> FootOnSprings:
-        """Of a body with springs of a stiffness (n,) [N/m] below points at `arms` (n, 3) [m] from
-        its centre of mass.
+    @property
+    def sinks(self) -> float:
+        """Way [m] by which it settles upright."""
+        return float(self.stance.weight / self.stiffness.sum())
+
+    @property
+    def holds(self) -> float:
+        """Stiffness of its springs against tilting over its weight times the height of its centre
+        of mass, less than 1 of a body that does not stand.
         """
-        along = arms[:, :2] @ weakest(stance.corners)[1]
-        tilts = np.linspace(0.0, max(stance.critical, 0.0), _TILTS + 1)
-        energy = np.array([_energy(tilt, stance, along, stiffness) for tilt in tilts])
+        middle = self.stiffness @ self.arms[:, :2] / self.stiffness.sum()
+        away = self.arms[:, :2] - middle
+        weakly = np.linalg.eigvalsh((self.stiffness * away.T) @ away)[0]
+        return float(weakly / (self.stance.weight * self.stance.depth))
+
+    @property
+    def critical(self) -> float:
+        """Tilt [rad] towards the weakest edge at which it is lost without help, 0 of a body that
+        does not stand upright.
+        """
+        return self._summit[0]
+
+    @property
+    def barrier(self) -> float:
+        """Energy [J] that takes it to the critical tilt slowly."""
+        return self._summit[1]
+
+    @cached_property
+    def _summit(self) -> tuple[float, float]:
+        """Critical tilt [rad] and barrier [J]."""
+        along = self.arms[:, :2] @ weakest(self.stance.corners)[1]
+        tilts = np.linspace(0.0, max(self.stance.critical, 0.0), _TILTS + 1)
+        energy = np.array([_energy(tilt, self.stance, along, self.stiffness) for tilt in tilts])
         highest = int(np.argmax(energy))
-        sinks = stance.weight / stiffness.sum()
-        middle = stiffness @ arms[:, :2] / stiffness.sum()
-        away = arms[:, :2] - middle
-        weakly = np.linalg.eigvalsh((stiffness * away.T) @ away)[0]
-        return cls(
-            float(tilts[highest]),
-            float(energy[highest] - energy[: highest + 1].min()),
-            float(sinks),
-            float(weakly / (stance.weight * stance.depth)),
-        )
+        return float(tilts[highest]), float(energy[highest] - energy[: highest + 1].min())
 
 
 def _energy(tilt: float, stance: Stance, along: NDArray[Any], stiffness: NDArray[Any]) -> float:

@@ -26,7 +26,7 @@ def on_springs(stiffness: float, count: int = 80) -> FootOnSprings:
     half = SIDE / 2
     corners = np.array([[sx * half, sy * half, -HEIGHT / 2] for sx in (-1, 1) for sy in (-1, 1)])
     foot = stance(corners, np.eye(3), MASS * GRAVITY, 0.5, 0.0)
-    return FootOnSprings.of(foot, arms, np.full(x.size, stiffness * SIDE**2 / x.size))
+    return FootOnSprings(foot, arms, np.full(x.size, stiffness * SIDE**2 / x.size))
 
 
 def test_on_stiff_springs_it_is_that_of_rigid_ground():
