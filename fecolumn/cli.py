@@ -21,6 +21,9 @@ from typing import TYPE_CHECKING, TextIO, cast
 if TYPE_CHECKING:
     from fecolumn.case.case import Case
 
+# Warnings that were told
+_TOLD: set[str] = set()
+
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command; returns 0, 1 where an analysis failed, 2 where the input is refused, 130 after
@@ -92,8 +95,10 @@ def _show_warning(
     file: TextIO | None = None,
     line: str | None = None,
 ) -> None:
-    """One line, from one rank."""
-    _refuse(f"warning: {message}", 0)
+    """One line, from one rank; what was told once is not told again."""
+    if str(message) not in _TOLD:
+        _TOLD.add(str(message))
+        _refuse(f"warning: {message}", 0)
 
 
 def _refuse(message: object, code: int) -> int:

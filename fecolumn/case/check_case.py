@@ -56,8 +56,8 @@ def check(case: CheckedCase, file: Path | str) -> None:
             "stands on the ground",
         )
     for name, interface in case.joints.items():
-        _check_name(case, f"joints.{name}", interface.slave, refuse, ground=False)
-        _check_name(case, f"joints.{name}", interface.on, refuse)
+        _check_name(case, f"joints.{name}.between", interface.slave, refuse, ground=False)
+        _check_name(case, f"joints.{name}.between", interface.on, refuse)
         if all(case.is_held(one) for one in (interface.slave, interface.on)):
             told = f'"{interface.slave}" and "{interface.on}" are both fixed'
             refuse(f"joints.{name}", None, f"must name a body that moves: {told}")

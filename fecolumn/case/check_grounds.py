@@ -23,8 +23,6 @@ _ON_PAD = (
     "must be 0 on a pad, whose springs take the place of impacts: its damping_ratio takes energy "
     "there"
 )
-# Of bodies that do not stand on their nodes as they are
-_NOT_FLAT = ("foot_radius_m", "edge_radius_m")
 
 
 def check_grounds(case: CheckedCase, refuse: Refuse) -> None:
@@ -72,7 +70,6 @@ def _check_keys(case: CheckedCase, key: str, ground: Ground, refuse: Refuse) -> 
 
 
 def _check_interface(case: CheckedCase, key: str, interface: Interface, refuse: Refuse) -> None:
-    ground = case.grounds.get(interface.on)
     on_pad = _is_on_pad(case, interface)
     if interface.stiffness_n_m3 is None:
         for one in ("shear_stiffness_n_m3", "damping_ratio", "yield_pa"):
@@ -81,15 +78,3 @@ def _check_interface(case: CheckedCase, key: str, interface: Interface, refuse: 
     for one in _OF_IMPACTS:
         if on_pad and (value := getattr(interface, one)):
             refuse(f"{key}.{one}", value, _ON_PAD)
-    if not on_pad and (ground is None or ground.kind == "rigid"):
-        return
-    bodies = [interface.slave] + [interface.on] * (ground is None)
-    for body in {body: None for one in bodies for body, _ in case.copies_of(one)}:
-        for one in _NOT_FLAT:
-            if value := getattr(case.bodies[body], one, None):
-                refuse(
-                    f"bodies.{body}.{one}",
-                    value,
-                    f"must be left out where {key} is on a pad or on ground that gives: how a "
-                    "round foot sinks in is not known",
-                )

@@ -285,12 +285,12 @@ def find_impact(touching, collision, contact_work, counts):
             return OK, False, impulses
         for j in range(3 * k):
             changed[j] *= kept
-    restitution = _restitutions(interfaces, points, union, landing)
-    if lands and restitution.any() and taken < 0.0:
+    if lands and taken < 0.0 and _any_rebounds(interfaces):
         _between(start, free, share, velocity)
         jump = _jump(mobility, carried)
         for j in range(3 * k):
             velocity[j] += jump[j]
+        restitution = _restitutions(interfaces, points, union, landing, velocity, start, free)
         landing_impulses, solved = all_impulses(
             mobility, velocity, friction, second, speed, pressed, counts
         )
@@ -376,21 +376,47 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, known):
 
 
 @njit
-def _restitutions(interfaces, points, union, landing):
+def _any_rebounds(interfaces):
+    """Whether any of the interfaces (ni,) has a restitution."""
+    for k in range(len(interfaces)):
+        if interfaces[k].restitution > 0.0:
+            return True
+    return False
+
+
+@njit
+def _restitutions(interfaces, points, union, landing, velocity, start, free):
     """Restitution (k,) of the points `union` (k,).
 
     Where a point of a joint lands, all points of the joint have the joint's own restitution. A
     point of a joint that carried before only transmits the impact: it has the least restitution of
     the joints that land.
+
+    A joint gives nothing back where none of its points would rise for longer than a step. A point
+    that arrives with v leaves with e v and rises for e v / a, a being how fast it is drawn to the
+    other face. Without this rule a body would go on arriving with what its weight gives it in a
+    step, and never rest.
+
+    Parameters
+    ----------
+    velocity, start, free
+        (3 k,) at the impact, at the start of the step, and at its end without contact [m/s].
     """
-    least, lands, found = np.inf, np.zeros(len(interfaces), np.bool_), np.zeros(len(union))
-    for i in union:
-        if landing[i]:
-            lands[points[i].interface] = True
-            least = min(least, interfaces[points[i].interface].restitution)
+    lands, own = np.zeros(len(interfaces), np.bool_), np.zeros(len(interfaces))
+    for j in range(len(union)):
+        if landing[union[j]]:
+            k = points[union[j]].interface
+            lands[k] = True
+            drawn = start[3 * j + 2] - free[3 * j + 2]
+            if -interfaces[k].restitution * velocity[3 * j + 2] > drawn:
+                own[k] = interfaces[k].restitution
+    least, found = np.inf, np.zeros(len(union))
+    for k in range(len(interfaces)):
+        if lands[k]:
+            least = min(least, own[k])
     for j in range(len(union)):
         k = points[union[j]].interface
-        found[j] = interfaces[k].restitution if lands[k] else least
+        found[j] = own[k] if lands[k] else least
     return found
 
 

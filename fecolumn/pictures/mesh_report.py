@@ -290,7 +290,7 @@ def _interfaces(case: Case, structure: StructureModel) -> list[str]:
                 len(over),
                 float(surface.areas[over].sum()),
                 float(joint.friction),
-                "dome" if joint.ball and joint.ball.is_dome else rim,
+                "dome" if joint.on_dome else rim,
             )
         )
     columns = (

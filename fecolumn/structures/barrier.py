@@ -85,7 +85,7 @@ def _footing(standing: list[Standing], joint: Joint) -> NDArray[Any]:
     """Points (n, 3) [m] where the bodies of a joint touch, over which the upper one tips; of a dome
     on its edge.
     """
-    if joint.ball and joint.ball.is_dome:
+    if joint.ball is not None and joint.on_dome:
         slave = standing[joint.slave]
         arms = slave.model.arms[slave.model.surfaces[joint.slave_surface].nodes]
         edge: NDArray[Any] = slave.center + arms[0] + edge_points(joint.ball)
@@ -164,8 +164,13 @@ def _together(
 def _foot_on_springs(
     one: Stance, places: list[int], under: list[Joint], standing: list[Standing]
 ) -> FootOnSprings | None:
-    """Of parts that move as one rigid body on joints that all have pads; None of others."""
+    """Of parts that move as one rigid body on joints that all have pads; None of others, and of
+    those that stand on a dome and on more.
+    """
     if any(joint.pad is None or joint.slave not in places for joint in under):
+        return None
+    radius = under[0].ball.radius if under[0].ball and under[0].on_dome else 0.0
+    if len(under) > 1 and any(joint.on_dome for joint in under):
         return None
     center, arms, stiffness = _mass_of(standing, places)[1], [], []
     for joint in under:
@@ -174,7 +179,7 @@ def _foot_on_springs(
         nodes = slave.model.surfaces[joint.slave_surface].nodes[rows]
         arms.append(slave.center + slave.model.arms[nodes] - center)
         stiffness.append(joint.pad.stiffness[rows, 2])
-    return FootOnSprings(one, np.concatenate(arms), np.concatenate(stiffness))
+    return FootOnSprings(one, np.concatenate(arms), np.concatenate(stiffness), radius)
 
 
 def feet_on_springs(

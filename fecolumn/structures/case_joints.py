@@ -110,13 +110,13 @@ def with_hertz(
     case: Case, joints: list[Joint], standing: list[Standing], copies: list[tuple[str, int]]
 ) -> list[Joint]:
     """The joints, domes with the compliance of a sphere on what they stand on, linear about what
-    they carry at rest; none in the rigid engine.
+    they carry at rest; none in the rigid engine, nor on a pad, which spreads the force.
     """
     if case.integration.engine == "rigid":
         return joints
     found = []
     for joint, load in zip(joints, loads(standing, joints)):
-        if joint.ball and joint.ball.is_dome:
+        if joint.ball and joint.on_dome and joint.pad is None:
             bodies = [
                 case.bodies[copies[place][0]]
                 for place in (joint.slave, joint.master)

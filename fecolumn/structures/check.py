@@ -224,9 +224,7 @@ def check_joints(joints: list[Joint], standing: list[Standing], file: Path | str
     for joint in joints:
         count[frozenset((joint.slave, joint.master))] += len(footing(standing, joint))
     for joint in joints:
-        if count[frozenset((joint.slave, joint.master))] < (
-            1 if joint.ball and joint.ball.is_dome else 3
-        ):
+        if count[frozenset((joint.slave, joint.master))] < (1 if joint.on_dome else 3):
             raise InputError(
                 file,
                 f"joints.{joint.name.partition(':')[0]}",
@@ -236,24 +234,22 @@ def check_joints(joints: list[Joint], standing: list[Standing], file: Path | str
             )
 
 
-def tell_of_gaps(joints: list[Joint], standing: list[Standing], file: Path | str) -> None:
-    """Warn of joints that begin open, once for all pairs of a joint."""
+def tell_of_gaps(
+    joints: list[Joint], standing: list[Standing], grounds: Sequence[str], file: Path | str
+) -> None:
+    """Warn of joints that begin open, once for all pairs of a joint; grounds: their names."""
     pairs: dict[str, list[Joint]] = {}
     for joint in joints:
         if joint.gap and joint.pair < 0:
             pairs.setdefault(joint.name.partition(":")[0], []).append(joint)
     for name, apart in pairs.items():
         widest = max(joint.gap for joint in apart)
-        told = f"{_between(apart[0], standing)} begin {apart[0].gap:.4g} m apart"
+        first = apart[0]
+        below = grounds[first.ground] if first.master == GROUND else standing[first.master].name
+        told = f'"{standing[first.slave].name}" and "{below}" begin {first.gap:.4g} m apart'
         if len(apart) > 1:
             told += f", and {len(apart) - 1} more pairs; {widest:.4g} m at most"
         warnings.warn(f"{file}: joints.{name}: {told}", stacklevel=2)
-
-
-def _between(joint: Joint, standing: list[Standing]) -> str:
-    """Names of both bodies of a joint."""
-    master = "the ground" if joint.master == GROUND else f'"{standing[joint.master].name}"'
-    return f'"{standing[joint.slave].name}" and {master}'
 
 
 def check_links(case: Case, extents: dict[str, list[list[float]]], file: Path | str) -> None:

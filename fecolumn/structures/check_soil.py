@@ -49,7 +49,7 @@ def check_soil(
                 f'"{name}" with what stands on it would sink by {foot.sinks:.3g} m, more than its '
                 f"height of {high:.3g} m"
             )
-        elif foot.holds <= 1 and not held:
+        elif foot.holds <= 1 and not held and not foot.radius:
             least = keys.stiffness_n_m3 / foot.holds
             told = (
                 f'"{name}" with what stands on it would tip over: it must be more than '

@@ -20,7 +20,8 @@ from fecolumn.foundation.digests import remove_damaged
 from fecolumn.foundation.lock import alone
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.base_plate import depths, plate_line
-from fecolumn.structures.model import Joint, Part
+from fecolumn.structures.feet import edge_points
+from fecolumn.structures.model import BodyModel, Joint, Part
 from fecolumn.structures.place import Standing
 from fecolumn.structures.store import key_of
 
@@ -76,15 +77,20 @@ def bases_of(
 def feet_on(
     standing: Sequence[Standing | Part], joints: Iterable[Joint], ground: int
 ) -> list[NDArray[Any]]:
-    """Places (n, 3) [m] of the nodes of each foot on a ground."""
+    """Places (n, 3) [m] of the nodes of each foot on a ground; of a dome its middle and its edge."""
     return [
-        standing[joint.slave].center
-        + standing[joint.slave].model.arms[
-            standing[joint.slave].model.surfaces[joint.slave_surface].nodes
-        ]
+        standing[joint.slave].center + _foot_arms(standing[joint.slave].model, joint)
         for joint in joints
         if joint.master == GROUND and joint.ground == ground
     ]
+
+
+def _foot_arms(model: BodyModel, joint: Joint) -> NDArray[Any]:
+    """Arms (n, 3) [m] of the nodes of a foot; of a dome those of its middle and of its edge."""
+    arms: NDArray[Any] = model.arms[model.surfaces[joint.slave_surface].nodes]
+    if joint.ball is None or not joint.on_dome:
+        return arms
+    return np.concatenate([arms, arms[0] + edge_points(joint.ball)])
 
 
 def _base(

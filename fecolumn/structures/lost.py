@@ -47,7 +47,7 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
     for joint in joints:
         if not is_level(standing, joint):
             held |= {joint.slave, joint.master}
-        if joint.ball and joint.ball.is_dome:
+        if joint.on_dome:
             held.add(joint.slave)
     tilts, rows, _ = Limits.of_tilt(len(standing))
     fall = set(structure.found.parts) if structure.found else set()

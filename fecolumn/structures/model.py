@@ -242,6 +242,11 @@ class Joint:
     gap: float = 0.0
     bond: Bond | None = None
 
+    @property
+    def on_dome(self) -> bool:
+        """Whether the slave's foot is a dome."""
+        return self.ball is not None and self.ball.is_dome
+
 
 @dataclass(frozen=True)
 class Link:

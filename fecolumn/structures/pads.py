@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import warnings
 from pathlib import Path
 from typing import Any
@@ -62,10 +63,14 @@ def with_pads(
     found, carried = list(joints), loads(standing, joints)
     for where in dict.fromkeys(where for _, where in pads if where):
         own = [k for k, (_, other) in enumerate(pads) if other == where]
-        springs = [spring_areas(standing, joints[k]) for k in own]
+        springs = [_areas_below(standing, joints[k], carried[k], pads[k], file) for k in own]
         touched = np.array([areas[rows].sum() for areas, rows in springs])
         # several faces of one body on another carry its load together
-        pressures = [carried[k] / _area_below(standing, joints, joints[k]) for k in own]
+        pressures = [
+            carried[k]
+            / (areas.sum() if joints[k].on_dome else _area_below(standing, joints, joints[k]))
+            for k, (areas, _) in zip(own, springs)
+        ]
         mass = np.dot(pressures, touched) / GRAVITY / touched.sum()
         for k, (areas, rows), pressure in zip(own, springs, pressures):
             keys = pads[k][0]
@@ -90,6 +95,50 @@ def with_pads(
     return found
 
 
+def _areas_below(
+    standing: list[Standing],
+    joint: Joint,
+    load: float,
+    pad: tuple[Interface | Ground | None, str],
+    file: Path | str,
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """As `spring_areas`; of a dome the area of the circle in which it touches at rest.
+
+    A sphere of radius R on springs of stiffness k per area sinks in by d under a force
+    pi k R d^2, over a circle of area 2 pi R d: the stiffness about that is k times that area.
+
+    Raises
+    ------
+    InputError
+        a dome that sinks in up to its edge, or stands on springs that yield.
+    """
+    if not joint.on_dome:
+        return spring_areas(standing, joint)
+    (keys, where), name = pad, standing[joint.slave].name
+    assert keys is not None and keys.stiffness_n_m3 and joint.ball is not None
+    if keys.yield_pa:
+        raise InputError(
+            file,
+            f"{where}.yield_pa",
+            keys.yield_pa,
+            f'must be left out below the dome of "{name}": where springs yield, the circle in '
+            "which it touches grows",
+        )
+    stiffness, radius = keys.stiffness_n_m3, joint.ball.radius
+    load = load or standing[joint.slave].model.mass * GRAVITY
+    area = 2 * math.sqrt(math.pi * radius * load / stiffness)
+    edge = min(side for side in joint.ball.edge if side)
+    if area > math.pi * edge**2:
+        raise InputError(
+            file,
+            f"{where}.stiffness_n_m3",
+            stiffness,
+            f'lets the dome of "{name}" sink in up to its edge at rest: it must be more than '
+            f"{4 * radius * load / (math.pi * edge**4):.4g} N/m3",
+        )
+    return np.array([area]), np.arange(1)
+
+
 def _tell_of_few_points(
     standing: list[Standing],
     joint: Joint,
@@ -101,7 +150,7 @@ def _tell_of_few_points(
     """Warn of points that are too few to resist rocking as the region does in which both faces
     touch.
     """
-    ratio = stiffer_in_rocking(standing, joint, areas, rows)
+    ratio = 1.0 if joint.on_dome else stiffer_in_rocking(standing, joint, areas, rows)
     if abs(ratio - 1) > ROCKS_AMISS:
         slave = standing[joint.slave].name
         warnings.warn(

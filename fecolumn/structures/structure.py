@@ -85,9 +85,9 @@ def assembled(
         for contact in layout["contacts"]
     ]
     check_joints(joints, standing, file)
-    joints = with_hertz(case, joints, standing, copies)
     interfaces = [one["interface"] for one in layout["contacts"]]
     joints = with_pads(case, joints, standing, interfaces, file)
+    joints = with_hertz(case, joints, standing, copies)
     joints = with_bonds(case, joints, standing, interfaces, file)
     check_starts(joints, standing, file)
     parts = tuple(
@@ -139,7 +139,8 @@ def assembled(
         found_contact(case, places, outlines, file),
     )
     replaced = structure.replaced
-    tell_of_gaps([one for n, one in enumerate(joints) if n not in replaced], standing, file)
+    met = [one for n, one in enumerate(joints) if n not in replaced]
+    tell_of_gaps(met, standing, list(case.grounds), file)
     tell_of_lengths(case, file)
     tell_of_densities(case, bodies, layout["outlines"], file)
     check_sense(case, structure, standing, extents, file)

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 from small_block import ENGINES, block, centre, lowest, trial
 
-from fecolumn.case.sections import Initial
+from fecolumn.case.case import case_from_tables
+from fecolumn.case.sections import GRAVITY, Initial
 from fecolumn.engines.dynamics.gravity import begin
 from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.verification.structures_feet import BLOCK, columns_and_rows
 from fecolumn.verification.trial import afloat
 
 
@@ -77,3 +79,25 @@ def test_bounces_on_corners_with_friction_never_make_energy(engine):
     assert lowest(one) > -1e-4
     assert np.diff(taken).max() < 1e-9 * scale and taken[-1] < -scale
     assert one.energy()["friction"] < -0.1 * scale
+
+
+@pytest.mark.parametrize("engine", ["rigid", "reduced"])
+@pytest.mark.parametrize("e", [0.3, 0.8])
+def test_a_dropped_block_lies_still_after_the_time_of_all_its_bounces(engine, e):
+    """They take t (1 + e) / (1 - e), t being the time of the fall: the first half bounce and a
+    geometric series. The last ones are shorter than a step.
+    """
+    dt, fall = 1e-3, 0.01
+    case = case_from_tables(
+        dict(
+            bodies=dict(block=BLOCK | dict(at_m=[0.0, 0.0, fall])),
+            joints=dict(foot=dict(slave="block", on="ground")),
+            contact=dict(friction_coefficient=0.4, restitution=e, interior_points=4),
+            integration=dict(dt_s=dt, duration_s=9.0, engine=engine, start="drawn"),
+        ),
+        "drop",
+    )
+    rows, _ = columns_and_rows(case, 1.0)
+    speed = np.abs(np.diff(rows["body/block/displacement"][:, 2])) / dt
+    still = rows["time"][np.flatnonzero(speed > 1e-5)[-1] + 1]
+    assert still == pytest.approx(np.sqrt(2 * fall / GRAVITY) * (1 + e) / (1 - e), abs=15 * dt)

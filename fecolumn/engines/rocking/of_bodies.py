@@ -24,6 +24,7 @@ from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.model import Model
 from fecolumn.engines.rocking.models import ROCKING_MODELS
 from fecolumn.engines.rocking.podium import Podium
+from fecolumn.engines.rocking.soft_ground import tell_of_soft_ground
 from fecolumn.engines.rocking.storeys import shear_building
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
 from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
@@ -97,12 +98,15 @@ class _Reader:
             name = self.alone()
             body, friction = rigid_body(self.case, name, self.file), self._friction(name)
             self._check_standing(name, body)
+            tell_of_soft_ground(self.case, body, body.mass, self.file)
             kind = RockingBlock if self.engine == "housner" else Wobbling
             return kind.of_body(body, friction, self.file)
         name, slab = self.columns()
         count, friction = len(self.case.bodies[name].places), self._friction(name)
         body = rigid_body(self.case, name, self.file)
         self._check_standing(name, body, slab)
+        carried = body.mass + self._mass(slab) / count
+        tell_of_soft_ground(self.case, body, carried, self.file)
         if self.engine == "wobbling_frame":
             return self._wobbling_frame(name, body, slab, count, friction)
         half, height = self._upright_block(name)

@@ -232,7 +232,7 @@ def _contact(joint: Joint, shown: _Shown, part: Part, first: NDArray[Any]) -> Jo
     faces = shown.face(part.model, joint.slave_surface) + first[joint.slave]
     name = joint.name.partition(":")[0]
     origin = part.center + surface.origin
-    domed = bool(joint.ball and joint.ball.is_dome)
+    domed = joint.on_dome
     return JointFace(
         name,
         part.name,
