@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 from rocking_analyses import BLOCK, DRUM, analysed
 
+from fecolumn.case.case import case_from_tables
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.frames import Frames
 from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
+from fecolumn.structures.structure import structure_model
 
 
 @pytest.fixture(scope="module")
@@ -108,3 +110,29 @@ def test_states_are_few_numbers(drum):
     states = (drum / "states.h5").stat().st_size
     assert states < 2000 * (7 + 2)  # states, and what the file itself and its modes take
     assert DRUM["output"] == {"fields_every_s": 0.04}  # and they were kept without being asked for
+
+
+def test_the_pressure_below_a_standing_drum_adds_up_to_its_weight(tmp_path):
+    """Over the drawn faces, which are a polygon; nodes inside stand for many points."""
+    case = {
+        "bodies": {
+            "drum": {
+                "kind": "cylinder",
+                "outer_diameter_m": 0.4,
+                "height_m": 0.8,
+                "element_size_m": 0.05,
+                "youngs_modulus_pa": 50e9,
+                "poissons_ratio": 0.2,
+                "density_kg_m3": 2700.0,
+            }
+        },
+        "joints": {"foot": {"between": ["drum", "ground"]}},
+        "contact": {"interior_points": 9},
+        "integration": {"dt_s": 1e-3, "duration_s": 0.01, "n_modes": 4},
+    }
+    frame = Frames(read_result(analysed(case, tmp_path / "run")), np.array([0.005]), 0.01).frame(0)
+    corners = frame.faces[0]
+    across = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    areas = np.linalg.norm(np.cross(*across), axis=1) / 2
+    model = structure_model(case_from_tables(case, "drum")).parts[0].model
+    assert frame.pressures[0] @ areas == pytest.approx(model.mass * 9.80665, rel=1e-3)

@@ -108,6 +108,7 @@ class Engine:
         self._need_below(view.center, upright, self.spare.grounds, 0)
         self.surface = grounds_for_steps(self.bases)
         compile_for(advance, self._arguments(self._schemes_of(hht), self.spare, self.spare))
+        self.motion = self.motion_at_rest()
         self.motion = start(self)
         self.ledger[0] = self.mechanical()
 
@@ -294,11 +295,10 @@ class Engine:
         self.structure, self.points = self._build(self.hht, meetings)
         self.work, self._schemes = work_of(self.structure, self.points), {}
         self.spare, self.kept = self.motion_at_rest(), self.motion_at_rest()
-        if hasattr(self, "motion"):
-            before, self.motion = arrays_of(self.motion), self.motion_at_rest()
-            for name, values in arrays_of(self.motion).items():
-                if name != "meetings.buckets":
-                    values[: len(before[name])] = before[name]
+        before, self.motion = arrays_of(self.motion), self.motion_at_rest()
+        for name, values in arrays_of(self.motion).items():
+            if name != "meetings.buckets":
+                values[: len(before[name])] = before[name]
 
     def _cut(self, ground, answer) -> bool:
         """Make a failed step again in two halves, and a half that fails in halves, too.

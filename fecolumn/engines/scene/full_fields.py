@@ -94,7 +94,7 @@ class StructureFields:
             own = self._points[of == number]
             force = node_forces(seat, own["carriers"], own["weights"], forces[of == number, 2])
             shared = np.divide(force, seat.areas, out=np.zeros(len(force)), where=seat.areas > 0)
-            pressure[contact.points] += seat.shares @ shared
+            pressure[contact.points] += seat.shown(shared)
         return {
             "displacement": np.vstack(moved),
             "von_mises": np.concatenate(stress),

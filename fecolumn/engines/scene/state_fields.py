@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from fecolumn.contact.projection import nodes_under
 from fecolumn.contact.tolerances import SAME_PLACE
 from fecolumn.engines.reduced.states import Snapshot
-from fecolumn.engines.scene.scene import ElasticGround, Scene
+from fecolumn.engines.scene.scene import ElasticGround, JointFace, Scene
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -44,12 +44,26 @@ class Seat:
         (m, k) shares of these nodes in what each of the m points of the face shows: that of the
         nearest node, or the mean of all that are equally near; on the other side of a joint, whose
         nodes are on outlines alone, only of a node that is there.
+    drawn
+        (m,) [m2] of the drawn elements, tributary to these points; none on the other side of a
+        joint.
     """
 
     nodes: NDArray[Any]
     areas: NDArray[Any]
     plan: NDArray[Any]
     shares: csr_array
+    drawn: NDArray[Any]
+
+    def shown(self, pressure: NDArray[Any]) -> NDArray[Any]:
+        """Pressure (m,) [Pa] at the points of the face by that (k,) at the nodes. Its integral over
+        the drawn elements is the force: those of a round face are a polygon, and few nodes stand
+        for many points.
+        """
+        at_points: NDArray[Any] = self.shares @ pressure
+        if self.drawn.any() and (integral := at_points @ self.drawn) > 0:
+            at_points *= (pressure @ self.areas) / integral
+        return at_points
 
 
 def seats_of(structure: StructureModel, scene: Scene) -> list[Seat]:
@@ -61,10 +75,22 @@ def seats_of(structure: StructureModel, scene: Scene) -> list[Seat]:
         surface = part.model.surfaces[joint.slave_surface]
         plan = contact.plan(part.center + part.model.arms[surface.nodes])
         # of the other side of a joint only places on outlines carry: they do not stand for others
-        around = contact.pair < 0
-        shares = _shares_of_nearest(plan, contact.plan(scene.points[contact.points]), around)
-        seats.append(Seat(first[joint.slave] + surface.nodes, surface.areas, plan, shares))
+        around, points = contact.pair < 0, contact.plan(scene.points[contact.points])
+        shares = _shares_of_nearest(plan, points, around)
+        drawn = _tributary(contact, scene) if around else np.zeros(len(points))
+        seats.append(Seat(first[joint.slave] + surface.nodes, surface.areas, plan, shares, drawn))
     return seats
+
+
+def _tributary(contact: JointFace, scene: Scene) -> NDArray[Any]:
+    """Area (m,) [m2] of a contact's drawn faces that belongs to each of its points."""
+    corners = contact.plan(scene.points[contact.faces])
+    x, y = corners[..., 0], corners[..., 1]
+    areas = np.abs((x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1)) / 2
+    count = contact.faces.shape[1]
+    of_all = np.bincount(contact.faces.ravel(), np.repeat(areas / count, count), len(scene.points))
+    tributary: NDArray[Any] = of_all[contact.points]
+    return tributary
 
 
 def _shares_of_nearest(nodes: NDArray[Any], points: NDArray[Any], around: bool) -> csr_array:
@@ -203,7 +229,7 @@ class StateFields:
             )
         pressure = np.zeros(len(scene.points))
         for contact, seat, values in zip(scene.contacts, self.seats, self.pressures(state)[0]):
-            pressure[contact.points] = seat.shares @ values
+            pressure[contact.points] = seat.shown(values)
         return {
             "displacement": displacement,
             "von_mises": np.nan_to_num(stress),
