@@ -305,7 +305,7 @@ class ReducedAnalysis(OfStructure):
         had not been.
         """
         engine = self.engine
-        parts = {"motion": engine.motion, "secant": engine.work.secant}
+        parts: dict[str, Any] = {"motion": engine.motion, "secant": engine.work.secant}
         if sticks:
             parts["stick"] = engine.work.stick
         arrays = {

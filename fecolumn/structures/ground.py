@@ -77,7 +77,7 @@ def bases_of(
 def feet_on(
     standing: Sequence[Standing | Part], joints: Iterable[Joint], ground: int
 ) -> list[NDArray[Any]]:
-    """Places (n, 3) [m] of the nodes of each foot on a ground; of a dome its middle and its edge."""
+    """Places (n, 3) [m] of the nodes of each foot on a ground; of a dome middle and edge."""
     return [
         standing[joint.slave].center + _foot_arms(standing[joint.slave].model, joint)
         for joint in joints
