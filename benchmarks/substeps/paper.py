@@ -1,7 +1,8 @@
 """The study of Katsamakas and Vassiliou in both readings of a step: 115 motions x 3 time steps x 5
 alphas, with the step as it is asked for and with rims followed in parts of it.
 
-    ./containers/run python -m benchmarks.substeps.paper [-o DIR] [-j N] [--motions N] [--literal]
+    ./containers/run python -m benchmarks.substeps.paper [-o DIR] [-j N] [--motions N]
+        [--literal | --parts]
 
 Three tables, a line for each reading and step: how many overturn, by alpha; D of two steps, its p
 (steps swapped within motions) and McNemar's p, by alpha; and of all pairs of alphas the largest D,
@@ -49,7 +50,7 @@ def tables(found: dict[tuple[str, float, float], dict]) -> str:
         return [cell(*one) if all(one) else "" for one in runs]
 
     counts, steps, alphas = [], [], []
-    for name in READINGS:
+    for name in dict.fromkeys(reading for reading, _, _ in found):
         counts += [(f"{name}, {dt:g} s", *line(name, overturned, dt)) for dt in STEPS]
         steps += [
             (f"{name}, {one:g} and {other:g} s", *line(name, pair, one, other))
@@ -81,10 +82,14 @@ def main(given=None) -> None:
     parser.add_argument("-o", "--output", metavar="DIR", default="results/paper")
     parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--motions", metavar="N", type=int, default=115, help="the first of them")
-    parser.add_argument("--literal", action="store_true", help="the step as it is asked for alone")
+    only = parser.add_mutually_exclusive_group()
+    only.add_argument("--literal", action="store_true", help="the step as it is asked for alone")
+    only.add_argument("--parts", action="store_true", help="rims followed in parts of it alone")
     args = parser.parse_args(given)
     found = {}
-    for name, file in list(READINGS.items())[: 1 if args.literal else None]:
+    for name, file in READINGS.items():
+        if args.literal and name != "literal" or args.parts and name == "literal":
+            continue
         plan = read_plan(Path(__file__).parents[1] / f"{file}.toml")
         first = {f"lick:{number}" for number in range(1, args.motions + 1)}
         only = {one.id for one in plan.analyses if one.values["motion.source"] in first}
