@@ -20,6 +20,7 @@ import subprocess
 import sys
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 _INSTALL = "run through ./containers/run, which installs it"
 
@@ -117,7 +118,7 @@ def look_at_machine() -> list[LibraryFinding]:
 # ---------------------------------------
 
 
-def look_at_numpy():
+def look_at_numpy() -> Any:
     """Version and origin; advice where it is not Debian's, for which petsc4py was built."""
     import numpy
 
@@ -129,7 +130,7 @@ def look_at_numpy():
     )
 
 
-def look_at_scipy():
+def look_at_scipy() -> Any:
     """Version and origin, and whether it has stats.ecdf (scipy 1.11)."""
     import scipy.stats
 
@@ -140,7 +141,7 @@ def look_at_scipy():
     )
 
 
-def look_at_mpi():
+def look_at_mpi() -> Any:
     """The MPI library and mpi4py's version."""
     import mpi4py
     from mpi4py import MPI
@@ -153,7 +154,7 @@ def look_at_mpi():
     )
 
 
-def look_at_petsc():
+def look_at_petsc() -> Any:
     """Versions of PETSc and petsc4py; complex scalars are an error."""
     import petsc4py
     from petsc4py import PETSc
@@ -170,7 +171,7 @@ def look_at_petsc():
     )
 
 
-def look_at_mumps():
+def look_at_mumps() -> Any:
     """Factor a matrix by MUMPS and name the library that did it."""
     from petsc4py import PETSc
 
@@ -178,7 +179,7 @@ def look_at_mumps():
     return "yes", ", ".join(loaded_libraries("libdmumps")), ""
 
 
-def look_at_cholmod():
+def look_at_cholmod() -> Any:
     """Factor a matrix by CHOLMOD, which PETSc may lack."""
     from petsc4py import PETSc
 
@@ -193,7 +194,7 @@ def look_at_cholmod():
     return "yes", ", ".join(loaded_libraries("libcholmod")), ""
 
 
-def _factor(PETSc, kind: str, package: str) -> None:
+def _factor(PETSc: Any, kind: str, package: str) -> None:
     """Factor a matrix by a package of PETSc, of which asking whether it is there is not enough."""
     matrix = PETSc.Mat().createAIJ([1, 1], csr=([0, 1], [0], [2.0]), comm=PETSc.COMM_SELF)
     solver = PETSc.PC().create(PETSc.COMM_SELF)
@@ -203,7 +204,7 @@ def _factor(PETSc, kind: str, package: str) -> None:
     solver.setUp()
 
 
-def look_at_blas():
+def look_at_blas() -> Any:
     """Which BLAS is loaded; advice where it is the slow reference implementation."""
     import numpy.linalg  # noqa: F401  loads BLAS
     from petsc4py import PETSc  # noqa: F401  loads BLAS
@@ -215,7 +216,7 @@ def look_at_blas():
     return library.parent.name, str(library), slow if library.parent.name == "blas" else ""
 
 
-def look_at_dolfinx():
+def look_at_dolfinx() -> Any:
     """Version, and whether it writes fields by VTX or by XDMF."""
     import dolfinx.io
 
@@ -226,7 +227,7 @@ def look_at_dolfinx():
     )
 
 
-def look_at_h5py():
+def look_at_h5py() -> Any:
     """Version and its HDF5 library; a wheel of h5py is an error."""
     if origin("h5py") != "Debian":  # not imported: it may take the process down
         raise RuntimeError(
@@ -242,7 +243,7 @@ def look_at_h5py():
     )
 
 
-def look_at_gmsh():
+def look_at_gmsh() -> Any:
     """Version and origin of Gmsh."""
     import gmsh
 
@@ -250,7 +251,7 @@ def look_at_gmsh():
     return gmsh.option.getString("General.Version"), origin("gmsh"), ""
 
 
-def look_at_pyvista():
+def look_at_pyvista() -> Any:
     """Draw a sphere off screen; a blank picture is an error."""
     import pyvista
 
@@ -268,7 +269,7 @@ def look_at_pyvista():
     )
 
 
-def look_at_other(name: str):
+def look_at_other(name: str) -> Any:
     """Version and origin of a library that needs no trial."""
     return importlib.import_module(name).__version__, origin(name), ""
 

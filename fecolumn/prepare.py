@@ -8,8 +8,10 @@ import contextlib
 import multiprocessing
 import tempfile
 import time
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
+from typing import Any
 
 # A short tube of few bricks: what is compiled does not depend on it
 _TUBE = dict(
@@ -39,7 +41,7 @@ _LOTS = (
 )
 
 
-def prepare(say) -> None:
+def prepare(say: Callable[..., Any]) -> None:
     """Run one step of every engine, which compiles what is missing on this machine; seconds where
     nothing is. Two processes work side by side.
 

@@ -6,16 +6,21 @@ its error messages, for half a second.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    pass
 
 
-def arrays_of(whole) -> dict[str, np.ndarray]:
+def arrays_of(whole: Any) -> dict[str, Array]:
     """The arrays of a NamedTuple by name, those of a NamedTuple within it as "part.name": for a
     checkpoint.
     """
-    found = {}
+    found: dict[str, Array] = {}
     for name, value in whole._asdict().items():
         found |= (
             {f"{name}.{part}": array for part, array in arrays_of(value).items()}
@@ -26,14 +31,14 @@ def arrays_of(whole) -> dict[str, np.ndarray]:
 
 
 @njit
-def put(source, target):
+def put(source: Array, target: Array) -> None:
     """Copy a one-dimensional array."""
     for i in range(len(source)):
         target[i] = source[i]
 
 
 @njit
-def put_matrix(source, target):
+def put_matrix(source: Array, target: Array) -> None:
     """Copy a two-dimensional array."""
     for i in range(source.shape[0]):
         for j in range(source.shape[1]):
@@ -41,14 +46,14 @@ def put_matrix(source, target):
 
 
 @njit
-def put_points(flat, target):
+def put_points(flat: Array, target: Array) -> None:
     """Copy (3 n,) to (n, 3)."""
     for i in range(len(target)):
         target[i, 0], target[i, 1], target[i, 2] = flat[3 * i], flat[3 * i + 1], flat[3 * i + 2]
 
 
 @njit
-def flat(points):
+def flat(points: Array) -> Array:
     """(3 n,) from (n, 3)."""
     result = np.empty(3 * len(points))
     for i in range(len(points)):
@@ -61,7 +66,7 @@ def flat(points):
 
 
 @njit
-def marked(mask):
+def marked(mask: Array) -> Array:
     """Places (k,) at which a mask (n,) is true."""
     count, k = 0, 0
     for i in range(len(mask)):
@@ -75,7 +80,7 @@ def marked(mask):
 
 
 @njit
-def largest(points):
+def largest(points: Array) -> float:
     """Largest absolute value in (n, 3)."""
     most = 0.0
     for i in range(len(points)):

@@ -16,11 +16,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
 
 
 @njit
-def from_center(interface, normal, offset):
+def from_center(interface: Record, normal: Array, offset: Array) -> None:
     """Offset (3,) [m]: from a ball's centre to where it touches a plane with the unit normal (3,),
     both in the frame of the body that carries it.
 
@@ -61,7 +61,7 @@ def from_center(interface, normal, offset):
 
 
 @njit
-def remove_lift(points, number):
+def remove_lift(points: Array, number: int) -> None:
     """Take from the points of an interface the heights of the last step."""
     for i in range(len(points)):
         if points[i].interface == number:
@@ -69,7 +69,9 @@ def remove_lift(points, number):
 
 
 @njit
-def roll_on(rim_state, number, way, contact, points, before):
+def roll_on(
+    rim_state: Record, number: int, way: Array, contact: Array, points: Array, before: Array
+) -> None:
     """Bring what the points of an interface carry to their places of this step, which lie `way`
     (3,) [m] from those of the last one.
 

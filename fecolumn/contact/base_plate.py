@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.unbounded_base import shear_frequency
 from fecolumn.fem.effective import effective_factor, unit_loads
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
 
 
 class BasePlate:
@@ -23,7 +29,7 @@ class BasePlate:
         the base's Body, its bottom held.
     """
 
-    def __init__(self, body):
+    def __init__(self, body: Body) -> None:
         self.body = body
         top = body.all_X[:, 2].max()
         thickness = np.ptp(body.all_X[:, 2])
@@ -37,13 +43,13 @@ class BasePlate:
         self.compliance = np.zeros((0, 0, 3, 3))
         self.known = np.zeros(0, np.int64)
 
-    def adopt(self, known: np.ndarray, compliance: np.ndarray) -> None:
+    def adopt(self, known: Array, compliance: Array) -> None:
         """Take over the compliance (k, k, 3, 3) of the top nodes `known` (k,) found before."""
         self.known, self.compliance = known, compliance
         self.slot[:] = -1
         self.slot[known] = np.arange(len(known))
 
-    def need(self, wanted: np.ndarray) -> None:
+    def need(self, wanted: Array) -> None:
         """Make sure that the compliance holds the top nodes `wanted` (positions in `nodes`)."""
         new = np.unique(wanted[self.slot[wanted] < 0])
         if not len(new):
@@ -61,9 +67,7 @@ class BasePlate:
         self.compliance, self.known = compliance, known
         self.slot[new] = np.arange(old, len(known))
 
-    def displacement(
-        self, nodes: np.ndarray, weights: np.ndarray, forces: np.ndarray
-    ) -> np.ndarray:
+    def displacement(self, nodes: Array, weights: Array, forces: Array) -> Array:
         """Displacement (n_owned, 3) [m] of the whole plate under forces (n, 3) [N] spread over top
         `nodes` (n, 4).
         """

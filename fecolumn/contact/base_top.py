@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.foundation._compiled import Array
+
 
 class BaseTop:
     """Grid of the nodes on top of the base, a tensor product.
@@ -17,7 +19,7 @@ class BaseTop:
     #: Side of the squares by which the top follows the foot [m]; this one stays.
     square = 0.0
 
-    def __init__(self, points: np.ndarray):
+    def __init__(self, points: Array) -> None:
         self.points = points
         self.x, self.y = (_lines(points[:, axis]) for axis in (0, 1))
         if len(self.x) * len(self.y) != len(points):
@@ -27,7 +29,7 @@ class BaseTop:
             len(points)
         )
 
-    def around(self, positions: np.ndarray, rows: int) -> np.ndarray:
+    def around(self, positions: Array, rows: int) -> Array:
         """Nodes (k,) under `positions` (n, 3) [m] and so many rows around them, those at the edge
         where a position is beyond it.
         """
@@ -39,7 +41,7 @@ class BaseTop:
             spans.append(np.clip(cell[:, None] + np.arange(-rows, rows + 2), 0, len(lines) - 1))
         return np.unique(self.number[spans[0][:, :, None], spans[1][:, None, :]])
 
-    def at_edge(self, positions: np.ndarray, margin: float) -> bool:
+    def at_edge(self, positions: Array, margin: float) -> bool:
         """Whether any of the `positions` (n, 3) [m] is beyond the edge or nearer to it than
         `margin` [m].
         """
@@ -52,12 +54,12 @@ class BaseTop:
         )
 
 
-def _lines(values: np.ndarray) -> np.ndarray:
+def _lines(values: Array) -> Array:
     """Grid lines among coordinates equal up to rounding."""
     values = np.sort(values)
     return values[np.concatenate([[True], np.diff(values) > 1e-9 * np.ptp(values)])]
 
 
-def _line(lines: np.ndarray, values: np.ndarray) -> np.ndarray:
+def _line(lines: Array, values: Array) -> Array:
     """Number of the line nearest to each value."""
     return np.searchsorted((lines[1:] + lines[:-1]) / 2, values)

@@ -12,6 +12,8 @@ The least way by which bodies that are in each other come apart is along that ax
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.convex import TOGETHER
@@ -25,11 +27,17 @@ from fecolumn.contact.separation import (
     perpendicular,
 )
 from fecolumn.contact.tolerances import NEARLY_PARALLEL, OTHER_AXIS
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.convex import Hulls
+    from fecolumn.contact.separation import Relation
 
 
 @njit(alone=TOGETHER)
-def _over_faces(hulls, a, b, relation, enough, band):
+def _over_faces(
+    hulls: Hulls, a: int, b: int, relation: Relation, enough: float, band: float
+) -> tuple[float, int, int]:
     """Largest gap between one body and the plane of a face of the other [m], over the faces of
     both.
 
@@ -92,7 +100,7 @@ def _over_faces(hulls, a, b, relation, enough, band):
 
 
 @njit(alone=TOGETHER)
-def _lay_out(hulls, b, relation):
+def _lay_out(hulls: Hulls, b: int, relation: Relation) -> None:
     """Put corners and normals of body b into the frame of the first body."""
     T, s = relation.turn, relation.shift
     for v in range(hulls.first[b + 1, 0] - hulls.first[b, 0]):
@@ -106,7 +114,9 @@ def _lay_out(hulls, b, relation):
 
 
 @njit(alone=TOGETHER)
-def _most_over(x, y, z, corners, start, normals, left, right):
+def _most_over(
+    x: float, y: float, z: float, corners: Array, start: int, normals: Array, left: int, right: int
+) -> float:
     """How far [m] a place is at most over an edge from corner `start`, along any direction between
     the normals `left` and `right` of its faces.
     """
@@ -128,7 +138,9 @@ def _most_over(x, y, z, corners, start, normals, left, right):
 
 
 @njit(alone=TOGETHER)
-def _over_edges(hulls, a, b, relation, enough):
+def _over_edges(
+    hulls: Hulls, a: int, b: int, relation: Relation, enough: float
+) -> tuple[float, int, int]:
     """Largest separation above `enough` along perpendiculars of two edges [m], and the edges; -1
     where there is none. The corners of `_over_faces` are in relation.
     """
@@ -207,7 +219,9 @@ def _over_edges(hulls, a, b, relation, enough):
 
 
 @njit(alone=TOGETHER)
-def _gap_of_edges(hulls, a, b, relation, first, second):
+def _gap_of_edges(
+    hulls: Hulls, a: int, b: int, relation: Relation, first: int, second: int
+) -> float:
     """Distance [m] of an edge of body a and one of body b along their perpendicular: the separation
     along it where no other corner reaches farther. The edges of a prism that are parallel to one
     of the two have the same perpendicular.
@@ -224,7 +238,9 @@ def _gap_of_edges(hulls, a, b, relation, first, second):
 
 
 @njit(alone=TOGETHER)
-def largest_separation(hulls, a, b, relation):
+def largest_separation(
+    hulls: Hulls, a: int, b: int, relation: Relation
+) -> tuple[float, int, int, int]:
     """Largest separation of bodies a and b [m], the kind of its axis and its face or edges, -1
     where there is none; relation: of `relate`.
     """
@@ -238,7 +254,17 @@ def largest_separation(hulls, a, b, relation):
 
 
 @njit(alone=TOGETHER)
-def choose_axis(hulls, a, b, relation, enough, kind, first, second, before):
+def choose_axis(
+    hulls: Hulls,
+    a: int,
+    b: int,
+    relation: Relation,
+    enough: float,
+    kind: int,
+    first: int,
+    second: int,
+    before: float,
+) -> tuple[float, int, int, int]:
     """Axis of contact of bodies a and b: separation along it [m], its kind and its face or edges.
 
     It is that of the largest separation, with a preference of OTHER_AXIS for the one of the step

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 # Unknowns up to which plain loops solve equations as one: a call of LAPACK costs more, and so does
 # dividing them into blocks
@@ -25,14 +25,14 @@ class Blocks(NamedTuple):
     whether the equations of two are, once those eliminated before are gone.
     """
 
-    order: np.ndarray
-    first: np.ndarray
-    of: np.ndarray
-    coupled: np.ndarray
+    order: Array
+    first: Array
+    of: Array
+    coupled: Array
 
 
 @njit
-def one_block(n):
+def one_block(n: int) -> Blocks:
     """All n points as one."""
     first = np.zeros(2, np.int64)
     first[1] = n
@@ -40,7 +40,7 @@ def one_block(n):
 
 
 @njit
-def find_blocks(W):
+def find_blocks(W: Array) -> Blocks:
     """Blocks of the points of a compliance (3 n, 3 n): those beside each other that move the same
     others; one block where dividing them gains nothing.
     """
@@ -85,7 +85,7 @@ def find_blocks(W):
 
 
 @njit
-def _any(W, row, column):
+def _any(W: Array, row: int, column: int) -> bool:
     """Whether a point moves another at all."""
     for a in range(3):
         for b in range(3):
@@ -95,7 +95,7 @@ def _any(W, row, column):
 
 
 @njit
-def least_filling(start, coupled):
+def least_filling(start: Array, coupled: Array) -> Array:
     """Order of elimination (g,) of blocks of start[k + 1] - start[k] points, next always the one
     coupled to the fewest points; adds to `coupled` (g, g) what it fills.
     """
@@ -128,7 +128,7 @@ def least_filling(start, coupled):
 
 
 @njit
-def eliminate(matrix, right, first, coupled):
+def eliminate(matrix: Array, right: Array, first: Array, coupled: Array) -> bool:
     """Solve by Gaussian elimination block by block, rows pivoted within a block; overwrites both,
     False where singular.
 
@@ -202,7 +202,7 @@ def eliminate(matrix, right, first, coupled):
 
 
 @njit
-def solve_columns(matrix, right):
+def solve_columns(matrix: Array, right: Array) -> bool:
     """Solve for all columns of right (n, m) in their place by Gaussian elimination with row
     pivoting, where n is small; False where singular.
     """

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.record import record
+from fecolumn.foundation._compiled import Array
 
 #: A body: mass [kg], inertia about its centre of mass [kg m2] and their inverses, which are zero
 #: where the mobility of rigid motion is part of the nodal one; first, count: its rows among the
@@ -48,15 +49,17 @@ class Bodies(NamedTuple):
     the mobility; (0, 3, 0) where the mobility is not of modes.
     """
 
-    body: np.ndarray
-    arms: np.ndarray
-    static: np.ndarray
-    mobility: np.ndarray
-    facets: np.ndarray = np.zeros(0, FACET)
-    pushes: np.ndarray = np.zeros((0, 3, 0))
+    body: Array
+    arms: Array
+    static: Array
+    mobility: Array
+    facets: Array = np.zeros(0, FACET)
+    pushes: Array = np.zeros((0, 3, 0))
 
 
-def one_body(arms, static, mobility, mass: float = np.inf, inertia=None) -> Bodies:
+def one_body(
+    arms: Array, static: Array, mobility: Array, mass: float = np.inf, inertia: Array | None = None
+) -> Bodies:
     """A single body; without mass and inertia (3, 3) its mobility holds its rigid motion."""
     body = np.zeros(1, BODY)
     body["mass"], body["count"], body["held"] = mass, len(arms), -1
@@ -76,7 +79,7 @@ def joined(parts: list[Bodies]) -> Bodies:
     for row, part in zip(body, parts):
         row["first"], first = first, first + len(part.arms)
 
-    def wide(array):
+    def wide(array: Array) -> Array:
         return np.pad(array, ((0, 0), (0, width - array.shape[1])))
 
     return Bodies(
@@ -89,7 +92,7 @@ def joined(parts: list[Bodies]) -> Bodies:
     )
 
 
-def node_matrix(blocks: np.ndarray) -> np.ndarray:
+def node_matrix(blocks: Array) -> Array:
     """Node blocks (n, n, 3, 3) as a matrix (3 n, 3 n)."""
     n = len(blocks)
     return np.ascontiguousarray(blocks.transpose(0, 2, 1, 3)).reshape(3 * n, 3 * n)

@@ -4,17 +4,35 @@ point alone (Delassus 1917).
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import MASTER, SLAVE, turns
 from fecolumn.contact.tolerances import FEW_SIDES
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.bodies import Bodies
+    from fecolumn.contact.projection import GroundTops
 
 
 @njit
-def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, own, W):
+def assemble(
+    bodies: Bodies,
+    base: GroundTops,
+    points: Array,
+    arms: Array,
+    active: Array,
+    poses: Array,
+    rigid: float,
+    nodal: Array,
+    factor: float,
+    own: Array,
+    W: Array,
+) -> None:
     """W (3 k, 3 k): displacement of the active points, slave relative to master, per force [m/N],
     or velocity per impulse, each in the frame of its interface.
 
@@ -101,7 +119,21 @@ def assemble(bodies, base, points, arms, active, poses, rigid, nodal, factor, ow
 
 
 @njit
-def _add_body(bodies, b, rows, signs, nodes, shares, arms, faces, turned, count, rigid, nodal, W):
+def _add_body(
+    bodies: Bodies,
+    b: int,
+    rows: Array,
+    signs: Array,
+    nodes: Array,
+    shares: Array,
+    arms: Array,
+    faces: Array,
+    turned: Array,
+    count: int,
+    rigid: float,
+    nodal: Array,
+    W: Array,
+) -> None:
     """Add to the upper blocks of W what one body gives: `count` sides of points on it, for each row
     in W, sign, nodes, shares, arm, and its interface and side, whose turns (ni, 2, 3, 3) lead from
     the body to the frame of the interface.
@@ -171,7 +203,17 @@ def _add_body(bodies, b, rows, signs, nodes, shares, arms, faces, turned, count,
 
 
 @njit
-def _add_interpolated(compliance, first, number, rows, nodes, shares, count, factor, W):
+def _add_interpolated(
+    compliance: Array,
+    first: int,
+    number: int,
+    rows: Array,
+    nodes: Array,
+    shares: Array,
+    count: int,
+    factor: float,
+    W: Array,
+) -> None:
     """Add factor times the compliance of nodes, interpolated, to the upper blocks of W (3 k, 3 k)
     at the rows (count,) of the sides.
 
@@ -215,7 +257,7 @@ def _add_interpolated(compliance, first, number, rows, nodes, shares, count, fac
 
 
 @njit
-def even_out(bodies, base, points, i, poses):
+def even_out(bodies: Bodies, base: GroundTops, points: Array, i: int, poses: Array) -> None:
     """Correct the compliance of point i for its place between nodes: find its `uneven` (3, 3)
     [m/N].
 
@@ -271,7 +313,7 @@ def even_out(bodies, base, points, i, poses):
 
 
 @njit
-def _add_turned(block, turn, target):
+def _add_turned(block: Array, turn: Array, target: Array) -> None:
     """Add turn block turn^T, all (3, 3)."""
     half = np.empty((3, 3))
     for a in range(3):

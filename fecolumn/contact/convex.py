@@ -9,12 +9,13 @@ than it is: its `share` says so, and the caller refuses it or cuts it into conve
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from fecolumn.contact.tolerances import SAME_FACE, SAME_HULL
+from fecolumn.foundation._compiled import Array
 
 #: Files beside each other from which the compiled functions of any of them take code
 TOGETHER = (
@@ -49,25 +50,25 @@ class Hulls(NamedTuple):
     convex one.
     """
 
-    first: np.ndarray
-    corners: np.ndarray
-    normals: np.ndarray
-    offsets: np.ndarray
-    middles: np.ndarray
-    axes: np.ndarray
-    loop_first: np.ndarray
-    loop: np.ndarray
-    loop_edge: np.ndarray
-    ends: np.ndarray
-    sides: np.ndarray
-    ways: np.ndarray
-    middle: np.ndarray
-    half: np.ndarray
-    thickness: np.ndarray
-    share: np.ndarray
+    first: Array
+    corners: Array
+    normals: Array
+    offsets: Array
+    middles: Array
+    axes: Array
+    loop_first: Array
+    loop: Array
+    loop_edge: Array
+    ends: Array
+    sides: Array
+    ways: Array
+    middle: Array
+    half: Array
+    thickness: Array
+    share: Array
 
 
-def hull_of(points: np.ndarray, volume: float | None = None) -> Hulls:
+def hull_of(points: Array, volume: float | None = None) -> Hulls:
     """Hull of one body with points (n, 3) from its centre of mass [m]; volume: of the body [m3],
     None of one that is known to be convex.
     """
@@ -103,12 +104,12 @@ def hulls_of(bodies: list[Hulls]) -> Hulls:
     return Hulls(**whole)
 
 
-def is_convex_body(hulls: Hulls) -> np.ndarray:
+def is_convex_body(hulls: Hulls) -> Array:
     """Mask (N,) of the bodies that fill their hulls."""
     return hulls.share > 1 - SAME_HULL
 
 
-def _planes(points, found):
+def _planes(points: Array, found: Any) -> tuple[Array, Array]:
     """Which of the hull's vertices (V,) lie on each of its planes: mask (F, V), and outward normals
     (F, 3); found: the ConvexHull of points (n, 3).
     """
@@ -130,7 +131,7 @@ def _planes(points, found):
     return np.array(planes), np.array(normals)
 
 
-def _loop(corners, on, normal):
+def _loop(corners: Array, on: Array, normal: Array) -> Array:
     """Rows of the corners (V, 3) on a face, of a mask (V,), counter-clockwise seen from outside."""
     rows = np.flatnonzero(on)
     away = corners[rows] - corners[rows].mean(axis=0)
@@ -139,9 +140,11 @@ def _loop(corners, on, normal):
     return rows[np.argsort(angle, kind="stable")]
 
 
-def _assemble(corners, loops, share):
+def _assemble(corners: Array, loops: list[Array], share: float) -> Hulls:
     """Hulls of one body with corners (V, 3) [m] and the loops of its faces."""
-    ends, sides, edges = [], [], {}
+    found: list[list[Any]] = []
+    sides: list[list[Any]] = []
+    edges: dict[tuple[Any, Any], int] = {}
     loop_edge = []
     for f, loop in enumerate(loops):
         for start, end in zip(loop, np.roll(loop, -1)):
@@ -149,11 +152,11 @@ def _assemble(corners, loops, share):
                 sides[edges[end, start]][1] = f
                 loop_edge.append(edges.pop((end, start)))
             else:
-                edges[start, end] = len(ends)
-                loop_edge.append(len(ends))
-                ends.append([start, end])
+                edges[start, end] = len(found)
+                loop_edge.append(len(found))
+                found.append([start, end])
                 sides.append([f, -1])
-    if edges or loops and len(corners) - len(ends) + len(loops) != 2:
+    if edges or loops and len(corners) - len(found) + len(loops) != 2:
         raise ValueError("the faces of the hull do not close: its points are too inexact")
     normals, axes = np.zeros((len(loops), 3)), np.zeros((len(loops), 3, 3))
     middles = np.zeros((len(loops), 3))
@@ -167,7 +170,7 @@ def _assemble(corners, loops, share):
         side /= np.linalg.norm(side)
         axes[f] = np.column_stack([side, np.cross(normals[f], side), normals[f]])
     offsets = np.einsum("fa,fa->f", normals, middles)
-    ends = np.array(ends, np.int64).reshape(-1, 2)
+    ends = np.array(found, np.int64).reshape(-1, 2)
     ways = corners[ends[:, 1]] - corners[ends[:, 0]]
     behind = (offsets[:, None] - normals @ corners.T).max(axis=1, initial=0.0)
     low, high = (corners.min(axis=0), corners.max(axis=0)) if loops else (np.zeros(3), np.zeros(3))

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 
 @njit
-def in_cone(x, y, normal, friction):
+def in_cone(x: float, y: float, normal: float, friction: float) -> tuple[float, float, float]:
     """Coulomb's projection of a trial force: its normal part not below 0, its tangential part not
     above friction times that.
     """
@@ -23,7 +23,16 @@ def in_cone(x, y, normal, friction):
 
 
 @njit
-def law_error(r0, r1, r2, s0, s1, s2, stiffness, friction):
+def law_error(
+    r0: float,
+    r1: float,
+    r2: float,
+    s0: float,
+    s1: float,
+    s2: float,
+    stiffness: float,
+    friction: float,
+) -> float:
     """Violation of the contact laws by a force r and a slip and gap s [m]: distance of r from the
     projection of r - stiffness s, over stiffness.
 
@@ -35,7 +44,7 @@ def law_error(r0, r1, r2, s0, s1, s2, stiffness, friction):
 
 
 @njit
-def violation(relative, forces, friction, rho):
+def violation(relative: Array, forces: Array, friction: Array, rho: Array) -> float:
     """Largest violation of the contact laws [m], see `law_error`, by forces (n, 3) under slips and
     gaps (n, 3); rho: (n,) stiffness by which it is measured [N/m].
     """

@@ -7,7 +7,7 @@ and equations with W cost what the points are, not the third power of their numb
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,7 +15,11 @@ from fecolumn.contact.arrays import flat, put_points
 from fecolumn.contact.blocks import Blocks, find_blocks, least_filling
 from fecolumn.contact.points import FLAT_GROUND, GROUND
 from fecolumn.contact.pose import turns
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.bodies import Bodies
+    from fecolumn.contact.projection import GroundTops
 
 
 class Coupling(NamedTuple):
@@ -28,15 +32,15 @@ class Coupling(NamedTuple):
     of V^T W^-1 V by their order of elimination.
     """
 
-    whole: np.ndarray
-    own: np.ndarray
-    levers: np.ndarray
-    bodies: np.ndarray
+    whole: Array
+    own: Array
+    levers: Array
+    bodies: Array
     blocks: Blocks
 
 
 @njit
-def coupling_of(W):
+def coupling_of(W: Array) -> Coupling:
     """Of a matrix (3 n, 3 n)."""
     return Coupling(
         W,
@@ -48,14 +52,14 @@ def coupling_of(W):
 
 
 @njit
-def coupling_by_levers(own, levers, bodies):
+def coupling_by_levers(own: Array, levers: Array, bodies: Array) -> Coupling:
     """Of bodies that move in few ways, by what Coupling has of them."""
     blocks = _blocks_of_bodies(bodies, levers.shape[2] // 2)
     return Coupling(np.empty((0, 0)), own, levers, bodies, blocks)
 
 
 @njit
-def _blocks_of_bodies(bodies, width):
+def _blocks_of_bodies(bodies: Array, width: int) -> Blocks:
     """Blocks of bodies, `width` rows each, coupled where they have a point in common."""
     count, g = 0, 0
     for j in range(len(bodies)):
@@ -87,7 +91,7 @@ def _blocks_of_bodies(bodies, width):
 
 
 @njit
-def are_stiff(bodies, base, points, listed):
+def are_stiff(bodies: Bodies, base: GroundTops, points: Array, listed: Array) -> bool:
     """Whether neither bodies nor grounds of the listed points (k,) deform."""
     for i in listed:
         if not bodies.body[points[i].slave].stiff:
@@ -101,7 +105,17 @@ def are_stiff(bodies, base, points, listed):
 
 
 @njit
-def couple(bodies, points, arms, listed, poses, rigid, factor, own, modes):
+def couple(
+    bodies: Bodies,
+    points: Array,
+    arms: Array,
+    listed: Array,
+    poses: Array,
+    rigid: float,
+    factor: float,
+    own: Array,
+    modes: int,
+) -> Coupling:
     """Coupling of the listed points (k,) of bodies that do not deform, or whose compliance is the
     mobility of their first `modes` modes; other arguments as of `compliance.assemble`.
     """
@@ -146,7 +160,7 @@ def couple(bodies, points, arms, listed, poses, rigid, factor, own, modes):
 
 
 @njit
-def _add_modes(pushes, point, side, turn, levers):
+def _add_modes(pushes: Array, point: Record, side: int, turn: Array, levers: Array) -> None:
     """Put what the modes move the point by into its levers (3, 2 w): turn (3, 3) pushes, negative
     on the master.
     """
@@ -165,7 +179,7 @@ def _add_modes(pushes, point, side, turn, levers):
 
 
 @njit
-def put_root(matrix, root):
+def put_root(matrix: Array, root: Array) -> None:
     """Cholesky's factor C (3, 3) of a symmetric positive definite matrix, C C^T."""
     for i in range(3):
         for j in range(3):
@@ -178,7 +192,7 @@ def put_root(matrix, root):
 
 
 @njit
-def times(coupling, forces):
+def times(coupling: Coupling, forces: Array) -> Array:
     """W times forces (n, 3), as (n, 3)."""
     n, result = len(forces), np.empty((len(forces), 3))
     if len(coupling.whole):
@@ -206,7 +220,7 @@ def times(coupling, forces):
 
 
 @njit(fastmath={"reassoc", "contract"})
-def motion_by(coupling, forces):
+def motion_by(coupling: Coupling, forces: Array) -> Array:
     """Motion (nb, w) of the bodies, V^T r, by forces (n, 3) of points that have levers."""
     levers, bodies, width = coupling.levers, coupling.bodies, coupling.levers.shape[2] // 2
     motion = np.zeros((len(coupling.blocks.of), width))
@@ -222,7 +236,7 @@ def motion_by(coupling, forces):
 
 
 @njit(fastmath={"reassoc", "contract"})
-def moved_by(coupling, motion):
+def moved_by(coupling: Coupling, motion: Array) -> Array:
     """How far (n, 3) a motion (nb, w) of the bodies moves the points, V x."""
     levers, bodies, width = coupling.levers, coupling.bodies, coupling.levers.shape[2] // 2
     moved = np.zeros((len(levers), 3))
@@ -239,7 +253,7 @@ def moved_by(coupling, motion):
 
 
 @njit
-def slips_under(coupling, q, forces):
+def slips_under(coupling: Coupling, q: Array, forces: Array) -> Array:
     """Slips and gaps (n, 3): W r + q."""
     result = times(coupling, forces)
     for i in range(len(q)):
@@ -249,7 +263,7 @@ def slips_under(coupling, q, forces):
 
 
 @njit
-def whole_of(coupling):
+def whole_of(coupling: Coupling) -> Array:
     """The matrix (3 n, 3 n)."""
     if len(coupling.whole):
         return coupling.whole
@@ -278,7 +292,7 @@ def whole_of(coupling):
 
 
 @njit
-def part_of(coupling, listed):
+def part_of(coupling: Coupling, listed: Array) -> Coupling:
     """Coupling of some of the points (k,)."""
     k = len(listed)
     if len(coupling.whole):
@@ -299,7 +313,7 @@ def part_of(coupling, listed):
 
 
 @njit
-def softened(coupling, give):
+def softened(coupling: Coupling, give: Array) -> Coupling:
     """Coupling of points that each give so much (n,) more, alone."""
     whole, own = coupling.whole.copy(), coupling.own.copy()
     for i in range(len(give)):
@@ -312,7 +326,7 @@ def softened(coupling, give):
 
 
 @njit
-def stiffnesses(coupling, together):
+def stiffnesses(coupling: Coupling, together: bool) -> Array:
     """Stiffness (n,) [N/m] of each point when it moves alone, or when all move `together`, which is
     less: with the stiffness alone, points would change their direction of slip at each iteration.
     """
@@ -348,13 +362,13 @@ def stiffnesses(coupling, together):
 
 
 @njit
-def stiffness_alone(W, i):
+def stiffness_alone(W: Array, i: int) -> float:
     """Stiffness [N/m] of point i of a compliance (3 n, 3 n) when it moves alone."""
     return 3 / (W[3 * i, 3 * i] + W[3 * i + 1, 3 * i + 1] + W[3 * i + 2, 3 * i + 2])
 
 
 @njit(fastmath={"reassoc", "contract"})
-def stiffness_together(W, i):
+def stiffness_together(W: Array, i: int) -> float:
     """Stiffness [N/m] of point i of a compliance (3 n, 3 n) when all points move."""
     total = 0.0
     for a in range(3):

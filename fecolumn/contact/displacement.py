@@ -4,6 +4,8 @@ once.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.coupling import are_stiff
@@ -11,11 +13,23 @@ from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import turns
 from fecolumn.contact.tolerances import FEW_SIDES
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.bodies import Bodies
+    from fecolumn.contact.projection import GroundTops
 
 
 @njit
-def static_displacement(bodies, base, points, poses, contact, listed, target):
+def static_displacement(
+    bodies: Bodies,
+    base: GroundTops,
+    points: Array,
+    poses: Array,
+    contact: Array,
+    listed: Array,
+    target: Array,
+) -> None:
     """Target (n, 3): displacement [m] of the listed points (k,), slave relative to master, that
     follows their forces in `contact` at once; without what the points give alone.
     """
@@ -41,7 +55,15 @@ def static_displacement(bodies, base, points, poses, contact, listed, target):
 
 
 @njit
-def _displace_few(bodies, base, points, turned, contact, listed, target):
+def _displace_few(
+    bodies: Bodies,
+    base: GroundTops,
+    points: Array,
+    turned: Array,
+    contact: Array,
+    listed: Array,
+    target: Array,
+) -> None:
     """`static_displacement` without `uneven`, of few points: by the compliance of each two of
     them.
     """
@@ -104,7 +126,15 @@ def _displace_few(bodies, base, points, turned, contact, listed, target):
 
 
 @njit
-def _displace_many(bodies, base, points, turned, contact, listed, target):
+def _displace_many(
+    bodies: Bodies,
+    base: GroundTops,
+    points: Array,
+    turned: Array,
+    contact: Array,
+    listed: Array,
+    target: Array,
+) -> None:
     """`static_displacement` without `uneven`, of many points: by forces on nodes, which they
     share.
     """
@@ -197,7 +227,7 @@ def _displace_many(bodies, base, points, turned, contact, listed, target):
 
 
 @njit
-def _share(base, point, side, q, own):
+def _share(base: GroundTops, point: Record, side: int, q: int, own: int) -> tuple[float, int]:
     """Share of the force of a point that node q of its slave (side 0) or of its master (side 1,
     negative) takes, and the number of the node: nodes of the base follow the `own` nodes of bodies.
     """
@@ -211,7 +241,7 @@ def _share(base, point, side, q, own):
 
 
 @njit(fastmath={"reassoc", "contract"})
-def _move(compliance, row, pushes, target):
+def _move(compliance: Array, row: int, pushes: Array, target: Array) -> None:
     """Target (3,): displacement in three rows of a compliance by the pushes (n, 3) on all nodes of
     its columns.
     """
@@ -224,7 +254,9 @@ def _move(compliance, row, pushes, target):
 
 
 @njit
-def _move_by_few(compliance, row, first, pushed, pushes, target):
+def _move_by_few(
+    compliance: Array, row: int, first: int, pushed: Array, pushes: Array, target: Array
+) -> None:
     """As `_move`, by the pushes (N, 3) on the nodes `pushed` (k,); first: node of the first
     column.
     """

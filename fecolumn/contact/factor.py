@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.blocks import find_blocks
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 
 class Blocked(NamedTuple):
@@ -22,10 +22,10 @@ class Blocked(NamedTuple):
     before there are any.
     """
 
-    values: np.ndarray
-    place: np.ndarray
-    rows: np.ndarray
-    number: np.ndarray
+    values: Array
+    place: Array
+    rows: Array
+    number: Array
 
 
 def no_blocks(n: int) -> Blocked:
@@ -39,7 +39,7 @@ def no_blocks(n: int) -> Blocked:
 
 
 @njit
-def factorize(W, factor):
+def factorize(W: Array, factor: Blocked) -> None:
     """Find the factor of a symmetric positive definite W (3 n, 3 n): of each block, once those
     before are eliminated, its inverse D^-1, and D^-1 times what couples it to those after it.
     """
@@ -59,7 +59,7 @@ def factorize(W, factor):
 
 
 @njit
-def divide(matrix, factor, blocked):
+def divide(matrix: Array, factor: Blocked, blocked: Blocked) -> None:
     """Find the blocks of a symmetric matrix (3 n, 3 n) that are those of a factor."""
     g = factor.number[0]
     blocked.number[0], moves = g, np.zeros((g, g), np.bool_)
@@ -74,7 +74,7 @@ def divide(matrix, factor, blocked):
 
 
 @njit
-def _take_blocks(matrix, coupled, blocked):
+def _take_blocks(matrix: Array, coupled: Array, blocked: Blocked) -> None:
     """Take over the blocks of a matrix (3 n, 3 n) that are `coupled` (g, g)."""
     end, rows = 0, blocked.rows
     for k in range(blocked.number[0]):
@@ -88,7 +88,7 @@ def _take_blocks(matrix, coupled, blocked):
 
 
 @njit
-def _block(blocked, k, l):
+def _block(blocked: Blocked, k: int, l: int) -> Array:
     """Block k, l: (rows of k, rows of l)."""
     m, n, begin = (
         blocked.rows[k, 1] - blocked.rows[k, 0],
@@ -99,7 +99,7 @@ def _block(blocked, k, l):
 
 
 @njit
-def _eliminate_block(factor, k):
+def _eliminate_block(factor: Blocked, k: int) -> None:
     """Invert block k, take from the later ones what it does to them, and divide what couples it to
     them by it.
     """
@@ -131,7 +131,7 @@ def _eliminate_block(factor, k):
 
 
 @njit
-def solve_factored(factor, right):
+def solve_factored(factor: Blocked, right: Array) -> None:
     """Solve for right (3 n,) in its place."""
     g, values, place, rows = factor.number[0], factor.values, factor.place, factor.rows
     for k in range(g):
@@ -149,7 +149,7 @@ def solve_factored(factor, right):
 
 
 @njit
-def multiply(blocked, source, target):
+def multiply(blocked: Blocked, source: Array, target: Array) -> None:
     """Target (3 n,): a symmetric matrix times source (3 n,)."""
     values, place, rows = blocked.values, blocked.place, blocked.rows
     for i in range(len(target)):
@@ -163,7 +163,15 @@ def multiply(blocked, source, target):
 
 
 @njit(fastmath={"reassoc", "contract"})
-def _add_block(values, begin, rows, columns, factor, source, target):
+def _add_block(
+    values: Array,
+    begin: int,
+    rows: Array,
+    columns: Array,
+    factor: float,
+    source: Array,
+    target: Array,
+) -> None:
     """Add to `target` in the rows, first and the one after the last, the factor times a block that
     begins in `values` there, times `source` in the columns.
     """
@@ -178,7 +186,15 @@ def _add_block(values, begin, rows, columns, factor, source, target):
 
 
 @njit
-def _add_transposed(values, begin, rows, columns, factor, source, target):
+def _add_transposed(
+    values: Array,
+    begin: int,
+    rows: Array,
+    columns: Array,
+    factor: float,
+    source: Array,
+    target: Array,
+) -> None:
     """Add to `target` in the columns the factor times the transpose of a block, times `source` in
     the rows.
     """

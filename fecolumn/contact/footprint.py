@@ -8,15 +8,16 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from fecolumn.contact.tolerances import SAME_PLACE
+from fecolumn.foundation._compiled import Array
 
 
 def footprint(
-    nodes: np.ndarray,
-    positions: np.ndarray,
-    areas: np.ndarray,
-    on_outline: np.ndarray,
+    nodes: Array,
+    positions: Array,
+    areas: Array,
+    on_outline: Array,
     interior: int,
-) -> tuple[np.ndarray, np.ndarray]:
+) -> tuple[Array, Array]:
     """Contact points of a foot: the outlines, and at most about `interior` nodes inside, evenly
     spread.
 

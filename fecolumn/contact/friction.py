@@ -5,6 +5,7 @@ cone.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,7 +23,10 @@ from fecolumn.contact.coupling import (
 from fecolumn.contact.frozen_slips import follow_slips, halve_way, solve_frozen
 from fecolumn.contact.interior_point import approach, in_cones
 from fecolumn.contact.newton import NewtonLimits, newton_steps, solve_in_place
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.coupling import Coupling
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,14 +35,16 @@ class ContactSolution:
     iterations and Gauss-Seidel sweeps used.
     """
 
-    forces: np.ndarray
+    forces: Array
     residual: float
     iterations: int
     sweeps: int
 
 
 @njit
-def gauss_seidel(W, q, forces, friction, rho, sweeps, tolerance):
+def gauss_seidel(
+    W: Array, q: Array, forces: Array, friction: Array, rho: Array, sweeps: int, tolerance: float
+) -> int:
     """Projected nonlinear Gauss-Seidel (Jourdan, Alart, Jean 1998); changes `forces`, returns the
     sweeps made.
     """
@@ -68,7 +74,7 @@ def gauss_seidel(W, q, forces, friction, rho, sweeps, tolerance):
 
 
 @njit
-def frictionless(coupling, q, start):
+def frictionless(coupling: Coupling, q: Array, start: Array) -> Array:
     """Forces (n, 3) without friction by primal-dual active sets, or the last ones before they
     cycle: a guess of the points that press.
     """
@@ -120,7 +126,15 @@ def frictionless(coupling, q, start):
 
 
 @njit
-def iterate(coupling, q, friction, start, tolerance, near, sweeps):
+def iterate(
+    coupling: Coupling,
+    q: Array,
+    friction: Array,
+    start: Array,
+    tolerance: float,
+    near: bool,
+    sweeps: int,
+) -> tuple[Array, float, int, int]:
     """As `solve_contact`, for compiled code: forces (n, 3), residual, Newton iterations and others.
 
     coupling: of `contact.coupling`. near: whether `start` is a good guess, from which Newton is
@@ -241,7 +255,15 @@ def iterate(coupling, q, friction, start, tolerance, near, sweeps):
 
 
 @njit
-def by_frozen_slips(coupling, q, friction, start, tolerance, rho, turns):
+def by_frozen_slips(
+    coupling: Coupling,
+    q: Array,
+    friction: Array,
+    start: Array,
+    tolerance: float,
+    rho: Array,
+    turns: int,
+) -> tuple[Array, float, int, int]:
     """Forces by a fixed point on the sizes of the slips (Acary, Cadoux, Lemarechal and Malick 2011,
     ZAMM 91): best forces, residual, steps of Newton, iterations of an interior point.
 
@@ -296,7 +318,9 @@ def by_frozen_slips(coupling, q, friction, start, tolerance, rho, turns):
 
 
 @njit
-def _incremental_active_set(coupling, q, friction, rho, tolerance, sweeps):
+def _incremental_active_set(
+    coupling: Coupling, q: Array, friction: Array, rho: Array, tolerance: float, sweeps: int
+) -> tuple[Array, float, int, int]:
     """As `iterate`, from no forces at all: the point that violates the laws most is
     added to the active set, one at a time; one that then carries nothing is removed once. Each
     solution is the first guess of the next problem.
@@ -342,7 +366,17 @@ def _incremental_active_set(coupling, q, friction, rho, tolerance, sweeps):
 
 
 @njit
-def _find_some(coupling, q, friction, forces, start, listed, tolerance, sweeps, turns):
+def _find_some(
+    coupling: Coupling,
+    q: Array,
+    friction: Array,
+    forces: Array,
+    start: Array,
+    listed: Array,
+    tolerance: float,
+    sweeps: int,
+    turns: int,
+) -> tuple[int, int]:
     """Put forces that obey the laws on the listed points (k,), the others open, in place of
     `forces` (n, 3): iterations of Newton and others.
     """
@@ -369,7 +403,16 @@ def _find_some(coupling, q, friction, forces, start, listed, tolerance, sweeps, 
 
 
 @njit
-def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turns):
+def _with_fallbacks(
+    coupling: Coupling,
+    q: Array,
+    friction: Array,
+    guess: Array,
+    start: Array,
+    tolerance: float,
+    sweeps: int,
+    turns: int,
+) -> tuple[Array, float, int, int]:
     """Forces (n, 3) by one way after the other, residual, Newton iterations and others; guess,
     start: (n, 3) from which Newton is tried; turns: of `by_frozen_slips`, 0 to leave it.
     """
@@ -476,7 +519,12 @@ def _with_fallbacks(coupling, q, friction, guess, start, tolerance, sweeps, turn
 
 
 def solve_contact(
-    W, q, mu, start, tolerance: float = 1e-12, sweeps: int = tolerances.SWEEPS_MOST
+    W: Array,
+    q: Array,
+    mu: Array | float,
+    start: Array,
+    tolerance: float = 1e-12,
+    sweeps: int = tolerances.SWEEPS_MOST,
 ) -> ContactSolution:
     """Solve the frictional contact problem of n points.
 

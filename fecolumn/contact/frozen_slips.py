@@ -15,6 +15,8 @@ only let points part or close by what they miss.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.arrays import largest
@@ -30,11 +32,23 @@ from fecolumn.contact.tolerances import (
     FROZEN_STEPS,
     MANY_POINTS,
 )
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.coupling import Coupling
 
 
 @njit
-def find_impulses(coupling, q, friction, start, near, exact, allowed, usable):
+def find_impulses(
+    coupling: Coupling,
+    q: Array,
+    friction: Array,
+    start: Array,
+    near: bool,
+    exact: float,
+    allowed: float,
+    usable: float,
+) -> tuple[Array, float, int]:
     """Impulses (n, 3) [N s] of points, how far they miss Coulomb's law [m/s], Newton steps made.
 
     Parameters
@@ -78,7 +92,16 @@ def find_impulses(coupling, q, friction, start, near, exact, allowed, usable):
 
 
 @njit
-def solve_frozen(coupling, q, friction, slips, motion, impulses, slopes, tolerance):
+def solve_frozen(
+    coupling: Coupling,
+    q: Array,
+    friction: Array,
+    slips: Array,
+    motion: Array,
+    impulses: Array,
+    slopes: Array,
+    tolerance: float,
+) -> tuple[int, float]:
     """Solve the convex problem of frozen slips (n,), which become those that it leaves: Newton
     steps made, and how far these are from the ones before, or points from the surface.
 
@@ -97,7 +120,9 @@ def solve_frozen(coupling, q, friction, slips, motion, impulses, slopes, toleran
 
 
 @njit
-def follow_slips(coupling, before, slips, motion, impulses, slopes):
+def follow_slips(
+    coupling: Coupling, before: Array, slips: Array, motion: Array, impulses: Array, slopes: Array
+) -> None:
     """Let the motion (nb, w) of a solution for slips `before` (n,) follow other slips, while the
     same points carry, stick and slide (Fiacco 1983, Introduction to Sensitivity and Stability
     Analysis in Nonlinear Programming, chapter 3); impulses, slopes: of the solution.
@@ -117,7 +142,7 @@ def follow_slips(coupling, before, slips, motion, impulses, slopes):
 
 
 @njit
-def extrapolate(before, change, slips):
+def extrapolate(before: Array, change: Array, slips: Array) -> None:
     """Let slips (n,) go on along their way from those before to where it would end, were it
     shortened in each round as in the last one, whose `change` (n,) led to those before (Irons and
     Tuck 1969, International Journal for Numerical Methods in Engineering 1, after Aitken).
@@ -137,7 +162,7 @@ def extrapolate(before, change, slips):
 
 
 @njit
-def halve_way(before, slips):
+def halve_way(before: Array, slips: Array) -> None:
     """Let slips (n,) go half the way only from those before: where many stones hand on what they
     slip, they else go to and fro.
     """
@@ -146,7 +171,16 @@ def halve_way(before, slips):
 
 
 @njit
-def _least(coupling, q, friction, slips, motion, impulses, slopes, tolerance):
+def _least(
+    coupling: Coupling,
+    q: Array,
+    friction: Array,
+    slips: Array,
+    motion: Array,
+    impulses: Array,
+    slopes: Array,
+    tolerance: float,
+) -> int:
     """Put the solution for frozen slips (n,) into motion (nb, w) and impulses (n, 3): Newton steps
     made. slopes: (n, 3, 3) room.
     """
@@ -163,7 +197,9 @@ def _least(coupling, q, friction, slips, motion, impulses, slopes, tolerance):
 
 
 @njit
-def _newton_step(coupling, rest, impulses, slopes):
+def _newton_step(
+    coupling: Coupling, rest: Array, impulses: Array, slopes: Array
+) -> tuple[bool, Array]:
     """Whether Newton's equations at a gradient `rest` (nb, w) are regular, and its step (nb, w)."""
     blocks, width, step = coupling.blocks, coupling.levers.shape[2] // 2, np.zeros_like(rest)
     matrix, right = _curvature(coupling, impulses, slopes), np.empty(blocks.first[-1])
@@ -181,7 +217,17 @@ def _newton_step(coupling, rest, impulses, slopes):
 
 
 @njit
-def _search(coupling, q, friction, slips, motion, rest, step, impulses, slopes):
+def _search(
+    coupling: Coupling,
+    q: Array,
+    friction: Array,
+    slips: Array,
+    motion: Array,
+    rest: Array,
+    step: Array,
+    impulses: Array,
+    slopes: Array,
+) -> tuple[Array, bool]:
     """Move the motion along a step to where the slope is a small share of what it was at its
     start: the gradient there, and whether the step descends at all.
     """
@@ -209,7 +255,7 @@ def _search(coupling, q, friction, slips, motion, rest, step, impulses, slopes):
 
 
 @njit
-def _product(one, other):
+def _product(one: Array, other: Array) -> float:
     """Sum of the products of two arrays (nb, w)."""
     total = 0.0
     for b in range(len(one)):
@@ -219,7 +265,15 @@ def _product(one, other):
 
 
 @njit
-def _gradient(coupling, q, friction, slips, motion, impulses, slopes):
+def _gradient(
+    coupling: Coupling,
+    q: Array,
+    friction: Array,
+    slips: Array,
+    motion: Array,
+    impulses: Array,
+    slopes: Array,
+) -> Array:
     """Gradient (nb, w) at a motion (nb, w); puts impulses (n, 3) and minus what they change by
     with the velocities of their points (n, 3, 3).
     """
@@ -248,7 +302,9 @@ def _gradient(coupling, q, friction, slips, motion, impulses, slopes):
 
 
 @njit
-def _nearest(x, y, z, mu, give, impulse, slope):
+def _nearest(
+    x: float, y: float, z: float, mu: float, give: float, impulse: Array, slope: Array
+) -> None:
     """Put the impulse (3,) of Coulomb's cone nearest to x, y, z, and its slope (3, 3) over give."""
     for a in range(3):
         impulse[a] = 0.0
@@ -280,7 +336,7 @@ def _nearest(x, y, z, mu, give, impulse, slope):
 
 
 @njit
-def _curvature(coupling, impulses, slopes):
+def _curvature(coupling: Coupling, impulses: Array, slopes: Array) -> Array:
     """Second derivatives (m, m): 1 + V^T slopes V, bodies in their order of elimination."""
     bodies, blocks, levers = coupling.bodies, coupling.blocks, coupling.levers
     rows, columns, n, begin = blocks.first[-1], levers.shape[2], len(levers), 0
@@ -314,7 +370,7 @@ def _curvature(coupling, impulses, slopes):
 
 
 @njit
-def _times_slope(levers, slope, target):
+def _times_slope(levers: Array, slope: Array, target: Array) -> None:
     """Target (3, 2 w): slope (3, 3) times levers (3, 2 w)."""
     for a in range(3):
         x, y, z = slope[a, 0], slope[a, 1], slope[a, 2]

@@ -6,12 +6,12 @@ them out of it anew in each step would take longer than all that is done with th
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fecolumn.contact.points import GROUND
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 
 class Gathered(NamedTuple):
@@ -20,10 +20,10 @@ class Gathered(NamedTuple):
     number rows and columns filled; k: slots of the base.
     """
 
-    number: np.ndarray
-    slots: np.ndarray
-    place: np.ndarray
-    matrix: np.ndarray
+    number: Array
+    slots: Array
+    place: Array
+    matrix: Array
 
 
 def none_gathered(slots: int) -> Gathered:
@@ -36,7 +36,7 @@ def none_gathered(slots: int) -> Gathered:
     )
 
 
-def gathered_nodes(base) -> np.ndarray:
+def gathered_nodes(base: Any) -> Array:
     """Top nodes (k,) of a base whose compliance is gathered, in their order: for a checkpoint,
     since sums are taken in this order.
     """
@@ -45,7 +45,7 @@ def gathered_nodes(base) -> np.ndarray:
     return nodes[base.gathered.slots[: base.gathered.number[0]]]
 
 
-def base_to_resume(base) -> dict[str, np.ndarray]:
+def base_to_resume(base: Any) -> dict[str, Array]:
     """Top nodes of a base whose compliance is known, and those that are gathered, for a
     checkpoint.
     """
@@ -55,7 +55,7 @@ def base_to_resume(base) -> dict[str, np.ndarray]:
     }
 
 
-def gather_again(base, nodes: np.ndarray) -> None:
+def gather_again(base: Any, nodes: Array) -> None:
     """Gather the top nodes (k,) of a base of which nothing is gathered, in their order."""
     gathered, slots, k = base.gathered, base.slot[nodes], len(nodes)
     rows = (3 * slots[:, None] + np.arange(3)).ravel()
@@ -64,7 +64,7 @@ def gather_again(base, nodes: np.ndarray) -> None:
 
 
 @njit
-def gather(base, points, listed):
+def gather(base: Any, points: Array, listed: Array) -> None:
     """Gather the nodes below the listed points (k,); where far more are gathered than all points
     can have, as a foot goes on its way, from the beginning.
     """

@@ -9,7 +9,7 @@ rigid limit it is Housner's (1963) impact.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,13 @@ from fecolumn.contact.tolerances import (
     POINTS_A_LEVER,
     SLIDE,
 )
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.bodies import Bodies
+    from fecolumn.contact.coupling import Coupling
+    from fecolumn.contact.pad import Springs
+    from fecolumn.contact.projection import GroundTops
 
 # Answers of `impact_event`
 NOTHING, LANDS, TURNS = range(3)
@@ -38,11 +44,11 @@ class TouchingBodies(NamedTuple):
     POINT; interfaces: (ni,) of INTERFACE; springs: of pads at the points.
     """
 
-    bodies: NamedTuple
-    base: NamedTuple
-    points: np.ndarray
-    interfaces: np.ndarray
-    springs: NamedTuple
+    bodies: Bodies
+    base: GroundTops
+    points: Array
+    interfaces: Array
+    springs: Springs
 
 
 class Collision(NamedTuple):
@@ -56,21 +62,23 @@ class Collision(NamedTuple):
     slip ends.
     """
 
-    union: np.ndarray
-    arms: np.ndarray
-    poses: np.ndarray
-    before: np.ndarray
-    after: np.ndarray
-    early: np.ndarray
-    late: np.ndarray
-    landing: np.ndarray
-    turning: np.ndarray
+    union: Array
+    arms: Array
+    poses: Array
+    before: Array
+    after: Array
+    early: Array
+    late: Array
+    landing: Array
+    turning: Array
     dt: float
     moment: float
 
 
 @njit
-def mark_landing(interfaces, points, listed, before, after, landing):
+def mark_landing(
+    interfaces: Array, points: Array, listed: Array, before: Array, after: Array, landing: Array
+) -> int:
     """Mark in `landing` (n,) those of the listed points (k,) that touch at the end of the step and
     were open at its start: how many.
 
@@ -99,14 +107,14 @@ def mark_landing(interfaces, points, listed, before, after, landing):
 
 
 @njit
-def _was_open(interfaces, points, before, i):
+def _was_open(interfaces: Array, points: Array, before: Array, i: int) -> bool:
     """Whether point i, which does not roll, was open at the start of the step."""
     above = before[i].relative[2] > OPEN * interfaces[points[i].interface].width
     return not points[i].rolls and before[i].force[2] <= 0 and above
 
 
 @njit
-def mark_turning(points, listed, before, after, turning):
+def mark_turning(points: Array, listed: Array, before: Array, after: Array, turning: Array) -> int:
     """Mark in `turning` (n,) those of the listed points (k,) whose slip may end within the step, in
     stick or in slip the other way: how many.
     """
@@ -125,14 +133,25 @@ def mark_turning(points, listed, before, after, turning):
 
 
 @njit
-def _slid(points, before, i):
+def _slid(points: Array, before: Array, i: int) -> bool:
     """Whether point i slid at the start of the step: full friction."""
     pull = np.hypot(before[i].force[0], before[i].force[1])
     return pull > 0 and pull >= (1 - FULL_FRICTION) * points[i].friction * before[i].force[2]
 
 
 @njit
-def impact_event(interfaces, points, listed, before, after, dt, early, late, landing, turning):
+def impact_event(
+    interfaces: Array,
+    points: Array,
+    listed: Array,
+    before: Array,
+    after: Array,
+    dt: float,
+    early: Array,
+    late: Array,
+    landing: Array,
+    turning: Array,
+) -> int:
     """Whether the velocities at the end of a step must be taken anew: NOTHING, a point LANDS, or
     slip TURNS for most of the foot.
 
@@ -174,7 +193,7 @@ def impact_event(interfaces, points, listed, before, after, dt, early, late, lan
 
 
 @njit
-def touched(listed, before, after, landing):
+def touched(listed: Array, before: Array, after: Array, landing: Array) -> Array:
     """Those of the listed points (k,) that carry at the start or at the end of the step, or land
     (mask).
     """
@@ -187,7 +206,9 @@ def touched(listed, before, after, landing):
 
 
 @njit
-def find_impact(touching, collision, contact_work, counts):
+def find_impact(
+    touching: TouchingBodies, collision: Collision, contact_work: float, counts: Array
+) -> tuple[int, bool, Array]:
     """Find the impulses (n, 3) [N s] that replace those of the step: OK or the code of what failed,
     whether there are any, the impulses.
 
@@ -313,7 +334,7 @@ def find_impact(touching, collision, contact_work, counts):
 
 
 @njit
-def _mobility(touching, collision):
+def _mobility(touching: TouchingBodies, collision: Collision) -> Coupling:
     """Coupling by mobility [1/kg] of the points `union` (k,) of a Collision."""
     bodies, points, springs = touching.bodies, touching.points, touching.springs
     union, arms, poses = collision.union, collision.arms, collision.poses
@@ -340,7 +361,7 @@ def _mobility(touching, collision):
 
 
 @njit
-def _jump(mobility, impulses):
+def _jump(mobility: Coupling, impulses: Array) -> Array:
     """Jump of the velocities (3 k,) [m/s] by impulses (3 k,) [N s]."""
     points = np.empty((len(impulses) // 3, 3))
     put_points(impulses, points)
@@ -348,7 +369,16 @@ def _jump(mobility, impulses):
 
 
 @njit
-def plastic_impact(mobility, friction, holds, start, end, given, moment, known):
+def plastic_impact(
+    mobility: Coupling,
+    friction: Array,
+    holds: Array,
+    start: Array,
+    end: Array,
+    given: Array,
+    moment: float,
+    known: float,
+) -> tuple[float, float]:
     """Kinetic energy [J] that a plastic impact of points (k,) takes at a moment in a step, and the
     fastest approach before it [m/s], both up to IMPACT_TOLD; no energy where that is not above the
     approach `known` [m/s].
@@ -376,7 +406,7 @@ def plastic_impact(mobility, friction, holds, start, end, given, moment, known):
 
 
 @njit
-def _any_rebounds(interfaces):
+def _any_rebounds(interfaces: Array) -> bool:
     """Whether any of the interfaces (ni,) has a restitution."""
     for k in range(len(interfaces)):
         if interfaces[k].restitution > 0.0:
@@ -385,7 +415,15 @@ def _any_rebounds(interfaces):
 
 
 @njit
-def _restitutions(interfaces, points, union, landing, velocity, start, free):
+def _restitutions(
+    interfaces: Array,
+    points: Array,
+    union: Array,
+    landing: Array,
+    velocity: Array,
+    start: Array,
+    free: Array,
+) -> Array:
     """Restitution (k,) of the points `union` (k,).
 
     Where a point of a joint lands, all points of the joint have the joint's own restitution. A
@@ -421,7 +459,7 @@ def _restitutions(interfaces, points, union, landing, velocity, start, free):
 
 
 @njit
-def _fastest(start, end):
+def _fastest(start: Array, end: Array) -> float:
     """Largest of the velocities (3 k,) at both ends of a step [m/s], at least IMPACT_LEAST."""
     most = IMPACT_LEAST
     for j in range(len(start)):
@@ -430,14 +468,14 @@ def _fastest(start, end):
 
 
 @njit
-def _between(first, last, share, target):
+def _between(first: Array, last: Array, share: float, target: Array) -> None:
     """Target (m,): so far on the way from the first to the last."""
     for j in range(len(target)):
         target[j] = first[j] + share * (last[j] - first[j])
 
 
 @njit
-def _work(impulses, velocity, jump):
+def _work(impulses: Array, velocity: Array, jump: Array) -> float:
     """Energy [J] that impulses bring by their velocity jump."""
     total = 0.0
     for j in range(len(impulses)):
@@ -446,7 +484,7 @@ def _work(impulses, velocity, jump):
 
 
 @njit
-def _energy_limited_share(first, second, contact_work):
+def _energy_limited_share(first: float, second: float, contact_work: float) -> float:
     """Largest share s, at most 1, of impulses that bring the energy first s + second s^2 [J] by
     which they and contact, `contact_work` [J], bring none in all; of contact that brings some
     itself, the share that takes most.
@@ -461,7 +499,9 @@ def _energy_limited_share(first, second, contact_work):
 
 
 @njit
-def landing_moment(union, before, after, early, landing, dt):
+def landing_moment(
+    union: Array, before: Array, after: Array, early: Array, landing: Array, dt: float
+) -> float:
     """Fraction of the step at which the landing points (mask) arrive, mean by their forces."""
     total = weights = 0.0
     for i in union:
@@ -473,7 +513,16 @@ def landing_moment(union, before, after, early, landing, dt):
 
 
 @njit
-def _turning_moment(points, before, after, start, free, pushed, union, turning):
+def _turning_moment(
+    points: Array,
+    before: Array,
+    after: Array,
+    start: Array,
+    free: Array,
+    pushed: Array,
+    union: Array,
+    turning: Array,
+) -> float:
     """Fraction of the step at which full friction ends the slip of the turning points (mask), mean
     by their forces.
 

@@ -7,6 +7,8 @@ Rockafellar 1976).
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.arrays import flat, largest, put_points
@@ -30,11 +32,23 @@ from fecolumn.contact.tolerances import (
     SHARP,
     SWEEPS_MOST,
 )
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.coupling import Coupling
 
 
 @njit
-def held_impulses(mobility, velocity, friction, held, guess, speed, pressed, counts):
+def held_impulses(
+    mobility: Coupling,
+    velocity: Array,
+    friction: Array,
+    held: Array,
+    guess: Array,
+    speed: float,
+    pressed: float,
+    counts: Array,
+) -> tuple[Array, bool]:
     """Impulses (3 k,) of the points `held` (m,) alone, as `_impulses`; guess: (3 k,)."""
     m, impulses = len(held), np.zeros(len(velocity))
     approach, start, mu = (
@@ -54,7 +68,15 @@ def held_impulses(mobility, velocity, friction, held, guess, speed, pressed, cou
 
 
 @njit
-def all_impulses(mobility, velocity, friction, guess, speed, pressed, counts):
+def all_impulses(
+    mobility: Coupling,
+    velocity: Array,
+    friction: Array,
+    guess: Array,
+    speed: float,
+    pressed: float,
+    counts: Array,
+) -> tuple[Array, bool]:
     """As `_impulses`, with flat arrays (3 k,)."""
     k = len(friction)
     approach, start = np.empty((k, 3)), np.empty((k, 3))
@@ -65,7 +87,9 @@ def all_impulses(mobility, velocity, friction, guess, speed, pressed, counts):
 
 
 @njit
-def rough_impulses(mobility, velocity, friction, listed, guess):
+def rough_impulses(
+    mobility: Coupling, velocity: Array, friction: Array, listed: Array, guess: Array
+) -> Array:
     """Impulses (3 k,) of the listed points (m,) alone, that obey the laws up to IMPACT_TOLD of the
     largest velocity: for what is told of an impact, and moves nothing.
 
@@ -103,7 +127,15 @@ def rough_impulses(mobility, velocity, friction, listed, guess):
 
 
 @njit
-def _impulses(mobility, velocity, friction, guess, speed, pressed, counts):
+def _impulses(
+    mobility: Coupling,
+    velocity: Array,
+    friction: Array,
+    guess: Array,
+    speed: float,
+    pressed: float,
+    counts: Array,
+) -> tuple[Array, bool]:
     """Impulses (k, 3) of points that would have velocities (k, 3) [m/s] without them, and whether
     the impulses obey the laws, up to a share IMPACT_LEFT of the largest of these velocities.
 
@@ -154,7 +186,16 @@ def _impulses(mobility, velocity, friction, guess, speed, pressed, counts):
 
 
 @njit
-def _softened_impulses(compliance, velocity, friction, guess, allowed, usable, near, counts):
+def _softened_impulses(
+    compliance: Coupling,
+    velocity: Array,
+    friction: Array,
+    guess: Array,
+    allowed: float,
+    usable: float,
+    near: bool,
+    counts: Array,
+) -> tuple[Array, bool]:
     """Impulses (k, 3) that obey the laws up to a velocity [m/s], and whether they do: where there
     are several, those that Newton finds from the guess. Where it finds none, of bodies that move in
     few ways, what convex problems find up to a larger velocity, `usable`. near: whether the guess

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.record import record
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.contact.rim import Rim
 
 #: An interface: slave, master and ground as of POINT; width of the foot [m], to which tolerances of
 #: length are related; restitution, see `contact.restitution`; rolling: coefficient of the rim's
@@ -64,14 +70,14 @@ RIM = record(
 
 
 def interface_of(
-    reference: np.ndarray,
-    rim=None,
+    reference: Array,
+    rim: Rim | None = None,
     restitution: float = 0.0,
     rolling: float = 0.0,
-    pad=None,
+    pad: None = None,
     slave: int = 0,
     master: int = -1,
-) -> np.ndarray:
+) -> Array:
     """One interface (1,) of INTERFACE below a foot with nodes at (n, 3) [m]; rim: Rim or None, pad:
     Pad or None.
     """
@@ -100,7 +106,7 @@ def interface_of(
     return interface
 
 
-def rims_at_rest(count: int = 1) -> np.ndarray:
+def rims_at_rest(count: int = 1) -> Array:
     """(count,) of RIM that touch with their nodes only."""
     rims = np.zeros(count, RIM)
     rims["angle"] = np.nan

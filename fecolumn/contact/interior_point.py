@@ -21,11 +21,11 @@ from fecolumn.contact.tolerances import (
     INSIDE_SMOOTH,
     INSIDE_WAY,
 )
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 
 @njit
-def in_cones(W, q, friction):
+def in_cones(W: Array, q: Array, friction: Array) -> tuple[Array, Array]:
     """Compliance (3 n, 3 n) and slip (n, 3) without forces in the units of R and U; arguments as of
     `friction.solve_contact`, friction (n,).
 
@@ -51,7 +51,9 @@ def in_cones(W, q, friction):
 
 
 @njit
-def approach(A, Q, friction, R, U, most, slips):
+def approach(
+    A: Array, Q: Array, friction: Array, R: Array, U: Array, most: int, slips: Array
+) -> tuple[Array, int]:
     """Go `most` iterations on towards a solution from R, U (n, 3), inside the cones, or from the
     middle where they are zero; both change.
 
@@ -141,7 +143,7 @@ def approach(A, Q, friction, R, U, most, slips):
 
 
 @njit
-def _scaling(r, u, square):
+def _scaling(r: Array, u: Array, square: Array) -> None:
     """P^2 (3, 3) of Nesterov and Todd's symmetric P with P r = P^-1 u."""
     tangential, across = np.hypot(r[0], r[1]), np.hypot(u[0], u[1])
     size_r = np.sqrt(max((r[2] - tangential) * (r[2] + tangential), 1e-300))
@@ -160,7 +162,7 @@ def _scaling(r, u, square):
 
 
 @njit
-def _way(x, d):
+def _way(x: Array, d: Array) -> float:
     """Largest t for which x + t d (n, 3) lies in the cones."""
     least = np.inf
     for i in range(len(x)):
@@ -179,7 +181,7 @@ def _way(x, d):
 
 
 @njit
-def _unscaled(R, friction):
+def _unscaled(R: Array, friction: Array) -> Array:
     """Forces (n, 3) from R."""
     forces = np.empty((len(R), 3))
     for i in range(len(R)):
@@ -192,7 +194,7 @@ def _unscaled(R, friction):
 
 
 @njit
-def _product(R, dR, U, dU, t):
+def _product(R: Array, dR: Array, U: Array, dU: Array, t: float) -> float:
     """Sum of (R + t dR) (U + t dU)."""
     total = 0.0
     for i in range(len(R)):

@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from fecolumn.contact.overlap import Overlaps, no_overlaps
 from fecolumn.contact.points import GROUND, POINT, UNPREPARED, node_points
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import SAME_PLACE
+from fecolumn.foundation._compiled import Array
 
 
 class Joints(NamedTuple):
@@ -23,22 +25,26 @@ class Joints(NamedTuple):
     two sides.
     """
 
-    points: np.ndarray
-    interfaces: np.ndarray
-    rim: np.ndarray
-    facets: np.ndarray
+    points: Array
+    interfaces: Array
+    rim: Array
+    facets: Array
     names: tuple[str, ...] = ()
     overlaps: Overlaps = no_overlaps()
 
 
-def left_faces(names, points: np.ndarray) -> tuple[str, ...]:
+def left_faces(names: Any, points: Array) -> tuple[str, ...]:
     """Of `names` of interfaces those of which some of the points (P,) of POINT have left the face
     that is prepared for them.
     """
     return tuple(sorted({names[k] for k in points["interface"][points["beyond"] == UNPREPARED]}))
 
 
-def joints_of(parts, joints, replaced=frozenset()) -> Joints:
+def joints_of(
+    parts: list[Any] | tuple[Any, ...],
+    joints: list[Any] | tuple[Any, ...],
+    replaced: frozenset[int] = frozenset(),
+) -> Joints:
     """Points and interfaces of the joints (`structures.model.Joint`) of parts
     (`structures.model.Part`), whose nodes come one after another.
 
@@ -50,7 +56,10 @@ def joints_of(parts, joints, replaced=frozenset()) -> Joints:
         np.zeros(0, FACET),
         {},
     )
-    points, interfaces, rims, overlaps = [], [], [], OverlapBuilder()
+    points: list[Array] = []
+    interfaces: list[Array] = []
+    rims: list[Array] = []
+    overlaps = OverlapBuilder()
     for k, joint in enumerate(joints):
         slave = parts[joint.slave].model
         touching = slave.surfaces[joint.slave_surface]
@@ -66,7 +75,7 @@ def joints_of(parts, joints, replaced=frozenset()) -> Joints:
             interface["ball"], interface["edge"] = joint.ball.radius, joint.ball.edge
             interface["foot"] += joint.ball.radius * outward
             interface["width"] = max(interface["width"][0], 2 * max(joint.ball.edge))
-        interface["rim_first"] = sum(map(len, rims))
+        interface["rim_first"] = sum(len(one) for one in rims)
         rims.append(np.asarray(rim.nodes if rim else [], np.int64))
         if joint.master != GROUND:
             surface = parts[joint.master].model.surfaces[joint.master_surface]
@@ -122,7 +131,14 @@ def joints_of(parts, joints, replaced=frozenset()) -> Joints:
     )
 
 
-def _side_of(parts, joints, k: int, outline: np.ndarray, interfaces, points) -> tuple:
+def _side_of(
+    parts: Sequence[Any],
+    joints: Sequence[Any],
+    k: int,
+    outline: Array,
+    interfaces: list[Array],
+    points: list[Array],
+) -> tuple:
     """Interface k as `OverlapBuilder.add` takes it; outline: (n, 2, 3) [m] ends of the sides of its
     slave's face from the centre of mass.
     """
@@ -137,11 +153,12 @@ def _side_of(parts, joints, k: int, outline: np.ndarray, interfaces, points) -> 
     return k, points[k], places, surface.plane(outline)[..., :2], circle
 
 
-def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:
+def facets_of(surface: Any, arms: Array, first: int) -> Array:
     """Triangles (t,) of FACET of a Surface of a body with nodes at `arms` (n, 3), in rows from
     `first` on.
     """
-    facets, sides = np.zeros(len(surface.triangles), FACET), {}
+    facets = np.zeros(len(surface.triangles), FACET)
+    sides: dict[frozenset[Any], tuple[int, int]] = {}
     facets["nodes"] = first + surface.nodes[surface.triangles]
     facets["corners"] = ((arms[surface.nodes] - surface.origin) @ surface.axes[:, :2])[
         surface.triangles
@@ -161,14 +178,14 @@ def facets_of(surface, arms: np.ndarray, first: int) -> np.ndarray:
     return facets
 
 
-def is_convex(facets: np.ndarray) -> bool:
+def is_convex(facets: Array) -> bool:
     """Whether all of the outline of triangles (t,) of FACET is known and convex: what is beyond one
     side of it is beyond the surface. Inside it nodes may lack.
     """
     corners = facets["corners"]
     number, q = np.nonzero(facets["neighbours"] == -1)
     ends = np.stack([facets["nodes"][number, (q + 1) % 3], facets["nodes"][number, (q + 2) % 3]])
-    if len(number) == 0 or not np.array_equal(*map(np.sort, ends)):
+    if len(number) == 0 or not np.array_equal(np.sort(ends[0]), np.sort(ends[1])):
         # each node of a closed outline ends one side and begins another
         return False
     start, own = corners[number, (q + 1) % 3], corners[number, q]

@@ -12,12 +12,18 @@ from __future__ import annotations
 import os
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from fecolumn.contact.base_top import BaseTop
+from fecolumn.foundation._compiled import Array
 from fecolumn.foundation.lock import alone
+
+if TYPE_CHECKING:
+    from fecolumn.contact.base_plate import BasePlate
 
 #: Least reach of the first compliance around a foot, over the foot's width.
 LEAST_REACH = 0.1
@@ -35,7 +41,7 @@ class KnownBase:
     had needed before [s].
     """
 
-    def __init__(self, folder: Path, make):
+    def __init__(self, folder: Path, make: Callable[..., Any]) -> None:
         self._folder, self._make, self.made_s, self.made_cpu_s = folder, make, 0.0, 0.0
         with np.load(folder / "base.npz") as file:
             self.grid, self.frequency, self.dofs = (
@@ -50,7 +56,7 @@ class KnownBase:
             )
         self._open(0)
 
-    def need(self, wanted: np.ndarray) -> None:
+    def need(self, wanted: Array) -> None:
         """Make sure that the compliance holds the top nodes `wanted`; a reach that no analysis
         needed before takes seconds.
         """
@@ -92,7 +98,7 @@ class KnownBase:
         keep_base(plate, lambda name: self._file(name, reach))
 
 
-def keep_base(plate, file) -> None:
+def keep_base(plate: BasePlate, file: Callable[..., Any]) -> None:
     """Write what is known of a plate; `known` comes last and says that all is there."""
     for name, values in (
         ("compliance", np.ascontiguousarray(plate.compliance.transpose(0, 2, 1, 3))),
@@ -104,7 +110,7 @@ def keep_base(plate, file) -> None:
         os.replace(partial.name, file(name))
 
 
-def under(points, feet, allowance: float) -> np.ndarray:
+def under(points: Array, feet: list[Array], allowance: float) -> Array:
     """Top nodes (k,) that feet, each at (n, 3) [m], may press when they slide by `allowance` [m] to
     any side.
     """

@@ -4,12 +4,14 @@ interface).
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
+from fecolumn.foundation._compiled import Array
 
-def interface_compliance(
-    contact, youngs_modulus: float, size: float, areas: np.ndarray
-) -> np.ndarray:
+
+def interface_compliance(contact: Any, youngs_modulus: float, size: float, areas: Array) -> Array:
     """Compliance (n, 3) [m/N] of the interface at each contact point.
 
     `augmented_lagrange` has none: gap and slip vanish to the tolerance of the contact solver.

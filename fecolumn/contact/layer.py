@@ -5,8 +5,11 @@ one of them.
 from __future__ import annotations
 
 import itertools
+from typing import Any
 
 import numpy as np
+
+from fecolumn.foundation._compiled import Array
 
 # Images of the force in a periodic layer are so many thicknesses away: what they do there is below
 # 1e-6 of the force's own
@@ -15,7 +18,7 @@ CLEAR = 10.0
 MOST_CELLS = 2048
 
 
-def layer_response(size: float, depths: np.ndarray, material, reach: int) -> np.ndarray:
+def layer_response(size: float, depths: Array, material: Any, reach: int) -> Array:
     """Displacements (2 reach + 1, 2 reach + 1, 3, 3) [m/N] of the top's nodes around one that
     carries a unit force.
 
@@ -73,7 +76,7 @@ def layer_response(size: float, depths: np.ndarray, material, reach: int) -> np.
     return np.roll(response, (reach, reach), axis=(0, 1))[: 2 * reach + 1, : 2 * reach + 1]
 
 
-def brick_stiffness(dx: float, dy: float, dz: float, material) -> np.ndarray:
+def brick_stiffness(dx: float, dy: float, dz: float, material: Any) -> Array:
     """Stiffness (2, 2, 2, 3, 2, 2, 2, 3) [N/m] of an 8-node brick, corners by their place along x,
     y, z: exact for 2 x 2 x 2 points.
     """
@@ -98,7 +101,7 @@ def brick_stiffness(dx: float, dy: float, dz: float, material) -> np.ndarray:
     return stiffness
 
 
-def _by_offset(stiffness) -> np.ndarray:
+def _by_offset(stiffness: Array) -> Array:
     """Blocks (3, 3, 2, 2, 3, 3) of a brick summed by how far its corners are apart in plan, -1 to
     1; then upper and lower level.
     """
@@ -108,7 +111,7 @@ def _by_offset(stiffness) -> np.ndarray:
     return blocks
 
 
-def _of_waves(blocks, p: float, q: np.ndarray) -> np.ndarray:
+def _of_waves(blocks: Array, p: float, q: Array) -> Array:
     """Blocks (2, 2, len(q), 3, 3) of the waves p along x and q along y."""
     along, across = np.exp(1j * p * np.arange(-1, 2)), np.exp(1j * np.outer(q, np.arange(-1, 2)))
     return np.einsum("j,wk,jkmnab->mnwab", along, across, blocks)

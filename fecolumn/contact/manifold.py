@@ -12,7 +12,7 @@ a corner of the first body, one of the second, or an edge of each.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,10 @@ from fecolumn.contact.convex import TOGETHER, Hulls
 from fecolumn.contact.record import record
 from fecolumn.contact.separation import perpendicular
 from fecolumn.contact.tolerances import SAME_OUTLINE
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.separation import Relation
 
 #: Kinds of names: see `name_of`; 0 is that of no place
 CORNER_OF_FIRST, CORNER_OF_SECOND, CROSSING = 1, 2, 3
@@ -48,8 +51,8 @@ CLIPPED = record(("at", "f8", 3), ("name", "i8"), ("source", "i8"))
 class PlaceRoom(NamedTuple):
     """Room for places: (M,) of PLACE_FOUND, and (2, M) of CLIPPED."""
 
-    found: np.ndarray
-    clipped: np.ndarray
+    found: Array
+    clipped: Array
 
 
 def place_room_for(hulls: Hulls) -> PlaceRoom:
@@ -60,7 +63,7 @@ def place_room_for(hulls: Hulls) -> PlaceRoom:
 
 
 @njit(alone=TOGETHER)
-def name_of(kind, first, second):
+def name_of(kind: int, first: int, second: int) -> int:
     """Name of a place: of its kind, and of the corner, or of an edge of the first body and one of
     the second.
     """
@@ -68,7 +71,7 @@ def name_of(kind, first, second):
 
 
 @njit(alone=TOGETHER)
-def _crossing(exchanged, of_slave, of_master):
+def _crossing(exchanged: bool, of_slave: int, of_master: int) -> int:
     return (
         name_of(CROSSING, of_slave, of_master)
         if exchanged
@@ -77,7 +80,9 @@ def _crossing(exchanged, of_slave, of_master):
 
 
 @njit(alone=TOGETHER)
-def facing(hulls, slave, x, y, z, least, before):
+def facing(
+    hulls: Hulls, slave: int, x: float, y: float, z: float, least: float, before: int
+) -> int:
     """The slave's face that is most against a normal x, y, z, in the slave's frame.
 
     Only faces at the slave's nearest corner count, which is at `least` [m] along the normal. Where
@@ -101,7 +106,15 @@ def facing(hulls, slave, x, y, z, least, before):
 
 
 @njit(alone=TOGETHER)
-def _lay_face(hulls, slave, face, f, relation, exchanged, places):
+def _lay_face(
+    hulls: Hulls,
+    slave: int,
+    face: int,
+    f: int,
+    relation: Relation,
+    exchanged: bool,
+    places: PlaceRoom,
+) -> int:
     """Put a face of the slave into the frame of face f of the master; how many corners it has."""
     T, s, axes, middle = relation.turn, relation.shift, hulls.axes[f], hulls.middles[f]
     row = hulls.first[slave, 1] + face
@@ -122,7 +135,7 @@ def _lay_face(hulls, slave, face, f, relation, exchanged, places):
 
 
 @njit(alone=TOGETHER)
-def _name_at_side(hulls, master, f, k, source, exchanged):
+def _name_at_side(hulls: Hulls, master: int, f: int, k: int, source: int, exchanged: bool) -> int:
     """Name of the place where an edge of what is left comes to side k of face f of the master."""
     start = hulls.loop_first[f]
     if source >= 0:
@@ -136,7 +149,9 @@ def _name_at_side(hulls, master, f, k, source, exchanged):
 
 
 @njit(alone=TOGETHER)
-def _clip(hulls, master, f, slave, count, exchanged, places):
+def _clip(
+    hulls: Hulls, master: int, f: int, slave: int, count: int, exchanged: bool, places: PlaceRoom
+) -> tuple[int, int]:
     """Clip to face f of the master; how many corners are left, and in which half of the room.
 
     A corner on the outline, or beyond it by no more than rounding, belongs to the face: of two
@@ -187,7 +202,17 @@ def _clip(hulls, master, f, slave, count, exchanged, places):
 
 
 @njit(alone=TOGETHER)
-def places_on_face(hulls, master, face, slave, facing_face, relation, exchanged, reach, places):
+def places_on_face(
+    hulls: Hulls,
+    master: int,
+    face: int,
+    slave: int,
+    facing_face: int,
+    relation: Relation,
+    exchanged: bool,
+    reach: float,
+    places: PlaceRoom,
+) -> int:
     """Find the places at which the slave's face is less than `reach` [m] over a face of the master;
     how many they are.
 
@@ -219,7 +244,17 @@ def places_on_face(hulls, master, face, slave, facing_face, relation, exchanged,
 
 
 @njit(alone=TOGETHER)
-def place_of_edges(hulls, a, first, b, second, relation, reach, places, normal):
+def place_of_edges(
+    hulls: Hulls,
+    a: int,
+    first: int,
+    b: int,
+    second: int,
+    relation: Relation,
+    reach: float,
+    places: PlaceRoom,
+    normal: Array,
+) -> bool:
     """Find the place where an edge of body a and one of body b cross, if they do and are less than
     `reach` [m] apart; whether there is one. normal: (3,) is put, in the frame of body a.
     """
@@ -253,7 +288,16 @@ def place_of_edges(hulls, a, first, b, second, relation, reach, places, normal):
 
 
 @njit(alone=TOGETHER)
-def places_on_ground(hulls, body, centers, rotations, place, axes, reach, places):
+def places_on_ground(
+    hulls: Hulls,
+    body: int,
+    centers: Array,
+    rotations: Array,
+    place: Array,
+    axes: Array,
+    reach: float,
+    places: PlaceRoom,
+) -> int:
     """Find the corners of a body that are less than `reach` [m] over a plane ground; how many they
     are.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -29,7 +29,10 @@ from fecolumn.contact.separation import (
 )
 from fecolumn.contact.slots import is_idle, settle_places
 from fecolumn.contact.tolerances import OTHER_AXIS
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.meetings import Meetings
 
 
 class Room(NamedTuple):
@@ -38,7 +41,7 @@ class Room(NamedTuple):
     relation: Relation
     reverse: Relation
     places: PlaceRoom
-    normal: np.ndarray
+    normal: Array
 
 
 def room_for(hulls: Hulls) -> Room:
@@ -47,7 +50,16 @@ def room_for(hulls: Hulls) -> Room:
 
 
 @njit(alone=TOGETHER)
-def find_meetings(hulls, centers, rotations, ground_places, ground_axes, reach, meetings, room):
+def find_meetings(
+    hulls: Hulls,
+    centers: Array,
+    rotations: Array,
+    ground_places: Array,
+    ground_axes: Array,
+    reach: float,
+    meetings: Meetings,
+    room: Room,
+) -> bool:
     """Find the places of all rows at which bodies are less than `reach` [m] apart; whether others
     take part than before.
 
@@ -72,7 +84,17 @@ def find_meetings(hulls, centers, rotations, ground_places, ground_axes, reach, 
 
 
 @njit(alone=TOGETHER)
-def _meet_ground(hulls, centers, rotations, place, axes, reach, row, places, room):
+def _meet_ground(
+    hulls: Hulls,
+    centers: Array,
+    rotations: Array,
+    place: Array,
+    axes: Array,
+    reach: float,
+    row: Record,
+    places: Array,
+    room: PlaceRoom,
+) -> bool:
     """`find_meetings` of a row of a body and a ground."""
     body = row.pair[1]
     count = places_on_ground(hulls, body, centers, rotations, place, axes, reach, room)
@@ -89,7 +111,15 @@ def _meet_ground(hulls, centers, rotations, place, axes, reach, row, places, roo
 
 
 @njit(alone=TOGETHER)
-def _meet(hulls, centers, rotations, reach, row, places, room):
+def _meet(
+    hulls: Hulls,
+    centers: Array,
+    rotations: Array,
+    reach: float,
+    row: Record,
+    places: Array,
+    room: Room,
+) -> bool:
     """`find_meetings` of a row of two bodies."""
     a, b, relation, was, count = row.pair[0], row.pair[1], room.relation, row.kind, 0
     first, second = row.feature[0], row.feature[1]
@@ -132,7 +162,7 @@ def _meet(hulls, centers, rotations, reach, row, places, room):
 
 
 @njit(alone=TOGETHER)
-def _is_same(hulls, b, relation, row, most):
+def _is_same(hulls: Hulls, b: int, relation: Relation, row: Record, most: float) -> bool:
     """Whether no place of body b has moved by `most` [m] as seen from the other body since all axes
     were looked at.
     """
@@ -146,7 +176,7 @@ def _is_same(hulls, b, relation, row, most):
 
 
 @njit(alone=TOGETHER)
-def _remember(relation, row, near):
+def _remember(relation: Relation, row: Record, near: bool) -> None:
     """Keep how the bodies are to each other, where all axes were looked at."""
     for i in range(3):
         row.shift_then[i] = relation.shift[i]
@@ -155,7 +185,18 @@ def _remember(relation, row, near):
 
 
 @njit(alone=TOGETHER)
-def _meet_face(hulls, master, face, slave, relation, exchanged, reach, row, before, places):
+def _meet_face(
+    hulls: Hulls,
+    master: int,
+    face: int,
+    slave: int,
+    relation: Relation,
+    exchanged: bool,
+    reach: float,
+    row: Record,
+    before: int,
+    places: PlaceRoom,
+) -> int:
     """Find the places over a face of the master and set the axes of a row; how many they are."""
     f, T, first = hulls.first[master, 1] + face, relation.turn, hulls.first
     n = hulls.normals[f]
@@ -174,7 +215,7 @@ def _meet_face(hulls, master, face, slave, relation, exchanged, reach, row, befo
 
 
 @njit(alone=TOGETHER)
-def _set_axes_of_edge(hulls, a, edge, row, normal):
+def _set_axes_of_edge(hulls: Hulls, a: int, edge: int, row: Record, normal: Array) -> None:
     """Axes of a row: an edge of body a, across it, and the normal (3,) in its frame."""
     d = hulls.ways[hulls.first[a, 2] + edge]
     start = hulls.corners[hulls.first[a, 0] + hulls.ends[hulls.first[a, 2] + edge, 0]]
@@ -186,7 +227,7 @@ def _set_axes_of_edge(hulls, a, edge, row, normal):
 
 
 @njit(alone=TOGETHER)
-def _set_frame(row, rotation, known):
+def _set_frame(row: Record, rotation: Array, known: bool) -> None:
     """Turn a row's axes into the table frame."""
     for i in range(3):
         for k in range(3):

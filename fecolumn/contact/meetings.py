@@ -29,14 +29,18 @@ at, theirs is still good enough: a pair that rests costs one axis, as one that i
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from fecolumn.contact.convex import TOGETHER
 from fecolumn.contact.record import record
 from fecolumn.contact.separation import NO_AXIS
-from fecolumn.foundation._compiled import interpreted, njit
+from fecolumn.foundation._compiled import Array, Record, interpreted, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.convex import Hulls
+    from fecolumn.contact.nearby import Boxes
 
 #: Kind of axis of a body over a plane ground, beside those of `contact.separation`
 GROUND_NORMAL = 4
@@ -88,9 +92,9 @@ class Meetings(NamedTuple):
     their pair, own to `keep_rows`.
     """
 
-    rows: np.ndarray
-    places: np.ndarray
-    buckets: np.ndarray
+    rows: Array
+    places: Array
+    buckets: Array
 
 
 def meetings_for(rows: int, slots: int = 8) -> Meetings:
@@ -103,7 +107,9 @@ def meetings_for(rows: int, slots: int = 8) -> Meetings:
 
 
 @njit(alone=TOGETHER)
-def add_grounds(hulls, boxes, ground_places, ground_axes, pairs, found):
+def add_grounds(
+    hulls: Hulls, boxes: Boxes, ground_places: Array, ground_axes: Array, pairs: Array, found: int
+) -> int:
     """Add to `found` pairs those of a body and a ground that are as near as boxes are grown; how
     many there are then.
 
@@ -131,7 +137,7 @@ def add_grounds(hulls, boxes, ground_places, ground_axes, pairs, found):
 
 
 @njit(alone=TOGETHER)
-def _bucket(meetings, first, second):
+def _bucket(meetings: Meetings, first: int, second: int) -> int:
     """The bucket in which the row of a pair is or would be."""
     buckets, mask = meetings.buckets, len(meetings.buckets) - 1
     k = (first * 73856093 ^ second * 19349663) & mask
@@ -144,7 +150,7 @@ def _bucket(meetings, first, second):
 
 
 @njit(alone=TOGETHER)
-def keep_rows(meetings, pairs):
+def keep_rows(meetings: Meetings, pairs: Array) -> int:
     """Give each of pairs (k, 2) a row, the one it has where it has one, and free all others; how
     many pairs found no row.
     """
@@ -178,7 +184,7 @@ def keep_rows(meetings, pairs):
 
 
 @njit(alone=TOGETHER)
-def _free(row, places):
+def _free(row: Record, places: Array) -> None:
     """Take the pair from a row."""
     row.pair[0] = row.pair[1] = NO_PAIR
     row.kind, row.separation, row.facing = NO_AXIS, np.inf, -1

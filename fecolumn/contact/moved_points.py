@@ -4,15 +4,20 @@ or changes bodies.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.rim import on_circle
 from fecolumn.contact.tolerances import SAME_CORNER
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.overlap import Overlaps
 
 
 @njit
-def on_face(arm, interface):
+def on_face(arm: Array, interface: Record) -> tuple[float, float]:
     """Place x, y [m] of an arm (3,) on the face that is the master's surface of an interface."""
     x = y = 0.0
     for a in range(3):
@@ -22,7 +27,9 @@ def on_face(arm, interface):
 
 
 @njit
-def _place_in_frame(interface, frames, pose, arm, place):
+def _place_in_frame(
+    interface: Record, frames: Array, pose: Record, arm: Array, place: Array
+) -> None:
     """Place (3,) [m] of an arm of the slave, which does not give, in the frame of an interface."""
     center = frames[interface.slave].center
     for a in range(3):
@@ -34,7 +41,7 @@ def _place_in_frame(interface, frames, pose, arm, place):
 
 
 @njit
-def carry_by_node(point, node, arms):
+def carry_by_node(point: Record, node: int, arms: Array) -> None:
     """Let a point be a node."""
     point.count = 1
     for q in range(4):
@@ -44,7 +51,19 @@ def carry_by_node(point, node, arms):
 
 
 @njit
-def carry_by_outline(overlaps, joint, which, side, place, interface, other, rim, points, i, arms):
+def carry_by_outline(
+    overlaps: Overlaps,
+    joint: Record,
+    which: int,
+    side: int,
+    place: Array,
+    interface: Record,
+    other: Record,
+    rim: Array,
+    points: Array,
+    i: int,
+    arms: Array,
+) -> None:
     """Place point i on the outline `which`, OWN or OTHER, at `place` (2,) [m]: find the nodes that
     carry it and their shares.
 
@@ -73,7 +92,7 @@ def carry_by_outline(overlaps, joint, which, side, place, interface, other, rim,
 
 
 @njit
-def _carry_on_side(side, nodes, place, point):
+def _carry_on_side(side: Record, nodes: Array, place: Array, point: Record) -> None:
     """Let a point be carried by the two nodes of a side beside it, and where it is off the side, by
     the farthest one.
     """
@@ -104,7 +123,16 @@ def _carry_on_side(side, nodes, place, point):
 
 
 @njit
-def move_inwards(interface, rim, q, points, point, share, arms, way):
+def move_inwards(
+    interface: Record,
+    rim: Array,
+    q: int,
+    points: Array,
+    point: Record,
+    share: float,
+    arms: Array,
+    way: Array,
+) -> None:
     """Move a point of a rim towards the middle by a share of the diameter: way (3,) [m] by which it
     goes.
     """
@@ -129,7 +157,7 @@ def move_inwards(interface, rim, q, points, point, share, arms, way):
 
 
 @njit
-def deactivate_point(i, points, before):
+def deactivate_point(i: int, points: Array, before: Array) -> bool:
     """Let point i take no part; whether it did in the step before."""
     changed, contact = not points[i].idle, before[i]
     points[i].idle = True
@@ -141,7 +169,18 @@ def deactivate_point(i, points, before):
 
 
 @njit
-def bring(i, gone, interfaces, frames, poses, contact, points, before, size, lay):
+def bring(
+    i: int,
+    gone: int,
+    interfaces: Array,
+    frames: Array,
+    poses: Array,
+    contact: Array,
+    points: Array,
+    before: Array,
+    size: float,
+    lay: bool,
+) -> None:
     """Bring to point i, which is in its place, what it carried in the step before.
 
     If it took no part then, it takes over from point `gone`, which was in this place in the
@@ -171,7 +210,16 @@ def bring(i, gone, interfaces, frames, poses, contact, points, before, size, lay
 
 
 @njit
-def _exchange(i, gone, interfaces, frames, poses, contact, points, before):
+def _exchange(
+    i: int,
+    gone: int,
+    interfaces: Array,
+    frames: Array,
+    poses: Array,
+    contact: Array,
+    points: Array,
+    before: Array,
+) -> None:
     """Let point i take over force, slip and gap of a point `gone` of the interface with the roles
     exchanged.
     """
@@ -207,7 +255,7 @@ def _exchange(i, gone, interfaces, frames, poses, contact, points, before):
 
 
 @njit
-def activate_point(now):
+def activate_point(now: Record) -> None:
     """Let a point, of CONTACT, take part that did not before: it must be above the surface to
     carry.
     """

@@ -8,20 +8,24 @@ changes little from step to step, and so is mended by insertion.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from fecolumn.contact.convex import TOGETHER
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.convex import Hulls
 
 
 class Boxes(NamedTuple):
     """low, high: (N, 3) of each body's box [m]; order: (N,) bodies by their lower ends."""
 
-    low: np.ndarray
-    high: np.ndarray
-    order: np.ndarray
+    low: Array
+    high: Array
+    order: Array
 
 
 def boxes_for(count: int) -> Boxes:
@@ -29,14 +33,16 @@ def boxes_for(count: int) -> Boxes:
     return Boxes(np.zeros((count, 3)), np.zeros((count, 3)), np.arange(count))
 
 
-def pair_keys(pairs, count: int) -> np.ndarray:
+def pair_keys(pairs: Sequence[tuple[int, int]], count: int) -> Array:
     """Keys (k,) in their order of pairs (k, 2) of `count` bodies, for `find_pairs` to leave out."""
-    pairs = np.sort(np.asarray(pairs, np.int64).reshape(-1, 2), axis=1)
-    return np.unique(pairs[:, 0] * count + pairs[:, 1])
+    rows = np.sort(np.asarray(pairs, np.int64).reshape(-1, 2), axis=1)
+    return np.unique(rows[:, 0] * count + rows[:, 1])
 
 
 @njit(alone=TOGETHER)
-def find_boxes(hulls, centers, rotations, margins, boxes):
+def find_boxes(
+    hulls: Hulls, centers: Array, rotations: Array, margins: Array, boxes: Boxes
+) -> None:
     """Find the boxes of bodies with centres of mass (N, 3) [m], turned by (N, 3, 3), each grown by
     its margin (N,) [m].
     """
@@ -50,7 +56,7 @@ def find_boxes(hulls, centers, rotations, margins, boxes):
 
 
 @njit(alone=TOGETHER)
-def _is_left_out(key, keys):
+def _is_left_out(key: int, keys: Array) -> bool:
     first, last = 0, len(keys)
     while first < last:
         half = (first + last) // 2
@@ -62,7 +68,7 @@ def _is_left_out(key, keys):
 
 
 @njit(alone=TOGETHER)
-def _widest_axis(boxes):
+def _widest_axis(boxes: Boxes) -> int:
     """Axis along which the boxes' middles vary most."""
     axis, most, n = 0, -1.0, max(len(boxes.low), 1)
     for i in range(3):
@@ -77,7 +83,7 @@ def _widest_axis(boxes):
 
 
 @njit(alone=TOGETHER)
-def find_pairs(hulls, boxes, left_out, pairs):
+def find_pairs(hulls: Hulls, boxes: Boxes, left_out: Array, pairs: Array) -> int:
     """Find pairs whose boxes overlap, the lower number first; how many they are, of which no more
     than have room are put into pairs (P, 2).
 

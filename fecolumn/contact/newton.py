@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,7 +11,10 @@ from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate, solve_columns
 from fecolumn.contact.coulomb import violation
 from fecolumn.contact.coupling import slips_under
 from fecolumn.contact.tolerances import SINGULAR
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.coupling import Coupling
 
 
 class NewtonLimits(NamedTuple):
@@ -23,15 +26,17 @@ class NewtonLimits(NamedTuple):
     """
 
     tolerance: float
-    rho: np.ndarray
-    rho_alone: np.ndarray
+    rho: Array
+    rho_alone: Array
     give: float
     most: int
     patience: int
 
 
 @njit
-def newton_steps(coupling, q, friction, start, limits):
+def newton_steps(
+    coupling: Coupling, q: Array, friction: Array, start: Array, limits: NewtonLimits
+) -> tuple[Array, float, int]:
     """Newton steps until the tolerance is met, or the residual falls no more, or without give W
     proves singular: best forces, residual, steps made.
     """
@@ -61,7 +66,15 @@ def newton_steps(coupling, q, friction, start, limits):
 
 
 @njit
-def newton_step(coupling, q, forces, relative, friction, rho, give):
+def newton_step(
+    coupling: Coupling,
+    q: Array,
+    forces: Array,
+    relative: Array,
+    friction: Array,
+    rho: Array,
+    give: float,
+) -> tuple[Array, bool]:
     """Forces after one semismooth Newton step on the equations of Alart and Curnier (1991); False
     where it is singular.
 
@@ -136,7 +149,16 @@ def newton_step(coupling, q, forces, relative, friction, rho, give):
 
 
 @njit
-def _by_whole(coupling, q, forces, give, point, basis, test, stiffening):
+def _by_whole(
+    coupling: Coupling,
+    q: Array,
+    forces: Array,
+    give: float,
+    point: Array,
+    basis: Array,
+    test: Array,
+    stiffening: Array,
+) -> tuple[Array, bool]:
     """Unknowns (count,) of a Newton step by the whole matrix, and whether it is regular."""
     W, blocks, count = coupling.whole, coupling.blocks, len(point)
     g = len(blocks.coupled)
@@ -193,7 +215,18 @@ def _by_whole(coupling, q, forces, give, point, basis, test, stiffening):
 
 
 @njit
-def _by_levers(coupling, q, forces, relative, give, point, basis, test, stiffening, guess):
+def _by_levers(
+    coupling: Coupling,
+    q: Array,
+    forces: Array,
+    relative: Array,
+    give: float,
+    point: Array,
+    basis: Array,
+    test: Array,
+    stiffening: Array,
+    guess: Array,
+) -> tuple[Array, bool]:
     """As `_by_whole`, by the formula of Woodbury (1950): (D + L R^T) y = b with D of each point
     alone and w columns of L and R a body leaves equations of the bodies, 1 + R^T D^-1 L.
 
@@ -258,7 +291,7 @@ def _by_levers(coupling, q, forces, relative, give, point, basis, test, stiffeni
 
 
 @njit
-def _along(levers, direction, target):
+def _along(levers: Array, direction: Array, target: Array) -> None:
     """Target (2 w,): levers (3, 2 w) along a direction (3,)."""
     x, y, z = direction[0], direction[1], direction[2]
     for c in range(len(target)):
@@ -266,7 +299,16 @@ def _along(levers, direction, target):
 
 
 @njit
-def _divide(coupling, give, point, basis, test, stiffening, right, left):
+def _divide(
+    coupling: Coupling,
+    give: float,
+    point: Array,
+    basis: Array,
+    test: Array,
+    stiffening: Array,
+    right: Array,
+    left: Array,
+) -> bool:
     """Divide right (count,) and left (count, 2 w) by what each point gives alone: False where one
     gives nothing.
     """
@@ -308,7 +350,7 @@ def _divide(coupling, give, point, basis, test, stiffening, right, left):
 
 
 @njit
-def solve_in_place(matrix, right):
+def solve_in_place(matrix: Array, right: Array) -> bool:
     """Solve for right (n,) in its place with row pivoting, by LAPACK where it pays; overwrites
     both, False where singular.
     """

@@ -13,17 +13,23 @@ does. The lift is undone slowly, so that bodies that overlap come apart.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.bodies import GOES_ON
 from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.points import SUNK
 from fecolumn.contact.tolerances import EDGE_REACH, GIVES_MORE, OPEN, STAYS_DEEP
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.bodies import Bodies
+    from fecolumn.contact.projection import GroundTops
 
 
 @njit
-def was_beyond(contact, rim_before, rim):
+def was_beyond(contact: Record, rim_before: Record, rim: Record) -> bool:
     """Whether a point comes from beyond an outline, open, by CONTACT and RIM at the start of the
     step and RIM in it.
 
@@ -35,8 +41,17 @@ def was_beyond(contact, rim_before, rim):
 
 @njit
 def raise_or_leave(
-    bodies, base, points, interfaces, poses, before, listed, loaded, places, displaced
-):
+    bodies: Bodies,
+    base: GroundTops,
+    points: Array,
+    interfaces: Array,
+    poses: Array,
+    before: Array,
+    listed: Array,
+    loaded: int,
+    places: Array,
+    displaced: Array,
+) -> None:
     """Of the points listed[loaded:], which come back over an outline, those that stay below the
     surface although the loaded points, listed[:loaded], press it down, by more than these give:
     mark as SUNK those at the master's side, and raise the others to the surface. How deep they are:
@@ -71,7 +86,7 @@ def raise_or_leave(
 
 
 @njit
-def lower_raised(point, now, height, width):
+def lower_raised(point: Record, now: Record, height: float, width: float) -> None:
     """Undo a part of the lift of a point in this step, and apply what is left of it.
 
     Parameters
@@ -91,14 +106,14 @@ def lower_raised(point, now, height, width):
 
 
 @njit
-def _of_same_bodies(one, other):
+def _of_same_bodies(one: Record, other: Record) -> bool:
     """Whether two points are between the same two bodies."""
     same = one.slave == other.slave and one.master == other.master
     return same or one.slave == other.master and one.master == other.slave
 
 
 @njit
-def _to_outline(facets, interface, x, y):
+def _to_outline(facets: Array, interface: Record, x: float, y: float) -> float:
     """Way [m] from a place in the frame of an interface to the outline of its master's surface;
     infinite where none is known.
     """

@@ -4,11 +4,14 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from fecolumn.contact.overlap import OVERLAP, OWN, SIDE, SIDE_NODE, SLOT, Overlaps
 from fecolumn.contact.points import POINT
 from fecolumn.contact.tolerances import CROSSES_FROM, SAME_OUTLINE
+from fecolumn.foundation._compiled import Array
 
 # Over the size of a face: a node is on a side of its outline
 _ON_SIDE = 1e-7
@@ -17,12 +20,13 @@ _ON_SIDE = 1e-7
 class OverlapBuilder:
     """Collects the joints of two sides of a structure, whose points it completes."""
 
-    def __init__(self):
-        self.joints, self.sides, self.nodes, self.slots = [], [], [], []
+    def __init__(self) -> None:
+        self.joints: list[Any] = []
+        self.sides: list[Any] = []
+        self.nodes: list[Any] = []
+        self.slots: list[Any] = []
 
-    def add(
-        self, forward: tuple, reverse: tuple, arms: list[float]
-    ) -> tuple[np.ndarray, np.ndarray]:
+    def add(self, forward: tuple, reverse: tuple, arms: list[float]) -> tuple[Array, Array]:
         """Add a joint; the points (k,) of POINT of its two interfaces, with those that nodes do not
         carry.
 
@@ -57,7 +61,7 @@ class OverlapBuilder:
         free = _most_corners(
             len(ends) if circle is None else 0,
             len(other_ends) if other_circle is None else 0,
-            joint["convex"].all(),
+            bool(joint["convex"].all()),
         )
         twin = circle is None and other_circle is None
         slots = np.zeros(len(own) + free, SLOT)
@@ -94,7 +98,7 @@ class OverlapBuilder:
         self.slots.append(slots)
         return forward_points, reverse_points
 
-    def finish(self, first: list[int]) -> Overlaps:
+    def finish(self, first: Array) -> Overlaps:
         """The Overlaps; first: number of the first point of each interface."""
         for joint, slots in zip(self.joints, self.slots):
             slots["forward"] += first[joint["forward"][0]]
@@ -111,7 +115,7 @@ class OverlapBuilder:
             )
         )
 
-    def _add_sides(self, ends, places, nodes, size: float) -> np.ndarray:
+    def _add_sides(self, ends: Array, places: Array, nodes: Array, size: float) -> Array:
         """Add the sides (m, 2, 2) of a polygon; the number (n,) of a side on which each of the
         nodes lies, -1 of those on none.
         """
@@ -155,7 +159,7 @@ def _most_corners(own: int, other: int, convex: bool) -> int:
     return 2 * max(own, other, 1)
 
 
-def _more(points: np.ndarray, count: int) -> np.ndarray:
+def _more(points: Array, count: int) -> Array:
     """So many points (count,) of POINT like the first of `points`, idle, with the mean contact
     law.
     """
@@ -166,7 +170,7 @@ def _more(points: np.ndarray, count: int) -> np.ndarray:
     return more
 
 
-def _is_convex(ends: np.ndarray) -> bool:
+def _is_convex(ends: Array) -> bool:
     """Whether the sides (n, 2, 2) of an outline turn to the left alone, once around."""
     along = ends[:, 1] - ends[:, 0]
     after = along[_next(ends)]
@@ -176,12 +180,12 @@ def _is_convex(ends: np.ndarray) -> bool:
     return bool((turn > 0).all() and turn.sum() < 3 * np.pi)
 
 
-def _next(ends: np.ndarray) -> np.ndarray:
+def _next(ends: Array) -> Array:
     """Place (n,) of the side that begins where each of the sides (n, 2, 2) ends."""
     return np.abs(ends[:, 1, None] - ends[None, :, 0]).max(axis=2).argmin(axis=1)
 
 
-def _inset(ends: np.ndarray, way: float) -> np.ndarray:
+def _inset(ends: Array, way: float) -> Array:
     """Ends (n, 2, 2) of the sides of an outline that are moved inwards by `way`."""
     after = _next(ends)
     along = ends[:, 1] - ends[:, 0]

@@ -15,7 +15,7 @@ import numpy as np
 
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import CROSSES_FROM, ONE_CORNER, OUTLINE_BAND, SAME_OUTLINE
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
 
 OWN, OTHER = range(2)
 
@@ -83,10 +83,10 @@ SLOT = record(
 class Overlaps(NamedTuple):
     """Joints of two sides: of OVERLAP, SIDE, SIDE_NODE and SLOT."""
 
-    joints: np.ndarray
-    sides: np.ndarray
-    nodes: np.ndarray
-    slots: np.ndarray
+    joints: Array
+    sides: Array
+    nodes: Array
+    slots: Array
 
 
 def no_overlaps() -> Overlaps:
@@ -97,7 +97,9 @@ def no_overlaps() -> Overlaps:
 
 
 @njit
-def map_between(interface, other, frames, pose, slope, shift):
+def map_between(
+    interface: Record, other: Record, frames: Array, pose: Record, slope: Array, shift: Array
+) -> None:
     """Find slope (3, 2) and shift (3,) [m]: a place p of the slave's face is at slope p + shift in
     the frame of the interface. other: the interface with the roles exchanged, whose master's
     surface that face is.
@@ -115,7 +117,7 @@ def map_between(interface, other, frames, pose, slope, shift):
 
 
 @njit
-def beyond(overlap, sides, which, x, y):
+def beyond(overlap: Record, sides: Array, which: int, x: float, y: float) -> tuple[float, int]:
     """How far [m] a place on a face is beyond the outline OWN or OTHER, below 0 within it, and the
     side that it is most beyond, -1 of a circle.
     """
@@ -137,7 +139,7 @@ def beyond(overlap, sides, which, x, y):
 
 
 @njit
-def _beyond_any(sides, first, inner, x, y):
+def _beyond_any(sides: Array, first: int, inner: bool, x: float, y: float) -> tuple[float, int]:
     """Signed distance [m] of a place x, y from a polygon of sides (n,), positive outside, and the
     nearest side, counted from `first`; the polygon need not be convex.
 
@@ -165,7 +167,7 @@ def _beyond_any(sides, first, inner, x, y):
 
 
 @njit
-def height_over(overlap, sides, slope, shift):
+def height_over(overlap: Record, sides: Array, slope: Array, shift: Array) -> float:
     """Least height [m] of the face OWN over the plane of OTHER; slope, shift: of `map_between`."""
     if overlap.radius[OWN] > 0.0:
         x, y = overlap.center[OWN, 0], overlap.center[OWN, 1]
@@ -179,7 +181,7 @@ def height_over(overlap, sides, slope, shift):
 
 
 @njit
-def lies_within(overlap, sides, slope, shift):
+def lies_within(overlap: Record, sides: Array, slope: Array, shift: Array) -> bool:
     """Whether the outline of OWN lies within that of OTHER, but for SAME_OUTLINE; slope, shift: of
     `map_between`.
     """
@@ -204,7 +206,17 @@ def lies_within(overlap, sides, slope, shift):
 
 
 @njit
-def find_corners(overlap, sides, slope, shift, back, back_shift, own, other, on):
+def find_corners(
+    overlap: Record,
+    sides: Array,
+    slope: Array,
+    shift: Array,
+    back: Array,
+    back_shift: Array,
+    own: Array,
+    other: Array,
+    on: Array,
+) -> int:
     """Find the corners of the region that are no corners of OWN: their number.
 
     Parameters
@@ -305,7 +317,7 @@ def find_corners(overlap, sides, slope, shift, back, back_shift, own, other, on)
 
 
 @njit
-def _mapped(slope, shift, x, y):
+def _mapped(slope: Array, shift: Array, x: float, y: float) -> tuple[float, float]:
     """First two coordinates of a place in the other frame."""
     return slope[0, 0] * x + slope[0, 1] * y + shift[0], slope[1, 0] * x + slope[1, 1] * y + shift[
         1
@@ -313,7 +325,9 @@ def _mapped(slope, shift, x, y):
 
 
 @njit
-def _cut(x, y, u, v, cx, cy, radius):
+def _cut(
+    x: float, y: float, u: float, v: float, cx: float, cy: float, radius: float
+) -> tuple[float, float]:
     """Where the line (x, y) + s (u, v) enters and leaves a circle, in s; an empty way where it
     misses it.
     """
@@ -325,7 +339,9 @@ def _cut(x, y, u, v, cx, cy, radius):
 
 
 @njit
-def _clip(sides, first, last, x0, y0, x1, y1):
+def _clip(
+    sides: Array, first: int, last: int, x0: float, y0: float, x1: float, y1: float
+) -> tuple[float, float, int, int]:
     """Clip the way from a place to another one to a polygon (Cyrus and Beck 1978).
 
     Returns: low, high: fractions of the way, from 0 to 1, between which it is within the polygon;
@@ -350,7 +366,7 @@ def _clip(sides, first, last, x0, y0, x1, y1):
 
 
 @njit
-def _crossing(side, x0, y0, x1, y1, slack):
+def _crossing(side: Record, x0: float, y0: float, x1: float, y1: float, slack: float) -> float:
     """Share of the way from one place to another at which it crosses a side, which is longer by
     `slack` [m] at both ends; nan where it does not.
     """
@@ -366,7 +382,9 @@ def _crossing(side, x0, y0, x1, y1, slack):
 
 
 @njit
-def _clip_any(overlap, sides, x0, y0, x1, y1):
+def _clip_any(
+    overlap: Record, sides: Array, x0: float, y0: float, x1: float, y1: float
+) -> tuple[float, float, int, int]:
     """As `_clip`, by the outline OTHER of any kind: from the first place on the way that is within
     it to the last one. What lies between two such places can be no corner of the region's hull.
     """
@@ -385,7 +403,18 @@ def _clip_any(overlap, sides, x0, y0, x1, y1):
 
 
 @njit
-def _add(back, back_shift, x, y, own_side, other_side, own, other, on, count):
+def _add(
+    back: Array,
+    back_shift: Array,
+    x: float,
+    y: float,
+    own_side: int,
+    other_side: int,
+    own: Array,
+    other: Array,
+    on: Array,
+    count: int,
+) -> int:
     """Add the corner at a place x, y of OTHER: the number of corners then."""
     other[count, 0], other[count, 1] = x, y
     own[count, 0], own[count, 1] = _mapped(back, back_shift, x, y)
@@ -394,7 +423,19 @@ def _add(back, back_shift, x, y, own_side, other_side, own, other, on, count):
 
 
 @njit
-def _add_crossing(overlap, sides, slope, shift, q, at, met, own, other, on, count):
+def _add_crossing(
+    overlap: Record,
+    sides: Array,
+    slope: Array,
+    shift: Array,
+    q: int,
+    at: float,
+    met: int,
+    own: Array,
+    other: Array,
+    on: Array,
+    count: int,
+) -> int:
     """Add the corner where side q of OWN, at the share `at` of it, crosses the side `met` of OTHER,
     -1 the circle.
     """
@@ -413,7 +454,7 @@ def _add_crossing(overlap, sides, slope, shift, q, at, met, own, other, on, coun
 
 
 @njit
-def _is_new(other, count, size):
+def _is_new(other: Array, count: int, size: float) -> int:
     """1 where the corner `count` is in the place of none before it, else 0."""
     for k in range(count):
         if (

@@ -47,7 +47,7 @@ from fecolumn.contact.points import GROUND
 from fecolumn.contact.record import record
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import ROUND_CORNERS, STICKS
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 # Answers of `fallen`, and what one of many bodies is that is below the ground, on which it has no
 # face to stand
@@ -82,10 +82,10 @@ class Stance(NamedTuple):
     cap: top displacement that counts as overturned [m], inf for none.
     """
 
-    corners: np.ndarray
+    corners: Array
     depth: float
     critical: float
-    inertia: np.ndarray
+    inertia: Array
     weight: float
     friction: float
     cap: float
@@ -101,9 +101,9 @@ class Limits(NamedTuple):
     of one with a point of no return; standing: (nb,) of STANDING; corners: (k, 2) [m] of them.
     """
 
-    tilts: np.ndarray
-    standing: np.ndarray
-    corners: np.ndarray
+    tilts: Array
+    standing: Array
+    corners: Array
 
     @classmethod
     def of_tilt(cls, bodies: int, tilt: float = FAR) -> Limits:
@@ -113,9 +113,7 @@ class Limits(NamedTuple):
         return cls(np.full(bodies, float(tilt)), standing, np.zeros((0, 2)))
 
 
-def stance(
-    arms: np.ndarray, inertia: np.ndarray, weight: float, friction: float, cap: float
-) -> Stance:
+def stance(arms: Array, inertia: Array, weight: float, friction: float, cap: float) -> Stance:
     """Stance of a column whose foot's nodes are at `arms` (n, 3) [m] from its centre of mass;
     further arguments as of Stance, cap 0 for none.
     """
@@ -136,7 +134,7 @@ def stance(
     )
 
 
-def cap_only_stance(inertia: np.ndarray, weight: float, cap: float) -> Stance:
+def cap_only_stance(inertia: Array, weight: float, cap: float) -> Stance:
     """Stance of one of many bodies: it is lost by its cap alone; further arguments as of Stance,
     cap 0 for none.
     """
@@ -151,7 +149,7 @@ def cap_only_stance(inertia: np.ndarray, weight: float, cap: float) -> Stance:
     )
 
 
-def weakest(corners: np.ndarray) -> tuple[float, np.ndarray]:
+def weakest(corners: Array) -> tuple[float, Array]:
     """Distance [m] of the nearest edge from the centre of mass, and its outward normal (2,)."""
     edges = np.roll(corners, -1, axis=0) - corners
     normals = np.column_stack([edges[:, 1], -edges[:, 0]]) / np.linalg.norm(edges, axis=1)[:, None]
@@ -170,7 +168,7 @@ def barrier(stance: Stance) -> float:
     )
 
 
-def critical_displacement(stance: Stance, top_arm: np.ndarray) -> float:
+def critical_displacement(stance: Stance, top_arm: Array) -> float:
     """Horizontal displacement [m] of a point at `top_arm` (3,) from the centre of mass when the
     rigid column leans by its critical tilt.
     """
@@ -179,7 +177,7 @@ def critical_displacement(stance: Stance, top_arm: np.ndarray) -> float:
     return float(across * (np.cos(stance.critical) - 1) + up * np.sin(stance.critical))
 
 
-def critical_tilt_along(stance: Stance, rotation: np.ndarray) -> float:
+def critical_tilt_along(stance: Stance, rotation: Array) -> float:
     """Tilt [rad] at which the centre of mass stands over the foot's farthest corner in the
     direction in which the column leans now.
     """
@@ -191,7 +189,7 @@ def critical_tilt_along(stance: Stance, rotation: np.ndarray) -> float:
     return float(np.arctan2((stance.corners @ (ahead / np.linalg.norm(ahead))).max(), stance.depth))
 
 
-def steepest_to_come(gravity: np.ndarray, grounds: np.ndarray) -> np.ndarray:
+def steepest_to_come(gravity: Array, grounds: Array) -> Array:
     """Largest tangent (n,) of the inclination of apparent gravity from each moment on; inf where it
     points upwards.
 
@@ -209,7 +207,9 @@ def steepest_to_come(gravity: np.ndarray, grounds: np.ndarray) -> np.ndarray:
 
 
 @njit
-def fallen(stance, rotation, spin, force, top, steepest):
+def fallen(
+    stance: Stance, rotation: Array, spin: Array, force: Array, top: float, steepest: float
+) -> int:
     """Whether the column is lost: STANDS, NO_RETURN or CAPPED.
 
     Parameters
@@ -271,7 +271,15 @@ def fallen(stance, rotation, spin, force, top, steepest):
 
 
 @njit
-def is_past_no_return(standing, corners, rotation, spins, b, force, steepest):
+def is_past_no_return(
+    standing: Array,
+    corners: Array,
+    rotation: Array,
+    spins: Array,
+    b: int,
+    force: Array,
+    steepest: float,
+) -> bool:
     """Whether body b of many is past its point of no return: by `fallen`, from what it stands on.
 
     Parameters

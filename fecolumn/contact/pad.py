@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fecolumn.contact.tolerances import YIELDED_GIVES
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 # Stiffness along over that across the pad: circular footing on an elastic half-space of Poisson's
 # ratio 1/3, 2 (1 - nu) / (2 - nu) (Mindlin 1949; Gazetas 1991)
@@ -45,12 +45,12 @@ class Pad:
         (n,) force at which the springs below each point yield [N]; None where they never do.
     """
 
-    stiffness: np.ndarray
+    stiffness: Array
     relaxation: float
     frequency: float = math.inf
-    bears: np.ndarray | None = None
+    bears: Array | None = None
 
-    def give(self, dt: float) -> tuple[np.ndarray, float]:
+    def give(self, dt: float) -> tuple[Array, float]:
         """Compliance (n, 3) [m/N] and share kept of the indentation in a step dt [s]; infinite: at
         rest, u1 = r / k.
         """
@@ -60,7 +60,7 @@ class Pad:
         return 1 / (self.stiffness * (0.5 + dashpot)), (dashpot - 0.5) / (dashpot + 0.5)
 
 
-def pad_below(keys, areas: np.ndarray, mass: float) -> Pad:
+def pad_below(keys: Any, areas: Array, mass: float) -> Pad:
     """A pad with the keys of a [base], a ground or an interface.
 
     Parameters
@@ -89,14 +89,14 @@ class Springs(NamedTuple):
     yields: (n,) whether it does in this step: then `own` has it, too.
     """
 
-    own: np.ndarray
-    give: np.ndarray
-    kept: np.ndarray
-    flow: np.ndarray
-    yields: np.ndarray
+    own: Array
+    give: Array
+    kept: Array
+    flow: Array
+    yields: Array
 
 
-def springs_of(points: np.ndarray, interfaces: np.ndarray, dt: float) -> Springs:
+def springs_of(points: Array, interfaces: Array, dt: float) -> Springs:
     """What points (n,) of POINT of interfaces (ni,) of INTERFACE give alone in a step dt [s];
     infinite: at rest.
     """
@@ -111,7 +111,7 @@ def springs_of(points: np.ndarray, interfaces: np.ndarray, dt: float) -> Springs
 
 
 @njit
-def without_pads(interfaces, points, listed):
+def without_pads(interfaces: Array, points: Array, listed: Array) -> Array:
     """Those of the listed points (k,) below which there is no pad."""
     found, count = np.empty(len(listed), np.int64), 0
     for i in listed:
@@ -122,7 +122,7 @@ def without_pads(interfaces, points, listed):
 
 
 @njit
-def any_pad(interfaces):
+def any_pad(interfaces: Array) -> bool:
     """Whether there is a pad in any of the interfaces (ni,)."""
     for k in range(len(interfaces)):
         if interfaces[k].on_pad:
@@ -131,7 +131,7 @@ def any_pad(interfaces):
 
 
 @njit
-def begin_yielding(points, springs):
+def begin_yielding(points: Array, springs: Springs) -> None:
     """A new step: no pad yields yet."""
     for i in range(len(points)):
         if springs.yields[i]:
@@ -140,7 +140,7 @@ def begin_yielding(points, springs):
 
 
 @njit
-def find_yielding(points, springs, listed, after):
+def find_yielding(points: Array, springs: Springs, listed: Array, after: Array) -> bool:
     """Find which pads below the listed points (k,) yield under the forces of `after`, (n,) of
     CONTACT: whether that has changed.
 
@@ -160,7 +160,7 @@ def find_yielding(points, springs, listed, after):
 
 
 @njit(inline="always")
-def indented(points, springs, before, i, a):
+def indented(points: Array, springs: Springs, before: Array, i: int, a: int) -> float:
     """What the springs of point i add to its slip or gap along axis a [m], beside their own
     compliance: indentation that is left, settlement, and of those that yield the force that they
     bear.
@@ -174,7 +174,7 @@ def indented(points, springs, before, i, a):
 
 
 @njit
-def indent(points, springs, before, after):
+def indent(points: Array, springs: Springs, before: Array, after: Array) -> None:
     """Indentation and settlement of the pad at the end of a step in `after` (n,) of CONTACT by the
     forces there, which found it as in `before`.
     """
@@ -195,7 +195,7 @@ def indent(points, springs, before, after):
 
 
 @njit
-def dashpot_work(points, springs, before, after):
+def dashpot_work(points: Array, springs: Springs, before: Array, after: Array) -> float:
     """Energy [J] that dashpots and yielding take in a step, at least 0: work of the forces on the
     pad less what its springs then hold.
     """

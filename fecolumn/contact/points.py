@@ -8,6 +8,7 @@ import numpy as np
 
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import OPEN
+from fecolumn.foundation._compiled import Array
 
 #: What a point carries from step to step: force of the master on the slave [N]; anchor: horizontal
 #: position at which it sticks [m]; relative: its position on the slave relative to the master's
@@ -78,15 +79,15 @@ OVER, BEYOND, UNPREPARED, SUNK = range(4)
 
 
 def node_points(
-    arms: np.ndarray,
+    arms: Array,
     friction: float,
-    law: np.ndarray | None = None,
-    pad=None,
+    law: Array | None = None,
+    pad: None = None,
     slave: int = 0,
     master: int = GROUND,
     first: int = 0,
     interface: int = 0,
-) -> np.ndarray:
+) -> Array:
     """Points (n,) of POINT on the slave's nodes with arms (n, 3) [m], in rows from `first` on; law:
     (n, 3), pad: Pad below them.
     """
@@ -109,7 +110,7 @@ def node_points(
     return points
 
 
-def may_touch(points: np.ndarray, interfaces: np.ndarray, relative: np.ndarray) -> np.ndarray:
+def may_touch(points: Array, interfaces: Array, relative: Array) -> Array:
     """Mask (n,) of the points (n,) of POINT that may touch where bodies begin: neither idle nor
     below a surface beyond whose edge they are; relative: (n, 3) [m].
     """

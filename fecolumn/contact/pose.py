@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.contact.arrays import put_matrix
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.record import record
-from fecolumn.foundation._compiled import interpreted, njit
+from fecolumn.foundation._compiled import Array, Record, interpreted, njit
 
 #: The frame of an interface, of its master's surface: frame: (3, 3) its axes in the table frame,
 #: two tangents and the normal; origin: (3,) in the table frame [m]; turned: (2, 3, 3) of slave and
@@ -31,15 +32,15 @@ GROUND_STATE = record(
 SLAVE, MASTER = range(2)
 
 
-def grounds_at(levels) -> np.ndarray:
+def grounds_at(levels: ArrayLike) -> Array:
     """(G,) of GROUND_STATE at heights (G,) [m], at rest."""
-    grounds = np.zeros(len(levels), GROUND_STATE)
+    grounds = np.zeros(np.size(levels), GROUND_STATE)
     grounds["place"][:, 2] = levels
     return grounds
 
 
 @njit
-def move_grounds(before, accelerations, dt, after):
+def move_grounds(before: Array, accelerations: Array, dt: float, after: Array) -> None:
     """Carry grounds (G,) of GROUND_STATE to the end of a step, relative to the first one, which
     stays.
 
@@ -59,7 +60,14 @@ def move_grounds(before, accelerations, dt, after):
 
 
 @njit
-def find_poses(interfaces, grounds, frames, rotation, poses, rims):
+def find_poses(
+    interfaces: Array,
+    grounds: Array,
+    frames: Array,
+    rotation: Array,
+    poses: Array,
+    rims: Array | None,
+) -> None:
     """Find poses (ni,) of POSE where the bodies have `frames` (nb,), of PLACE or with more fields,
     and are turned by `rotation` (nb, 3, 3); grounds: (G,) of GROUND_STATE. rims: (ni,) of RIM, None
     for all interfaces, else those whose faces are apart in the step are left out.
@@ -108,16 +116,14 @@ def find_poses(interfaces, grounds, frames, rotation, poses, rims):
                 pose.foot[a] += frame[c, a] * (place[c] - pose.origin[c])
 
 
-def frames_at(centers: np.ndarray) -> np.ndarray:
+def frames_at(centers: Array) -> Array:
     """Frames (nb,) of PLACE of bodies with centres of mass (nb, 3) [m]."""
     frames = np.zeros(len(centers), PLACE)
     frames["center"] = centers
     return frames
 
 
-def poses_of(
-    interfaces: np.ndarray, centers: np.ndarray, rotations: np.ndarray, grounds: np.ndarray
-) -> np.ndarray:
+def poses_of(interfaces: Array, centers: Array, rotations: Array, grounds: Array) -> Array:
     """(ni,) of POSE of bodies with centres of mass (nb, 3) turned by (nb, 3, 3); grounds: (G,) of
     GROUND_STATE.
     """
@@ -127,7 +133,7 @@ def poses_of(
 
 
 @njit(inline="always")
-def into_frame(pose, place):
+def into_frame(pose: Record, place: Array) -> None:
     """A position (3,) in the table frame as one in that of an interface, in place."""
     x, y, z, Q = (
         place[0] - pose.origin[0],
@@ -140,7 +146,7 @@ def into_frame(pose, place):
 
 
 @njit
-def turns(poses):
+def turns(poses: Array) -> Array:
     """Rotations (ni, 2, 3, 3) of slave and master of all poses (ni,), as one array: loops over
     points read it faster than the records.
     """

@@ -9,7 +9,7 @@ done when the laws hold for the positions that the motion finds.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -43,7 +43,14 @@ from fecolumn.contact.tolerances import (
     SWEEPS_MOST,
     USABLE,
 )
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.bodies import Bodies
+    from fecolumn.contact.coupling import Coupling
+    from fecolumn.contact.pad import Springs
+    from fecolumn.contact.projection import GroundTops
+    from fecolumn.contact.stick import Stick
 
 # Ways a step can end; FAR_BASE asks for more of the base's compliance, ROLLS_FAST for shorter
 # steps, ENDED ends the analysis; OFF_PATCH: a point stands on a part of a moving master that has no
@@ -80,31 +87,31 @@ class Problem(NamedTuple):
     change: displacement and laws are those of where the points are.
     """
 
-    near: np.ndarray
-    present: np.ndarray
-    count: np.ndarray
-    active: np.ndarray
-    evened: np.ndarray
-    displaced: np.ndarray
-    slack: np.ndarray
-    rho: np.ndarray
-    allowed: np.ndarray
-    W: np.ndarray
-    own: np.ndarray
-    levers: np.ndarray
-    moved: np.ndarray
-    flags: np.ndarray
+    near: Array
+    present: Array
+    count: Array  # type: ignore[assignment]  # hides that of tuples
+    active: Array
+    evened: Array
+    displaced: Array
+    slack: Array
+    rho: Array
+    allowed: Array
+    W: Array
+    own: Array
+    levers: Array
+    moved: Array
+    flags: Array
 
 
 ASSEMBLED, STICKS_STILL, WORTH_STICK, _STIFF, IN_PLACE = range(5)
 
 
-def room(points: np.ndarray) -> Problem:
+def room(points: Array) -> Problem:
     """For points (n,) of POINT."""
     n, present = len(points), np.zeros(len(points), np.int64)
     taking = np.flatnonzero(~points["idle"])
     present[: len(taking)] = taking
-    return Problem(
+    return Problem(  # type: ignore[call-arg]  # of unknown number
         np.zeros(n, np.int64),
         present,
         np.array([0, 0, len(taking)]),
@@ -122,7 +129,7 @@ def room(points: np.ndarray) -> Problem:
 
 
 @njit
-def begin_problem(problem, holds_still, worth, in_place=False):
+def begin_problem(problem: Problem, holds_still: bool, worth: bool, in_place: bool = False) -> None:
     """A new step: whether the stick operator holds where the foot is, whether finding one pays, and
     whether it tells only how forces change.
     """
@@ -137,7 +144,7 @@ def begin_problem(problem, holds_still, worth, in_place=False):
 
 
 @njit
-def list_present(problem, points):
+def list_present(problem: Problem, points: Array) -> None:
     """List the points (P,) of POINT that are not idle."""
     count = 0
     for i in range(len(points)):
@@ -148,13 +155,21 @@ def list_present(problem, points):
 
 
 @njit
-def present_points(problem):
+def present_points(problem: Problem) -> Array:
     """The points (k,) that are not idle."""
     return problem.present[: problem.count[2]]
 
 
 @njit
-def list_near_points(problem, placed, points, interfaces, positions, before, after):
+def list_near_points(
+    problem: Problem,
+    placed: Array,
+    points: Array,
+    interfaces: Array,
+    positions: Array,
+    before: Array,
+    after: Array,
+) -> None:
     """List the points that are low or carry force: those of which more than the place matters;
     placed: (k,) points of which some may, all others are known to be high.
     """
@@ -176,30 +191,30 @@ def list_near_points(problem, placed, points, interfaces, positions, before, aft
 
 
 @njit
-def near_points(problem):
+def near_points(problem: Problem) -> Array:
     """The listed points (k,)."""
     return problem.near[: problem.count[0]]
 
 
 @njit
 def find_residual(
-    problem,
-    bodies,
-    base,
-    points,
-    interfaces,
-    springs,
-    dynamic,
-    rigid,
-    stick,
-    rims,
-    poses,
-    positions,
-    first,
-    before,
-    after,
-    counts,
-):
+    problem: Problem,
+    bodies: Bodies,
+    base: GroundTops,
+    points: Array,
+    interfaces: Array,
+    springs: Springs,
+    dynamic: Array,
+    rigid: float,
+    stick: Stick,
+    rims: Array,
+    poses: Array,
+    positions: Array,
+    first: bool,
+    before: Array,
+    after: Array,
+    counts: Array,
+) -> tuple[int, float]:
     """Find relative positions in `after`, and how well its forces obey the laws.
 
     Returns OK or the code of what failed, and the largest violation over the allowed one: the
@@ -311,7 +326,7 @@ def find_residual(
 
 
 @njit
-def _is_spurious_load(problem, after, i):
+def _is_spurious_load(problem: Problem, after: Array, i: int) -> bool:
     """Whether point i carries, above the base, a force that its place does not call for."""
     return (
         problem.slack[i, 2] > problem.allowed[i]
@@ -320,7 +335,7 @@ def _is_spurious_load(problem, after, i):
 
 
 @njit
-def _active(problem):
+def _active(problem: Problem) -> Array:
     """The points (k,) that take part."""
     found, k = np.empty(problem.count[1], np.int64), 0
     for i in near_points(problem):
@@ -331,7 +346,7 @@ def _active(problem):
 
 
 @njit
-def _displace_all(stick, listed, after, target):
+def _displace_all(stick: Stick, listed: Array, after: Array, target: Array) -> None:
     """Target (n, 3): static displacement of the points of the stick operator, the listed ones
     (k,).
     """
@@ -347,7 +362,16 @@ def _displace_all(stick, listed, after, target):
 
 
 @njit
-def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, poses):
+def _assemble_active(
+    problem: Problem,
+    bodies: Bodies,
+    base: GroundTops,
+    points: Array,
+    springs: Springs,
+    dynamic: Array,
+    rigid: float,
+    poses: Array,
+) -> None:
     """Compliance of the active points."""
     n = len(points)
     listed, arms = _active(problem), np.empty((n, 3))
@@ -379,7 +403,7 @@ def _assemble_active(problem, bodies, base, points, springs, dynamic, rigid, pos
 
 
 @njit
-def _coupling(problem, stick):
+def _coupling(problem: Problem, stick: Stick) -> Coupling:
     """Coupling of the active points."""
     listed = _active(problem)
     count = len(listed)
@@ -398,7 +422,9 @@ def _coupling(problem, stick):
 
 
 @njit
-def find_forces(problem, points, interfaces, stick, after, counts):
+def find_forces(
+    problem: Problem, points: Array, interfaces: Array, stick: Stick, after: Array, counts: Array
+) -> int:
     """Forces in `after` that obey the laws as far as the compliance tells: OK, or the code of what
     failed.
     """
@@ -444,7 +470,14 @@ def find_forces(problem, points, interfaces, stick, after, counts):
 
 
 @njit
-def stored_energy(problem, points, interfaces, springs, before, after):
+def stored_energy(
+    problem: Problem,
+    points: Array,
+    interfaces: Array,
+    springs: Springs,
+    before: Array,
+    after: Array,
+) -> float:
     """Strain energy [J] of base, static rest of the bodies, contact law and pad, whose indentation
     is found.
     """
@@ -466,23 +499,23 @@ def stored_energy(problem, points, interfaces, springs, before, after):
 
 @njit
 def solve_linear(
-    problem,
-    bodies,
-    base,
-    points,
-    interfaces,
-    springs,
-    dynamic,
-    elastic,
-    stick,
-    rims,
-    poses,
-    positions,
-    most,
-    before,
-    after,
-    counts,
-):
+    problem: Problem,
+    bodies: Bodies,
+    base: GroundTops,
+    points: Array,
+    interfaces: Array,
+    springs: Springs,
+    dynamic: Array,
+    elastic: Array,
+    stick: Stick,
+    rims: Array,
+    poses: Array,
+    positions: Array,
+    most: int,
+    before: Array,
+    after: Array,
+    counts: Array,
+) -> tuple[int, float]:
     """Forces of bodies that answer a change of forces linearly: OK or the code of what failed,
     largest violation of the laws as of `find_residual`.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,12 @@ from fecolumn.contact.points import (
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import CLOSE, EDGE_REACH
-from fecolumn.foundation._compiled import interpreted, njit
+from fecolumn.foundation._compiled import Array, Record, interpreted, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.base_top import BaseTop
+    from fecolumn.contact.bodies import Bodies
+    from fecolumn.contact.unbounded_base import MovingTop
 
 # Answers of `project`
 ON, OFF, UNKNOWN = range(3)
@@ -46,16 +51,18 @@ class GroundTops(NamedTuple):
     known yet; compliance: (3 k, 3 k) [m/N]. gathered: of it.
     """
 
-    tops: np.ndarray
-    x: np.ndarray
-    y: np.ndarray
-    number: np.ndarray
-    slot: np.ndarray
-    compliance: np.ndarray
+    tops: Array
+    x: Array
+    y: Array
+    number: Array
+    slot: Array
+    compliance: Array
     gathered: Gathered
 
 
-def base_of(x, y, number, slot, compliance, square: float = 0.0) -> GroundTops:
+def base_of(
+    x: Array, y: Array, number: Array, slot: Array, compliance: Array, square: float = 0.0
+) -> GroundTops:
     """GroundTops of one ground, of which nothing is gathered."""
     top = np.zeros(1, TOP)
     top["count_x"], top["count_y"], top["square"] = len(x), len(y), square
@@ -64,7 +71,7 @@ def base_of(x, y, number, slot, compliance, square: float = 0.0) -> GroundTops:
     return GroundTops(top, x, y, np.ascontiguousarray(number).ravel(), slot, compliance, gathered)
 
 
-def base_for_steps(base) -> GroundTops:
+def base_for_steps(base: Any) -> GroundTops:
     """GroundTops of a `contact.base_plate.BasePlate`, or what answers as it does, as far as its
     compliance is known.
     """
@@ -78,7 +85,7 @@ def base_for_steps(base) -> GroundTops:
     )
 
 
-def grounds_for_steps(bases) -> GroundTops:
+def grounds_for_steps(bases: tuple[Any, ...]) -> GroundTops:
     """GroundTops of several grounds; nodes and slots of one come after those of the others."""
     each = [base_for_steps(base) for base in bases]
     if len(each) == 1:
@@ -110,7 +117,7 @@ def grounds_for_steps(bases) -> GroundTops:
 
 
 @njit
-def project(base, positions, listed, points):
+def project(base: GroundTops, positions: Array, listed: Array, points: Array) -> int:
     """Find the base's nodes under those of the listed points (k,) at positions (n, 3) that stand on
     it: ON, OFF its top, or UNKNOWN compliance.
 
@@ -153,7 +160,7 @@ def project(base, positions, listed, points):
 
 
 @njit
-def _follow(square, ground, positions, points, moved):
+def _follow(square: float, ground: int, positions: Array, points: Array, moved: Array) -> None:
     """Moved (2,): way [m] in whole squares to the middle of the points on a ground."""
     dx, dy, count = 0.0, 0.0, 0
     for i in range(len(positions)):
@@ -165,7 +172,7 @@ def _follow(square, ground, positions, points, moved):
 
 
 @njit
-def _within(lines, x):
+def _within(lines: Array, x: float) -> tuple[float, bool]:
     """The place nearest to x from the first to the last of the grid lines [m], and whether x is
     farther from it than EDGE_REACH of the last brick there.
     """
@@ -176,7 +183,7 @@ def _within(lines, x):
 
 
 @njit
-def project_on_body(bodies, interface, point, x, y):
+def project_on_body(bodies: Bodies, interface: Record, point: Record, x: float, y: float) -> int:
     """Find the three nodes of a moving master's surface around the place x, y [m] in its frame, and
     their shares: ON or OFF the surface, or UNKNOWN where the face goes on without nodes that are
     known.
@@ -226,7 +233,7 @@ def project_on_body(bodies, interface, point, x, y):
 
 
 @njit
-def distance_from_side(start, end, x, y):
+def distance_from_side(start: Array, end: Array, x: float, y: float) -> float:
     """Distance [m] of a place x, y from the side between two corners (2,)."""
     u, v = end[0] - start[0], end[1] - start[1]
     at = ((x - start[0]) * u + (y - start[1]) * v) / (u * u + v * v)
@@ -235,7 +242,7 @@ def distance_from_side(start, end, x, y):
 
 
 @njit
-def side_of_outline(answer, was, height, width):
+def side_of_outline(answer: int, was: int, height: float, width: float) -> int:
     """Where a point of a slave of some `width` is at the start of a step, `height` [m] above the
     surface of its master; answer: of `project_on_body`; `was`: SUNK is known.
     """
@@ -247,7 +254,7 @@ def side_of_outline(answer, was, height, width):
 
 
 @njit(inline="always")
-def find_seat(bodies, interface, point, pose, place):
+def find_seat(bodies: Bodies, interface: Record, point: Record, pose: Record, place: Array) -> Any:
     """Bring the place (3,) of a point [m] from the table frame into that of its interface, and find
     its seat and the nodes below it on the moving master: as `project_on_body`. Of an interface
     without facets the nodes are known, and the point is ON the surface.
@@ -264,7 +271,7 @@ def find_seat(bodies, interface, point, pose, place):
 
 
 @njit(inline="always")
-def take_surface(interface, point, q, moved, place):
+def take_surface(interface: Record, point: Record, q: Array, moved: Array, place: Array) -> None:
     """Take from a place (3,) in the frame of the interface what displacement or velocity `moved`
     (3,) of node q below it, in the master's frame, gives the surface.
     """
@@ -274,7 +281,15 @@ def take_surface(interface, point, q, moved, place):
 
 
 @njit
-def place_on_masters(bodies, interfaces, points, poses, moved, starts, places):
+def place_on_masters(
+    bodies: Bodies,
+    interfaces: Array,
+    points: Array,
+    poses: Array,
+    moved: Array,
+    starts: bool,
+    places: Array,
+) -> None:
     """Bring the places (P, 3) [m] of the points that stand on moving masters from the table frame
     to the masters' surfaces.
 
@@ -302,7 +317,7 @@ def place_on_masters(bodies, interfaces, points, poses, moved, starts, places):
 
 
 @njit
-def _shares_of(facet, x, y, margin, shares):
+def _shares_of(facet: Record, x: float, y: float, margin: float, shares: Array) -> int:
     """The first three shares: of a facet's corners in the place x, y; the side most beyond which it
     lies, -1 where it lies within, or by `margin` [m] beyond an outline.
     """
@@ -327,7 +342,7 @@ def _shares_of(facet, x, y, margin, shares):
 
 
 @njit
-def _take(facet, number, point):
+def _take(facet: Record, number: int, point: Record) -> None:
     """Let a point stand on a facet, of whose corners it has the shares."""
     point.facet = number
     for q in range(3):
@@ -336,7 +351,7 @@ def _take(facet, number, point):
 
 
 @njit
-def _cell(lines, value):
+def _cell(lines: Array, value: float) -> int:
     """Number of the cell of the rising `lines` that holds `value`, by bisection."""
     low, high = 0, len(lines) - 1
     while high - low > 1:
@@ -349,8 +364,8 @@ def _cell(lines, value):
 
 
 def nodes_under(
-    grid, positions: np.ndarray, wanted: np.ndarray | None = None
-) -> tuple[np.ndarray, np.ndarray]:
+    grid: BaseTop | MovingTop, positions: Array, wanted: Array | None = None
+) -> tuple[Array, Array]:
     """Nodes (n, 4) of a `contact.base_top.BaseTop` under `positions` (n, 3) [m] and their shares
     (n, 4), of the wanted ones (mask) if it is given.
     """

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 
-def record(*fields) -> np.dtype:
+def record(*fields: tuple[int | str | tuple[int, ...], ...]) -> np.dtype:
     """Data type of rows whose fields (name, type[, shape]) are attributes: of an array of it,
     `rows[i].name`.
 

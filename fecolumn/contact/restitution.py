@@ -8,7 +8,7 @@ from fecolumn.foundation._compiled import njit
 
 
 @njit
-def returned_share(taken, arrived, square):
+def returned_share(taken: float, arrived: float, square: float) -> float:
     """Share of the impulses E Q that is given back: all, less where contact would make energy.
 
     Q are the plastic impulses, which make v+ = v- + W Q, E the restitutions e of their points:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.tolerances import ROUND, ROUND_NODES
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 
 class Rim:
@@ -25,13 +25,13 @@ class Rim:
         of the circle [m].
     """
 
-    def __init__(self, nodes: np.ndarray, first: float, radius: float):
+    def __init__(self, nodes: Array, first: float, radius: float) -> None:
         self.nodes, self.first, self.radius = nodes, first, radius
         #: Angle between neighbouring nodes [rad].
         self.sector = 2 * np.pi / len(nodes)
 
     @classmethod
-    def find(cls, reference: np.ndarray) -> Rim | None:
+    def find(cls, reference: Array) -> Rim | None:
         """Rim of a foot with nodes at (n, 3) [m]; None where its farthest nodes are not evenly
         spaced on a circle.
         """
@@ -46,7 +46,7 @@ class Rim:
 
 
 @njit
-def lowest(rotation):
+def lowest(rotation: Array) -> tuple[float, float]:
     """Angle [rad] of the circle's lowest point and tilt [rad] of its plane in the rotation (3,
     3).
     """
@@ -54,7 +54,9 @@ def lowest(rotation):
 
 
 @njit
-def on_circle(angle, first, sector, n, offsets, weights):
+def on_circle(
+    angle: float, first: float, sector: float, n: int, offsets: Array, weights: Array
+) -> tuple[int, float]:
     """Put the points of a circle of n nodes where one is at `angle`: number of the node whose place
     that one takes, and how far it is past it in sectors.
 

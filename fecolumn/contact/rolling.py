@@ -24,11 +24,11 @@ import numpy as np
 
 from fecolumn.contact.rim import lowest, on_circle
 from fecolumn.contact.tolerances import FLAT, PARTS, REACH, ROLL, ROLL_STEP
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
 
 
 @njit
-def part_of_step(x, y, u, v, dt, done):
+def part_of_step(x: float, y: float, u: float, v: float, dt: float, done: int) -> int:
     """How much of a step to make at once, in dt / PARTS, so that the lowest point of a rim runs
     along it by ROLL_STEP at most: PARTS for the whole of it.
 
@@ -72,10 +72,10 @@ class Roll(NamedTuple):
     point that carries most of those within reach, -1 where none carries.
     """
 
-    offsets: np.ndarray
-    weights: np.ndarray
-    index: np.ndarray
-    phase: np.ndarray
+    offsets: Array
+    weights: Array
+    index: Array  # type: ignore[assignment]  # hides that of tuples
+    phase: Array
     angle: float
     passed: int
     leaps: bool
@@ -86,7 +86,15 @@ OLD, LIKE, NEW = range(3)
 
 
 @njit
-def plan_roll(interface, rim, rim_state, contact, rotation, halfway, allowed):
+def plan_roll(
+    interface: Record,
+    rim: Array,
+    rim_state: Record,
+    contact: Array,
+    rotation: Array,
+    halfway: Array,
+    allowed: bool,
+) -> tuple[bool, float, Roll]:
     """Whether the points of a rim roll in a step, and their Roll.
 
     Parameters
@@ -154,7 +162,7 @@ def plan_roll(interface, rim, rim_state, contact, rotation, halfway, allowed):
 
 
 @njit
-def mark_rolling(roll, rim, points, contact, wanted):
+def mark_rolling(roll: Roll, rim: Array, points: Array, contact: Array, wanted: Array) -> None:
     """Mark in `wanted` (N,) the nodes whose positions `roll_points` needs."""
     n = len(rim)
     passed = roll.passed % n
@@ -183,7 +191,16 @@ def mark_rolling(roll, rim, points, contact, wanted):
 
 
 @njit
-def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
+def roll_points(
+    roll: Roll,
+    rim: Array,
+    rim_state: Record,
+    arms: Array,
+    places: Array,
+    contact: Array,
+    points: Array,
+    before: Array,
+) -> None:
     """Roll the points of a rim on: their places on the rim, and in `before` (P,) what `contact`
     (P,) at the start brings to them.
 
@@ -254,7 +271,7 @@ def roll_points(roll, rim, rim_state, arms, places, contact, points, before):
 
 
 @njit
-def _height(roll, which, k, rim, points, places):
+def _height(roll: Roll, which: int, k: int, rim: Array, points: Array, places: Array) -> float:
     """Height [m] of point k of the rim where it is on the circle `which`."""
     total, n = 0.0, len(rim)
     for q in range(4):
@@ -266,7 +283,7 @@ def _height(roll, which, k, rim, points, places):
 
 
 @njit
-def place_points(roll, which, rim, arms, points):
+def place_points(roll: Roll, which: int, rim: Array, arms: Array, points: Array) -> None:
     """Put the points of a rim on the circle `which`, without lift."""
     n = len(rim)
     for k in range(n):
@@ -285,7 +302,9 @@ def place_points(roll, which, rim, arms, points):
 
 
 @njit
-def stay(roll, rim, rim_state, tilt, arms, points):
+def stay(
+    roll: Roll, rim: Array, rim_state: Record, tilt: float, arms: Array, points: Array
+) -> None:
     """Leave the points of a rim where they are, at the heights that they have there."""
     n = len(rim)
     if tilt < FLAT:
@@ -309,7 +328,7 @@ def stay(roll, rim, rim_state, tilt, arms, points):
 
 
 @njit
-def least_rim_width(interfaces):
+def least_rim_width(interfaces: Array) -> float:
     """Width [m] of the narrowest foot with a round rim; infinite where there is none."""
     width = np.inf
     for k in range(len(interfaces)):
@@ -319,7 +338,7 @@ def least_rim_width(interfaces):
 
 
 @njit
-def _around(number, n):
+def _around(number: int, n: int) -> int:
     """Number, -n to 3 n - 1, modulo n: a division takes longer than all else here."""
     if number < 0:
         return number + n
@@ -329,13 +348,21 @@ def _around(number, n):
 
 
 @njit
-def _sectors(number, n):
+def _sectors(number: float, n: int) -> float:
     """Distance along the rim, -n/2 to n/2, of a number of sectors."""
     return (number + n / 2) % n - n / 2
 
 
 @njit
-def rolling_moment(rotation, spin, load, radius, coefficient, inverse, dt):
+def rolling_moment(
+    rotation: Array,
+    spin: Array,
+    load: float,
+    radius: float,
+    coefficient: float,
+    inverse: Array,
+    dt: float,
+) -> Array:
     """Moment (3,) [N m] in the column's frame by which a rim resists to roll: it takes coefficient
     * load per length rolled.
 

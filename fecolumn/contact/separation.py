@@ -17,7 +17,7 @@ import numpy as np
 
 from fecolumn.contact.convex import TOGETHER, Hulls
 from fecolumn.contact.tolerances import PARALLEL
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 #: What an axis is: none, the normal of a face of the first body or of the second, which then points
 #: against the axis, or the perpendicular of an edge of each
@@ -30,14 +30,14 @@ class Relation(NamedTuple):
     3) and near (E,), for numbers of its faces (F,) and for a corner of each body (2, 3).
     """
 
-    turn: np.ndarray
-    shift: np.ndarray
-    corners: np.ndarray
-    normals: np.ndarray
-    ways: np.ndarray
-    along: np.ndarray
-    near: np.ndarray
-    corner: np.ndarray
+    turn: Array
+    shift: Array
+    corners: Array
+    normals: Array
+    ways: Array
+    along: Array
+    near: Array
+    corner: Array
 
 
 def relation_for(hulls: Hulls) -> Relation:
@@ -56,7 +56,7 @@ def relation_for(hulls: Hulls) -> Relation:
 
 
 @njit(alone=TOGETHER)
-def relate(centers, rotations, a, b, relation):
+def relate(centers: Array, rotations: Array, a: int, b: int, relation: Relation) -> None:
     """Find where body b is seen from body a; centers: (N, 3) [m], rotations: (N, 3, 3)."""
     A, B = rotations[a], rotations[b]
     for i in range(3):
@@ -67,7 +67,9 @@ def relate(centers, rotations, a, b, relation):
 
 
 @njit(alone=TOGETHER)
-def least_along(corners, first, last, x, y, z):
+def least_along(
+    corners: Array, first: int, last: int, x: float, y: float, z: float
+) -> tuple[float, int]:
     """Least product [m] of a vector with corners `first` to before `last`, and the row of it."""
     least, where = np.inf, -1
     for v in range(first, last):
@@ -78,7 +80,7 @@ def least_along(corners, first, last, x, y, z):
 
 
 @njit(alone=TOGETHER)
-def over_first(hulls, a, b, relation, face):
+def over_first(hulls: Hulls, a: int, b: int, relation: Relation, face: int) -> tuple[float, int]:
     """How far [m] body b is over a face of body a, and its row of corners that is nearest."""
     f, T, s = hulls.first[a, 1] + face, relation.turn, relation.shift
     x, y, z = hulls.normals[f, 0], hulls.normals[f, 1], hulls.normals[f, 2]
@@ -94,7 +96,7 @@ def over_first(hulls, a, b, relation, face):
 
 
 @njit(alone=TOGETHER)
-def over_second(hulls, a, b, relation, face):
+def over_second(hulls: Hulls, a: int, b: int, relation: Relation, face: int) -> tuple[float, int]:
     """How far [m] body a is over a face of body b, and its row of corners that is nearest."""
     f, T, s = hulls.first[b, 1] + face, relation.turn, relation.shift
     n = hulls.normals[f]
@@ -106,7 +108,9 @@ def over_second(hulls, a, b, relation, face):
 
 
 @njit(alone=TOGETHER)
-def perpendicular(hulls, a, b, relation, first, second):
+def perpendicular(
+    hulls: Hulls, a: int, b: int, relation: Relation, first: int, second: int
+) -> tuple[float, float, float, float]:
     """Unit vector x, y, z in the frame of body a along the perpendicular of an edge of each, out of
     body a, and the sine of the angle between the edges; 0 of parallel ones.
     """
@@ -130,7 +134,9 @@ def perpendicular(hulls, a, b, relation, first, second):
 
 
 @njit(alone=TOGETHER)
-def along_vector(hulls, a, b, relation, x, y, z):
+def along_vector(
+    hulls: Hulls, a: int, b: int, relation: Relation, x: float, y: float, z: float
+) -> float:
     """Separation [m] along a unit vector in the frame of body a."""
     T, s = relation.turn, relation.shift
     least = least_along(
@@ -151,7 +157,9 @@ def along_vector(hulls, a, b, relation, x, y, z):
 
 
 @njit(alone=TOGETHER)
-def separation_along(hulls, a, b, relation, kind, first, second):
+def separation_along(
+    hulls: Hulls, a: int, b: int, relation: Relation, kind: int, first: int, second: int
+) -> float:
     """Separation [m] of bodies a and b along an axis of a kind: below 0 where they overlap.
 
     Bodies are at least as far apart, whether or not the axis is still one of the bodies'

@@ -8,11 +8,11 @@ import numpy as np
 
 from fecolumn.contact.convex import TOGETHER
 from fecolumn.contact.tolerances import OTHER_AXIS, SAME_POINT_BY_PLACE
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
 
 
 @njit(alone=TOGETHER)
-def is_idle(places):
+def is_idle(places: Array) -> bool:
     """Whether no slot of places (S,) is used."""
     for slot in range(len(places)):
         if places[slot].name != 0:
@@ -21,13 +21,13 @@ def is_idle(places):
 
 
 @njit(alone=TOGETHER)
-def _apart(one, other):
+def _apart(one: Array, other: Array) -> float:
     x, y, z = one[0] - other[0], one[1] - other[1], one[2] - other[2]
     return np.sqrt(x * x + y * y + z * z)
 
 
 @njit(alone=TOGETHER)
-def _keep_spanning(places, found, count, size):
+def _keep_spanning(places: Array, found: Array, count: int, size: float) -> None:
     """Mark the places found, as many as there are slots, that stand for all: the lowest, and each
     further one the farthest from those; one of the step before is preferred by OTHER_AXIS.
     """
@@ -56,7 +56,7 @@ def _keep_spanning(places, found, count, size):
 
 
 @njit(alone=TOGETHER)
-def _is_taken(found, count, slot):
+def _is_taken(found: Array, count: int, slot: int) -> bool:
     for q in range(count):
         if found[q].kept and found[q].slot == slot:
             return True
@@ -64,7 +64,7 @@ def _is_taken(found, count, slot):
 
 
 @njit(alone=TOGETHER)
-def settle_places(row, places, found, count, size):
+def settle_places(row: Record, places: Array, found: Array, count: int, size: float) -> bool:
     """Put the places found into the slots of a row: each into its own, where its name is known, or
     else into that of the nearest place that has gone; whether others take part than before.
 

@@ -10,7 +10,7 @@ around it, see `contact.problem`.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -31,7 +31,13 @@ from fecolumn.contact.factor import Blocked, divide, factorize, no_blocks, solve
 from fecolumn.contact.newton import solve_in_place
 from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.tolerances import PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.bodies import Bodies
+    from fecolumn.contact.coupling import Coupling
+    from fecolumn.contact.pad import Springs
+    from fecolumn.contact.projection import GroundTops
 
 
 class Stick(NamedTuple):
@@ -44,19 +50,19 @@ class Stick(NamedTuple):
     place of W, and the factor is that of 1 + V^T own^-1 V (Woodbury 1950).
     """
 
-    W: np.ndarray
+    W: Array
     factor: Blocked
     static: Blocked
-    own: np.ndarray
-    levers: np.ndarray
-    bodies: np.ndarray
-    inverse: np.ndarray
-    known: np.ndarray
-    rho: np.ndarray
-    rho_all: np.ndarray
-    poses: np.ndarray
-    angles: np.ndarray
-    key: np.ndarray
+    own: Array
+    levers: Array
+    bodies: Array
+    inverse: Array
+    known: Array
+    rho: Array
+    rho_all: Array
+    poses: Array
+    angles: Array
+    key: Array
 
 
 def no_stick(n: int, interfaces: int = 1) -> Stick:
@@ -79,13 +85,13 @@ def no_stick(n: int, interfaces: int = 1) -> Stick:
 
 
 @njit
-def operator_of(stick, k):
+def operator_of(stick: Stick, k: int) -> Array:
     """Compliance (3 k, 3 k) of the k points that stand."""
     return stick.W[: 9 * k * k].reshape(3 * k, 3 * k)
 
 
 @njit
-def same_points(angle, other):
+def same_points(angle: float, other: float) -> bool:
     """Whether the points of a rim are in the same places on it for two angles of its lowest one,
     nan while they are its nodes.
     """
@@ -93,7 +99,9 @@ def same_points(angle, other):
 
 
 @njit
-def holds(stick, interfaces, rims, rigid, poses, reach):
+def holds(
+    stick: Stick, interfaces: Array, rims: Array, rigid: float, poses: Array, reach: float
+) -> bool:
     """Whether all feet are where the operator was found, within `reach` times STICK_TURN and
     STICK_WAY; of faces that are apart it does not matter.
     """
@@ -118,7 +126,7 @@ def holds(stick, interfaces, rims, rigid, poses, reach):
 
 
 @njit
-def is_worth(interface, pose, turn, way, reach):
+def is_worth(interface: Record, pose: Record, turn: float, way: float, reach: float) -> bool:
     """Whether a foot in a pose (of POSE) that in one step turns by `turn` [rad] and goes by `way`
     [m] stays in its place, within `reach` times STICK_TURN and STICK_WAY, long enough for finding
     the operator to pay.
@@ -139,7 +147,18 @@ def is_worth(interface, pose, turn, way, reach):
 
 
 @njit
-def find_stick(stick, bodies, base, points, listed, springs, dynamic, rigid, rims, poses):
+def find_stick(
+    stick: Stick,
+    bodies: Bodies,
+    base: GroundTops,
+    points: Array,
+    listed: Array,
+    springs: Springs,
+    dynamic: Array,
+    rigid: float,
+    rims: Array,
+    poses: Array,
+) -> None:
     """Find the operator of feet of which all points, the listed ones (k,), stand; further arguments
     as of `compliance.assemble`.
     """
@@ -172,7 +191,7 @@ def find_stick(stick, bodies, base, points, listed, springs, dynamic, rigid, rim
 
 
 @njit
-def _take_levers(stick, coupling):
+def _take_levers(stick: Stick, coupling: Coupling) -> None:
     """Take over the coupling of bodies that do not deform, and find its factor."""
     k, rows, stick.key[2] = len(coupling.own), 6 * len(coupling.blocks.coupled), 1.0
     alone, together, S = (
@@ -203,7 +222,7 @@ def _take_levers(stick, coupling):
 
 
 @njit
-def solve_stuck(stick, right):
+def solve_stuck(stick: Stick, right: Array) -> None:
     """Solve for right (3 k,) in its place: forces at which points that stick move by it."""
     if stick.key[2] == 0.0:
         solve_factored(stick.factor, right)
@@ -234,7 +253,7 @@ def solve_stuck(stick, right):
 
 
 @njit
-def part_of_stick(stick, k, listed):
+def part_of_stick(stick: Stick, k: int, listed: Array) -> Coupling:
     """Coupling of some, (m,), of the k points that stand."""
     if stick.key[2] == 0.0:
         return part_of(coupling_of(operator_of(stick, k)), listed)
@@ -242,7 +261,7 @@ def part_of_stick(stick, k, listed):
 
 
 @njit
-def _find_inverse(stick, row, count):
+def _find_inverse(stick: Stick, row: int, count: int) -> None:
     """Find one row of the inverse, of `count` numbers, unless it is known."""
     if not stick.known[row]:
         line = stick.inverse[row, :count]
@@ -253,7 +272,16 @@ def _find_inverse(stick, row, count):
 
 
 @njit
-def solve_sticking(stick, points, listed, slack, active, after, tolerance, usable):
+def solve_sticking(
+    stick: Stick,
+    points: Array,
+    listed: Array,
+    slack: Array,
+    active: Array,
+    after: Array,
+    tolerance: float,
+    usable: float,
+) -> tuple[float, int]:
     """Contact forces by semismooth Newton on the slips of the points that do not stick; as
     `newton.newton_step`.
 

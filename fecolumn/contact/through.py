@@ -9,7 +9,7 @@ from fecolumn.contact.convex import TOGETHER, Hulls
 from fecolumn.contact.nearby import Boxes, boxes_for, find_boxes, find_pairs
 from fecolumn.contact.separation import Relation, relate, relation_for
 from fecolumn.contact.tolerances import THROUGH
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 
 class ThroughCheck:
@@ -25,14 +25,14 @@ class ThroughCheck:
         depth over the thickness of the thinner body above which a pair is named.
     """
 
-    def __init__(self, hulls: Hulls, left_out: np.ndarray, share: float = THROUGH):
+    def __init__(self, hulls: Hulls, left_out: Array, share: float = THROUGH) -> None:
         self.hulls, self.left_out, self.share = hulls, left_out, share
         self.boxes: Boxes = boxes_for(len(hulls.thickness))
         self.relation: Relation = relation_for(hulls)
         self.margins = np.zeros(len(hulls.thickness))
         self.pairs, self.depths = np.zeros((16, 2), np.int64), np.zeros(16)
 
-    def deepest(self, centers: np.ndarray, rotations: np.ndarray) -> list[tuple[int, int, float]]:
+    def deepest(self, centers: Array, rotations: Array) -> list[tuple[int, int, float]]:
         """Pairs in each other and the least way by which they come apart [m], the deepest first.
 
         centers: (N, 3) of mass [m], rotations: (N, 3, 3) of all bodies.
@@ -48,11 +48,13 @@ class ThroughCheck:
         thickness = self.hulls.thickness[self.pairs[:found]].min(axis=1)
         rows = np.flatnonzero(self.depths[:found] > self.share * thickness)
         rows = rows[np.argsort(-self.depths[rows], kind="stable")]
-        return [(*map(int, self.pairs[k]), float(self.depths[k])) for k in rows]
+        return [(int(self.pairs[k, 0]), int(self.pairs[k, 1]), float(self.depths[k])) for k in rows]
 
 
 @njit(alone=TOGETHER)
-def find_depths(hulls, centers, rotations, pairs, relation, depths):
+def find_depths(
+    hulls: Hulls, centers: Array, rotations: Array, pairs: Array, relation: Relation, depths: Array
+) -> None:
     """Find the depth (k,) [m] of pairs (k, 2) of bodies in each other, below 0 of those apart."""
     for k in range(len(pairs)):
         a, b = pairs[k, 0], pairs[k, 1]

@@ -11,6 +11,8 @@ takes along its force and where it sticks (`contact.moved_points`).
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.moved_points import (
@@ -40,14 +42,19 @@ from fecolumn.contact.tolerances import (
     SAME_OUTLINE,
     SAME_POINT,
 )
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.overlap import Overlaps
 
 # What a slot was in the step before
 NONE, FORWARD, REVERSE = range(3)
 
 
 @njit
-def mark_unused(overlaps, interfaces, frames, poses, rims):
+def mark_unused(
+    overlaps: Overlaps, interfaces: Array, frames: Array, poses: Array, rims: Array
+) -> None:
     """Mark the reverse interfaces that no point of needs, as the slave's face lies within the
     master's: `unused` in rims (ni,) of RIM at the end of the step.
     """
@@ -75,8 +82,18 @@ def mark_unused(overlaps, interfaces, frames, poses, rims):
 
 @njit
 def place_overlaps(
-    overlaps, interfaces, rim, arms, ways, frames, poses, contact, rims, points, before
-):
+    overlaps: Overlaps,
+    interfaces: Array,
+    rim: Array,
+    arms: Array,
+    ways: Array,
+    frames: Array,
+    poses: Array,
+    contact: Array,
+    rims: Array,
+    points: Array,
+    before: Array,
+) -> bool:
     """Lay the points of all joints with two sides, none where the faces are apart; whether other
     points take part than in the step before.
 
@@ -139,7 +156,9 @@ def place_overlaps(
 
 
 @njit
-def _is_apart(overlaps, joint, interfaces, ways, frames, poses):
+def _is_apart(
+    overlaps: Overlaps, joint: Record, interfaces: Array, ways: Array, frames: Array, poses: Array
+) -> bool:
     """Whether no point of a joint can touch in a step, as its faces are too far from each other."""
     k, r = joint.forward, joint.reverse
     slope, shift, way = np.empty((3, 2)), np.empty(3), 0.0
@@ -151,7 +170,7 @@ def _is_apart(overlaps, joint, interfaces, ways, frames, poses):
 
 
 @njit
-def _leave_rim(interface, rim, points, before):
+def _leave_rim(interface: Record, rim: Array, points: Array, before: Array) -> bool:
     """Let the points of a round rim take no part; whether any did in the step before."""
     changed = False
     for q in range(interface.rim_count):
@@ -161,19 +180,19 @@ def _leave_rim(interface, rim, points, before):
 
 @njit
 def _place(
-    overlaps,
-    joint,
-    interfaces,
-    rim,
-    arms,
-    frames,
-    poses,
-    contact,
-    rims,
-    points,
-    before,
-    was_apart,
-):
+    overlaps: Overlaps,
+    joint: Record,
+    interfaces: Array,
+    rim: Array,
+    arms: Array,
+    frames: Array,
+    poses: Array,
+    contact: Array,
+    rims: Array,
+    points: Array,
+    before: Array,
+    was_apart: bool,
+) -> bool:
     """`place_overlaps` of one joint; was_apart: whether its faces were in the step before."""
     k, r, sides, size = joint.forward, joint.reverse, overlaps.sides, joint.size
     most = 2 * (joint.count[OWN] + joint.count[OTHER]) + joint.count[OTHER] + 3
@@ -363,7 +382,20 @@ def _place(
 
 
 @njit
-def _choose_corners(slots, interfaces, k, r, out, at, contact, slope, shift, other, size, chosen):
+def _choose_corners(
+    slots: Array,
+    interfaces: Array,
+    k: int,
+    r: int,
+    out: Array,
+    at: Array,
+    contact: Array,
+    slope: Array,
+    shift: Array,
+    other: Array,
+    size: float,
+    chosen: Array,
+) -> None:
     """Give each corner of the region, at `other` (n, 2) [m] on the master's face, the slot that was
     nearest to it in the step before, or else that of the nearest corner of the slave's face, or a
     free one; none where a corner of the slave's face is still there. chosen: (slots,) corner of
@@ -395,7 +427,9 @@ def _choose_corners(slots, interfaces, k, r, out, at, contact, slope, shift, oth
 
 
 @njit
-def _place_before(slot, interfaces, k, r, contact, slope, shift):
+def _place_before(
+    slot: Record, interfaces: Array, k: int, r: int, contact: Array, slope: Array, shift: Array
+) -> tuple[bool, float, float]:
     """Whether a slot took part in the step before, and the place x, y [m] on the master's face
     where it is now.
     """
@@ -414,7 +448,7 @@ def _place_before(slot, interfaces, k, r, contact, slope, shift):
 
 
 @njit
-def _nearest(places, taken, x, y, within):
+def _nearest(places: Array, taken: Array, x: float, y: float, within: float) -> int:
     """Number of the nearest of places (n, 2) that is not taken, at most `within` [m] away, or
     -1.
     """
@@ -427,7 +461,7 @@ def _nearest(places, taken, x, y, within):
 
 
 @njit
-def _stays(slot, points, before, arms):
+def _stays(slot: Record, points: Array, before: Array, arms: Array) -> bool:
     """Whether a slot is a node of the slave that takes part where it is and did so in the step
     before, so that it brings itself.
     """
@@ -447,7 +481,7 @@ def _stays(slot, points, before, arms):
 
 
 @njit
-def _is_near(places, place, within):
+def _is_near(places: Array, place: Array, within: float) -> bool:
     """Whether any of places (n, 2) is nearer than `within` [m]."""
     for v in range(len(places)):
         x, y = abs(places[v, 0] - place[0]), abs(places[v, 1] - place[1])
@@ -457,7 +491,7 @@ def _is_near(places, place, within):
 
 
 @njit
-def _is_near_inner_node(slots, at, place, within):
+def _is_near_inner_node(slots: Array, at: Array, place: Array, within: float) -> bool:
     """Whether a node inside the slave's face is nearer than `within` [m] to a place (2,) on the
     master's; at: (slots, 2) where the slots' nodes are there.
     """
@@ -469,8 +503,17 @@ def _is_near_inner_node(slots, at, place, within):
 
 @njit
 def _role_of_corner(
-    joint, sides, own_side, other_side, own_place, other_place, slope, x_down, y_down, was
-):
+    joint: Record,
+    sides: Array,
+    own_side: int,
+    other_side: int,
+    own_place: Array,
+    other_place: Array,
+    slope: Array,
+    x_down: float,
+    y_down: float,
+    was: int,
+) -> int:
     """Whether a corner of the region is a point of the slave or of the master: of the body over
     whose edge the slave leans.
     """
@@ -491,7 +534,9 @@ def _role_of_corner(
 
 
 @njit
-def _normal(joint, sides, which, side, place):
+def _normal(
+    joint: Record, sides: Array, which: int, side: int, place: Array
+) -> tuple[float, float]:
     """Outward normal of an outline in a place on it."""
     if side >= 0:
         return sides[side].normal[0], sides[side].normal[1]
@@ -501,7 +546,18 @@ def _normal(joint, sides, which, side, place):
 
 
 @njit
-def _role_of_node(joint, sides, slot, out, side, place, back, back_shift, own_place, was):
+def _role_of_node(
+    joint: Record,
+    sides: Array,
+    slot: Record,
+    out: float,
+    side: int,
+    place: Array,
+    back: Array,
+    back_shift: Array,
+    own_place: Array,
+    was: int,
+) -> int:
     """Role of a node of the slave's face that is `out` [m] beyond the master's outline; one that is
     beyond it is moved to the edge there, in `place` on the master's face and `own_place` on the
     slave's.
@@ -535,21 +591,21 @@ def _role_of_node(joint, sides, slot, out, side, place, back, back_shift, own_pl
 
 @njit
 def _place_rim(
-    joint,
-    sides,
-    limit,
-    k,
-    interfaces,
-    rim,
-    slope,
-    shift,
-    turned,
-    arms,
-    points,
-    before,
-    corners,
-    lay,
-):
+    joint: Record,
+    sides: Array,
+    limit: int,
+    k: int,
+    interfaces: Array,
+    rim: Array,
+    slope: Array,
+    shift: Array,
+    turned: Array,
+    arms: Array,
+    points: Array,
+    before: Array,
+    corners: Array,
+    lay: bool,
+) -> bool:
     """Points of the round rim of interface k: those beyond the outline `limit` are moved to it if
     they are hardly beyond, else they take no part; of the master's rim those take part that are
     within the slave's outline.

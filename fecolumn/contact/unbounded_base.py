@@ -4,10 +4,13 @@ ever.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.layer import layer_response
+from fecolumn.foundation._compiled import Array
 
 # Rows of nodes around the foot of which the compliance is known from the start: a cell, and the
 # foot's place within one
@@ -38,8 +41,8 @@ class UnboundedBase:
     body, dofs, made_s, made_cpu_s = None, 0, 0.0, 0.0
 
     def __init__(
-        self, size: float, response: np.ndarray, reference: np.ndarray, frequency: float, feet=1
-    ):
+        self, size: float, response: Array, reference: Array, frequency: float, feet: int = 1
+    ) -> None:
         self.response, self.frequency = response, frequency
         self.grid = MovingTop(size, reference, (len(response) - 1) // 4)
         self.slot = np.full(len(self.grid.points), -1, np.int64)
@@ -53,7 +56,7 @@ class UnboundedBase:
             np.flatnonzero((away <= distance.max() + reach) & (away >= distance.min() - reach))
         )
 
-    def need(self, wanted: np.ndarray) -> None:
+    def need(self, wanted: Array) -> None:
         """Make sure that the compliance holds the nodes `wanted` of the window."""
         new = np.unique(wanted[self.slot[wanted] < 0])
         if not len(new):
@@ -71,24 +74,24 @@ class UnboundedBase:
 class MovingTop(BaseTop):
     """Equal squares under the foot, moved along with it by whole squares."""
 
-    def __init__(self, size: float, reference: np.ndarray, count: int):
+    def __init__(self, size: float, reference: Array, count: int) -> None:
         lines = size * np.arange(-count, count + 1)
         x, y = np.meshgrid(lines, lines, indexing="ij")
         super().__init__(np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1))
         self.square = size
 
-    def around(self, positions: np.ndarray, rows: int) -> np.ndarray:
+    def around(self, positions: Array, rows: int) -> Array:
         """Nodes (k,) of the window around all points of the feet at `positions` (n, 3) [m]."""
         moved = np.zeros(3)
         moved[:2] = self.square * np.round(positions[:, :2].mean(axis=0) / self.square)
         return super().around(positions - moved, rows)
 
-    def at_edge(self, positions: np.ndarray, margin: float) -> bool:
+    def at_edge(self, positions: Array, margin: float) -> bool:
         """False: it has no edge."""
         return False
 
 
-def window(size: float, reference: np.ndarray, travel: float = 0.0) -> int:
+def window(size: float, reference: Array, travel: float = 0.0) -> int:
     """Squares to each side of the middle of the feet's points (n, 3) that hold the feet however
     they are turned, and move apart by `travel` [m].
     """
@@ -108,9 +111,9 @@ def window(size: float, reference: np.ndarray, travel: float = 0.0) -> int:
 
 def unbounded_base(
     size: float,
-    depths: np.ndarray,
-    material,
-    reference: np.ndarray,
+    depths: Array,
+    material: Any,
+    reference: Array,
     feet: int = 1,
     travel: float = 0.0,
 ) -> UnboundedBase:
@@ -126,14 +129,14 @@ def unbounded_base(
     return UnboundedBase(size, response, reference, shear_frequency(material, -depths[-1]), feet)
 
 
-def rigid_base(reference: np.ndarray) -> UnboundedBase:
+def rigid_base(reference: Array) -> UnboundedBase:
     """A rigid flat: squares as wide as the foot that do not give."""
     size = float(np.ptp(reference[:, 0]))
     sides = 4 * window(size, reference) + 1
     return UnboundedBase(size, np.zeros((sides, sides, 3, 3)), reference, np.inf)
 
 
-def shear_frequency(material, thickness: float) -> float:
+def shear_frequency(material: Any, thickness: float) -> float:
     """Lowest shear mode through a thickness [m] that is held at its bottom [Hz]."""
     shear = material.youngs_modulus_pa / (2 * (1 + material.poissons_ratio))
     return float(np.sqrt(shear / material.density_kg_m3) / (4 * thickness))

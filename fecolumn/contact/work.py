@@ -4,15 +4,22 @@ takes.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.pad import any_pad, dashpot_work
 from fecolumn.contact.tolerances import STUCK
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.pad import Springs
 
 
 @njit
-def book_impulses(gained, own, contact, other):
+def book_impulses(
+    gained: float, own: float, contact: float, other: float
+) -> tuple[float, float, float]:
     """Terms of the ledger [J] after the impulses of a step were replaced: own, contact, other.
 
     gained: kinetic energy [J] that the new impulses add. own: term of what happened, impact or
@@ -30,7 +37,9 @@ def book_impulses(gained, own, contact, other):
 
 
 @njit
-def move_anchors(points, interfaces, springs, listed, before, after):
+def move_anchors(
+    points: Array, interfaces: Array, springs: Springs, listed: Array, before: Array, after: Array
+) -> None:
     """Where the listed points (k,) stick from now on: a slipping spring of contact law or pad keeps
     its elastic part.
     """
@@ -55,7 +64,15 @@ def move_anchors(points, interfaces, springs, listed, before, after):
 
 
 @njit
-def losses(points, interfaces, springs, listed, before, after, contact):
+def losses(
+    points: Array,
+    interfaces: Array,
+    springs: Springs,
+    listed: Array,
+    before: Array,
+    after: Array,
+    contact: float,
+) -> tuple[float, float, float]:
     """Energy [J] that friction and landings of the listed points (k,) add in a step, both below 0,
     and that dashpots and yielding of pads take; contact: that all of contact adds.
     """

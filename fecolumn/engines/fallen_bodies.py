@@ -26,7 +26,7 @@ class FallenBodies:
     it must stay that low [s], so that a body about to fall back is not taken for one at rest.
     """
 
-    def __init__(self, structure: StructureModel):
+    def __init__(self, structure: StructureModel) -> None:
         assert structure.found
         hulls, parts = hulls_of_parts(structure.outlines), structure.parts
         self._found = [b for b in structure.found.parts if parts[b].held < 0]

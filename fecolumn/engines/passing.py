@@ -38,7 +38,7 @@ class Passing:
     Bodies that are not convex, or have no elements, are in no pair.
     """
 
-    def __init__(self, structure: StructureModel):
+    def __init__(self, structure: StructureModel) -> None:
         parts = structure.parts
         self._names = [part.name for part in parts]
         self._held = np.array([part.held >= 0 for part in parts])

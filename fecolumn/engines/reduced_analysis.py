@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
 from fecolumn.contact.arrays import arrays_of
@@ -34,7 +33,7 @@ from fecolumn.engines.reduced.states import States, state_of
 from fecolumn.engines.reduced_engine import begins_unstrained, engine_of, upright
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure, columns_of
-from fecolumn.foundation._compiled import compiled, interpreted
+from fecolumn.foundation._compiled import Array, compiled, interpreted
 from fecolumn.foundation.atomic import write_bytes
 from fecolumn.structures.model import BodyModel, Joint
 from fecolumn.structures.pads import warn_of_grounds
@@ -185,9 +184,7 @@ class ReducedAnalysis(OfStructure):
         """The Ending of a step that failed because a foot met the edge of its ground, or None."""
         motion = self.engine.motion
 
-        def foot(
-            joint: Joint, model: BodyModel, nodes: NDArray[Any]
-        ) -> tuple[NDArray[Any], NDArray[Any]]:
+        def foot(joint: Joint, model: BodyModel, nodes: Array) -> tuple[Array, Array]:
             frame, arms = motion.frames[joint.slave], model.arms[nodes]
             turn = motion.rotation[joint.slave].T
             return (
@@ -283,7 +280,7 @@ class ReducedAnalysis(OfStructure):
             float(sum(base.made_cpu_s for base in kept)),
         )
 
-    def _note(self, rows: NDArray[Any]) -> None:
+    def _note(self, rows: Array) -> None:
         self.history.extend(columns_of(rows, self.structure))
 
     def _save(self) -> None:
@@ -299,7 +296,7 @@ class ReducedAnalysis(OfStructure):
         write_bytes(self.folder / CHECKPOINT, content.getvalue())
         self.write_history()
 
-    def _arrays(self, sticks: bool) -> dict[str, NDArray[Any]]:
+    def _arrays(self, sticks: bool) -> dict[str, Array]:
         """What a checkpoint keeps: with the points, the stick operator where there is one, and what
         is learnt of it, so that an analysis that was interrupted goes on to the last digit as if it
         had not been.

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
 from fecolumn.case.sections import GRAVITY, Integration
@@ -21,6 +19,7 @@ from fecolumn.engines.reduced.model import Structure
 from fecolumn.engines.reduced.motion import MotionState
 from fecolumn.engines.reduced.start import of_parts
 from fecolumn.engines.reduced.structure import structure_of, view_of
+from fecolumn.foundation._compiled import Array
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import StructureModel
@@ -83,7 +82,7 @@ def engine_on(
     hht: HHT,
     begin: Callable[[Engine], MotionState],
     *,
-    gravity: NDArray[Any] = GRAVITY_DOWN,
+    gravity: Array = GRAVITY_DOWN,
     limits: Limits | None = None,
     cap: float = 0.0,
     plan: Integration = _PLAN,
@@ -114,7 +113,7 @@ def engine_on(
         a link is too stiff for the step.
     """
 
-    def build(step: HHT, meetings: int | None = None) -> tuple[Structure, NDArray[Any]]:
+    def build(step: HHT, meetings: int | None = None) -> tuple[Structure, Array]:
         parts = PARTS if plan.substeps == "impacts" else 1
         return structure_of(standing, step, gravity, parts, meetings)
 

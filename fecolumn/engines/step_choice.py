@@ -58,7 +58,7 @@ class StepChoice:
         file: str,
         begin: Callable[[Case, Path], Analysis],
         stop: Callable[[], bool],
-    ):
+    ) -> None:
         self._file, self._begin, self._stop = file, begin, stop
         self._case, self._id = case, case.id
         self._steps = 0

@@ -30,7 +30,7 @@ _BANDS = (2, 8, 40, 95)
 class StepTimes:
     """Times of steps, made one at a time, and what they did."""
 
-    def __init__(self, record: Record):
+    def __init__(self, record: Record) -> None:
         self._record = dataclasses.replace(record)
         self._rows: list[list[float]] = []
 

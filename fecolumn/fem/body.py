@@ -5,6 +5,8 @@ over the ranks.
 from __future__ import annotations
 
 import weakref
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import ufl
@@ -15,6 +17,10 @@ from scipy.spatial import cKDTree
 from fecolumn.fem.material.elasticity import isotropic_stress
 from fecolumn.fem.material.kinematics import linear_strain
 from fecolumn.foundation import _dolfinx
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.mesh.bricks import BrickMesh
 
 
 class Body:
@@ -38,7 +44,14 @@ class Body:
         function of this body that returns the constraint; see `fecolumn.mesh.tie` for ties.
     """
 
-    def __init__(self, comm, bricks, material, order: int = 1, constrain=None):
+    def __init__(
+        self,
+        comm: MPI.Intracomm,
+        bricks: BrickMesh,
+        material: Any,
+        order: int = 1,
+        constrain: Callable[..., Any] | None = None,
+    ) -> None:
         self.comm, self.bricks, self.material, self.order = comm, bricks, material, order
         self.mesh = _dolfinx.create_brick_mesh(comm, bricks.points, bricks.cells)
         self.space = _dolfinx.vector_space(self.mesh, order)
@@ -96,7 +109,7 @@ class Body:
         self.arms = self.X - self.center
         self.mass_arms = self.momentum(self.arms)
 
-    def _node_parts(self) -> np.ndarray:
+    def _node_parts(self) -> Array:
         """Part of each owned node."""
         part = np.zeros(self.n_owned, np.int8)
         cells = np.asarray(self.mesh.topology.original_cell_index)
@@ -105,7 +118,7 @@ class Body:
             part[nodes[nodes < self.n_owned]] = self.bricks.part[cells[cell]]
         return part
 
-    def find_nodes(self, points, part=None) -> np.ndarray:
+    def find_nodes(self, points: Array, part: int | None = None) -> Array:
         """Numbers (n,) of the nodes at `points` (n, 3) [m], of one part if given."""
         among = (
             np.flatnonzero(self.all_part == part) if part is not None else np.arange(self.n_nodes)
@@ -119,13 +132,13 @@ class Body:
             )
         return among[nearest]
 
-    def owned(self, nodes) -> tuple[np.ndarray, np.ndarray]:
+    def owned(self, nodes: Array) -> tuple[Array, Array]:
         """Where `nodes` are owned here: positions in the list, and local rows."""
         nodes = np.asarray(nodes)
         here = np.flatnonzero((nodes >= self.first) & (nodes < self.first + self.n_owned))
         return here, nodes[here] - self.first
 
-    def gather(self, nodes, values: np.ndarray) -> np.ndarray:
+    def gather(self, nodes: Array, values: Array) -> Array:
         """Values (n, ...) at `nodes` on every rank, from owned values (n_owned, ...)."""
         if self.comm.size == 1:
             return values[nodes]
@@ -135,14 +148,14 @@ class Body:
         self.comm.Allreduce(MPI.IN_PLACE, result)
         return result
 
-    def spread(self, nodes, values: np.ndarray) -> np.ndarray:
+    def spread(self, nodes: Array, values: Array) -> Array:
         """Owned array (n_owned, 3) that is zero but for `values` at `nodes`."""
         result = np.zeros((self.n_owned, 3))
         here, rows = self.owned(nodes)
         result[rows] = values[here]
         return result
 
-    def apply(self, matrix: PETSc.Mat, values: np.ndarray) -> np.ndarray:
+    def apply(self, matrix: PETSc.Mat, values: Array) -> Array:
         """Product of a matrix with an owned array (n_owned, 3), or with (k, n_owned, 3) of k copies
         at once, for which the matrix is read once.
         """
@@ -155,7 +168,7 @@ class Body:
         matrix.mult(source, target)
         return target.array.reshape(-1, 3).copy()
 
-    def momentum(self, values: np.ndarray) -> np.ndarray:
+    def momentum(self, values: Array) -> Array:
         """Product of the mass with an owned array (n_owned, 3), or with those of copies (k,
         n_owned, 3).
         """
@@ -165,7 +178,7 @@ class Body:
         self._mass_of_axis.matMult(self._motion, self._momentum)
         return np.array(self._momentum.getDenseArray(), order="C")
 
-    def apply_many(self, matrix: PETSc.Mat, columns: np.ndarray) -> np.ndarray:
+    def apply_many(self, matrix: PETSc.Mat, columns: Array) -> Array:
         """Product of a matrix with columns (3 n_owned, m)."""
         sizes = (3 * self.n_owned, None), (None, columns.shape[1])
         source = PETSc.Mat().createDense(sizes, array=np.asfortranarray(columns), comm=self.comm)
@@ -175,7 +188,7 @@ class Body:
         source.destroy(), target.destroy()
         return result
 
-    def sum(self, value):
+    def sum(self, value: Any) -> Any:
         """Sum of a number or array over the ranks."""
         if self.comm.size == 1:
             return value
@@ -185,7 +198,7 @@ class Body:
         """Largest value over the ranks."""
         return float(value if self.comm.size == 1 else self.comm.allreduce(float(value), MPI.MAX))
 
-    def dot(self, left: np.ndarray, right: np.ndarray) -> float:
+    def dot(self, left: Array, right: Array) -> float:
         """Inner product of two owned arrays over all ranks."""
         return float(self.sum(np.vdot(left, right)))
 
@@ -203,7 +216,7 @@ class Constraint:
         nodes without displacement.
     """
 
-    def __init__(self, body: Body, ties: dict, held):
+    def __init__(self, body: Body, ties: dict, held: Array | tuple[()]) -> None:
         self.body = weakref.proxy(body)
         self.nodes = np.array(sorted(ties) + sorted(held), dtype=np.int64)
         if not len(self.nodes):
@@ -228,11 +241,11 @@ class Constraint:
         """P^T A P."""
         return matrix.copy() if self.projection is None else matrix.ptap(self.projection)
 
-    def expand(self, values: np.ndarray) -> np.ndarray:
+    def expand(self, values: Array) -> Array:
         """Values of all nodes from those of the free nodes; held nodes get zero."""
         return values if self.projection is None else self.body.apply(self.projection, values)
 
-    def collect(self, forces: np.ndarray) -> np.ndarray:
+    def collect(self, forces: Array) -> Array:
         """P^T f: what ties and supports leave on the free nodes."""
         if self.projection is None:
             return forces

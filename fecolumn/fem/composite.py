@@ -7,11 +7,18 @@ its surface, is made once for all of them.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from fecolumn.fem.damping import ModalDamping
 from fecolumn.fem.effective import effective_factor
 from fecolumn.fem.foot import FilteredFoot, PlainFoot, Response
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
 
 
 class Composite:
@@ -28,7 +35,9 @@ class Composite:
         unstrained.
     """
 
-    def __init__(self, parts: list, centers: np.ndarray, rotations: np.ndarray):
+    def __init__(
+        self, parts: list, centers: Sequence[Array] | Array, rotations: Sequence[Array] | Array
+    ) -> None:
         self.parts, self.comm = list(parts), parts[0].comm
         self.rows = slices([part.n_owned for part in parts])
         self.n_owned, self.n_nodes = (
@@ -60,7 +69,7 @@ class Composite:
         self.total_mass = sum(part.total_mass for part in parts)
         self.sum, self.max, self.dot = parts[0].sum, parts[0].max, parts[0].dot
 
-    def places(self, centers, rotations) -> np.ndarray:
+    def places(self, centers: Sequence[Array] | Array, rotations: Sequence[Array] | Array) -> Array:
         """Positions (n_owned, 3) [m] of the nodes of unstrained bodies, with centres of mass
         (nb, 3) [m] and rotations (nb, 3, 3).
 
@@ -77,7 +86,7 @@ class Composite:
             ]
         )
 
-    def apply(self, matrices, values: np.ndarray) -> np.ndarray:
+    def apply(self, matrices: Any, values: Array) -> Array:
         """Product of each body's matrix with its rows of an owned array (n_owned, 3)."""
         return np.concatenate(
             [
@@ -86,19 +95,19 @@ class Composite:
             ]
         )
 
-    def momentum(self, values: np.ndarray) -> np.ndarray:
+    def momentum(self, values: Array) -> Array:
         """Product of each body's mass with its rows of an owned array (n_owned, 3)."""
         return np.concatenate(
             [part.momentum(values[rows]) for part, rows in zip(self.parts, self.rows)]
         )
 
-    def centers(self, x: np.ndarray) -> np.ndarray:
+    def centers(self, x: Array) -> Array:
         """Centres of mass (nb, 3) of positions x (n_owned, 3) [m]."""
         return self.sum(
             np.stack([part.node_mass @ x[rows] for part, rows in zip(self.parts, self.rows)])
         ) / np.array([[part.total_mass] for part in self.parts])
 
-    def of_each(self, make) -> list:
+    def of_each(self, make: Callable[..., Any]) -> list:
         """What `make` gives of each body (and its first rows), made once for all copies."""
         made = {}
         for part, rows in zip(self.parts, self.rows):
@@ -107,19 +116,19 @@ class Composite:
         return [made[part] for part in self.parts]
 
 
-def slices(counts) -> list[slice]:
+def slices(counts: list[int]) -> list[slice]:
     """Rows of bodies with so many rows each."""
     ends = np.cumsum([0, *counts]).tolist()
     return [slice(first, last) for first, last in zip(ends, ends[1:])]
 
 
-def copies_of(each: list):
+def copies_of(each: list) -> Iterator[Any]:
     """Each different one and the places where it is."""
     for one in dict.fromkeys(each):
         yield one, [place for place, other in enumerate(each) if other is one]
 
 
-def of_copies(each: list, rows: list, values: np.ndarray, name: str) -> np.ndarray:
+def of_copies(each: list, rows: list, values: Array, name: str) -> Array:
     """What the methods `name` of `each` give of rows of values (n, 3), one below the other; copies
     are asked at once, so that what is large is read once.
     """
@@ -143,12 +152,12 @@ class CompositeKinematics:
         function of a Body that returns its kinematics, Corotated or TotalLagrangian.
     """
 
-    def __init__(self, bodies: Composite, make):
+    def __init__(self, bodies: Composite, make: Any) -> None:
         self._rows, self.each = bodies.rows, bodies.of_each(lambda part, _: make(part))
         #: As of each.
         self.name, self.has_tangent = self.each[0].name, self.each[0].has_tangent
 
-    def _rowwise(self, name: str, *arrays) -> np.ndarray:
+    def _rowwise(self, name: str, *arrays: Array) -> Array:
         return np.concatenate(
             [
                 getattr(one, name)(*(array[rows] for array in arrays))
@@ -156,11 +165,11 @@ class CompositeKinematics:
             ]
         )
 
-    def rotation(self, x: np.ndarray) -> np.ndarray:
+    def rotation(self, x: Array) -> Array:
         """(nb, 3, 3)."""
         return np.stack([one.rotation(x[rows]) for one, rows in zip(self.each, self._rows)])
 
-    def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+    def internal(self, x: Array) -> tuple[Array, Array, float]:
         """Rotations (nb, 3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions
         x.
         """
@@ -170,19 +179,19 @@ class CompositeKinematics:
         rotations, forces, strains = zip(*(found[place] for place in range(len(self.each))))
         return np.stack(rotations), np.concatenate(forces), sum(strains)
 
-    def tangents(self, x: np.ndarray) -> list:
+    def tangents(self, x: Array) -> list:
         """Tangent stiffness of each body at positions x (n_owned, 3), in the table frame."""
         return [one.tangent(x[rows]) for one, rows in zip(self.each, self._rows)]
 
-    def moved(self, x, step):
+    def moved(self, x: Array, step: Array) -> Array:
         """Positions (n_owned, 3) [m] after an increment of an iteration."""
         return self._rowwise("moved", x, step)
 
-    def predicted(self, x, step):
+    def predicted(self, x: Array, step: Array) -> Array:
         """First guess of positions (n_owned, 3) [m] after a time step's increment."""
         return self._rowwise("predicted", x, step)
 
-    def local_displacement(self, x):
+    def local_displacement(self, x: Array) -> Array:
         """Displacement (n_owned, 3) [m] of each node in the frame of its own body."""
         return self._rowwise("local_displacement", x)
 
@@ -190,11 +199,17 @@ class CompositeKinematics:
 class CompositeFactor:
     """Factors of each body's effective matrix, the same object for copies."""
 
-    def __init__(self, bodies: Composite, each: list):
+    def __init__(self, bodies: Composite, each: list) -> None:
         self.bodies, self.each = bodies, each
 
     @classmethod
-    def of(cls, bodies: Composite, mass_factor: float, stiffness_factor: float, tangents=None):
+    def of(
+        cls,
+        bodies: Composite,
+        mass_factor: float,
+        stiffness_factor: float,
+        tangents: list[Any] | None = None,
+    ) -> CompositeFactor:
         """Factors of mass_factor M + stiffness_factor K, with the reference stiffness of each body
         or with its own one of `tangents`.
         """
@@ -213,7 +228,7 @@ class CompositeFactor:
             ],
         )
 
-    def solve(self, forces: np.ndarray) -> np.ndarray:
+    def solve(self, forces: Array) -> Array:
         """Displacements (n_owned, 3), rows in the frames of their bodies."""
         return of_copies(self.each, self.bodies.rows, forces, "solve")
 
@@ -247,13 +262,13 @@ class CompositeFoot:
         mass_factor: float,
         stiffness_factor: float,
         filtered: bool,
-    ):
+    ) -> None:
         self.bodies, self.nodes = bodies, nodes
         known, factors = (
             dict(zip(reversed(bodies.parts), reversed(each))) for each in (nodes, factor.each)
         )
 
-        def make(part, _):
+        def make(part: Body, _: slice) -> FilteredFoot | PlainFoot:
             return (
                 FilteredFoot(part, known[part], factors[part], mass_factor, stiffness_factor)
                 if filtered
@@ -265,15 +280,15 @@ class CompositeFoot:
         self.static = [one.static for one in self.each]
         self.mobility = [one.mobility for one in self.each] if self.filtered else None
 
-    def position(self, displacement: np.ndarray) -> np.ndarray:
+    def position(self, displacement: Array) -> Array:
         """As of each body's, rows in the frames of their bodies."""
         return of_copies(self.each, self.bodies.rows, displacement, "position")
 
-    def load(self, forces: np.ndarray) -> np.ndarray:
+    def load(self, forces: Array) -> Array:
         """Nodal forces (n_owned, 3) [N] of forces on the surface nodes."""
         return of_copies(self.each, self.rows, forces, "load")
 
-    def acceleration(self, forces: np.ndarray) -> np.ndarray:
+    def acceleration(self, forces: Array) -> Array:
         """Accelerations (n_owned, 3) [m/s2] of all nodes by forces [N] on the surface nodes."""
         return of_copies(self.each, self.rows, forces, "acceleration")
 
@@ -281,7 +296,7 @@ class CompositeFoot:
 class CompositeResponse:
     """`fem.foot.Response` of each body."""
 
-    def __init__(self, foot: CompositeFoot, factor: CompositeFactor):
+    def __init__(self, foot: CompositeFoot, factor: CompositeFactor) -> None:
         made, pairs = {}, list(zip(foot.each, factor.each))
         for pair in pairs:
             if pair not in made:
@@ -289,7 +304,7 @@ class CompositeResponse:
         self._rows, self.each = foot.rows, [made[pair] for pair in pairs]
         self.compliance = [one.compliance for one in self.each]
 
-    def displacement(self, forces: np.ndarray) -> np.ndarray:
+    def displacement(self, forces: Array) -> Array:
         """Displacements (n_owned, 3) [m] of all nodes by forces [N] on the surface nodes."""
         return of_copies(self.each, self._rows, forces, "displacement")
 
@@ -305,14 +320,14 @@ class CompositeDamping:
         of each body, a number or one of each mode; copies the same.
     """
 
-    def __init__(self, bodies: Composite, counts, ratios):
+    def __init__(self, bodies: Composite, counts: list[int], ratios: list[float]) -> None:
         known = dict(zip(bodies.parts, zip(counts, ratios)))
         self._rows, self.each = (
             bodies.rows,
             bodies.of_each(lambda part, _: ModalDamping(part, *known[part])),
         )
 
-    def _rowwise(self, name, velocity, rotation) -> np.ndarray:
+    def _rowwise(self, name: str, velocity: Array, rotation: Array) -> Array:
         return np.concatenate(
             [
                 getattr(one, name)(velocity[rows], R)
@@ -320,15 +335,15 @@ class CompositeDamping:
             ]
         )
 
-    def force(self, velocity, rotation):
+    def force(self, velocity: Array, rotation: Array) -> Array:
         """Damping forces (n_owned, 3) [N] at velocities (n_owned, 3) [m/s]."""
         return self._rowwise("force", velocity, rotation)
 
-    def acceleration(self, velocity, rotation):
+    def acceleration(self, velocity: Array, rotation: Array) -> Array:
         """M^-1 of `force`, (n_owned, 3) [m/s2]."""
         return self._rowwise("acceleration", velocity, rotation)
 
-    def damped(self, factor: CompositeFactor, *factors) -> CompositeFactor:
+    def damped(self, factor: CompositeFactor, *factors: float) -> CompositeFactor:
         """Factor of the damped effective matrix of each body; see `fem.damping`."""
         made = {}
         for damping, own in zip(self.each, factor.each):

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.fem.rotation import polar_rotation
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
 
 
-def mean_rotation(body, x: np.ndarray) -> np.ndarray:
+def mean_rotation(body: Body, x: Array) -> Array:
     """Mean rotation (3, 3) of a body from its node positions (n_owned, 3), weighted by the mass
     matrix.
 
@@ -30,14 +36,14 @@ class Corotated:
     #: serves, turned.
     has_tangent = False
 
-    def __init__(self, body):
+    def __init__(self, body: Body) -> None:
         self.body = body
 
-    def rotation(self, x: np.ndarray) -> np.ndarray:
+    def rotation(self, x: Array) -> Array:
         """Mean rotation (3, 3) of the body at positions x (n_owned, 3) [m]."""
         return mean_rotation(self.body, x)
 
-    def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+    def internal(self, x: Array) -> tuple[Array, Array, float]:
         """Rotation (3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions x
         (n_owned, 3).
         """
@@ -58,7 +64,7 @@ class Corotated:
             for R, deformation, force in zip(rotations, deformations, forces)
         ]
 
-    def _deformed(self, x):
+    def _deformed(self, x: Array) -> tuple[Array, Array]:
         rotation = self.rotation(x)
         deformation = x @ rotation - self.body.X
         # the stiffness does not see a translation, the rounding of the energy does
@@ -66,17 +72,17 @@ class Corotated:
             self.body.node_mass @ deformation
         ) / self.body.total_mass
 
-    def moved(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
+    def moved(self, x: Array, step: Array) -> Array:
         """Positions after an increment (n_owned, 3) [m] of an iteration; the stretch of its turn
         falls out with R.
         """
         return x + step
 
-    def predicted(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
+    def predicted(self, x: Array, step: Array) -> Array:
         """First guess after a time step's increment (n_owned, 3) [m]."""
         return x + step
 
-    def local_displacement(self, x: np.ndarray) -> np.ndarray:
+    def local_displacement(self, x: Array) -> Array:
         """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are
         computed.
         """

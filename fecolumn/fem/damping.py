@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.fem.modes import elastic_modes
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
+    from fecolumn.fem.effective import Factor
 
 
 class ModalDamping:
@@ -25,7 +32,7 @@ class ModalDamping:
         zeta, of each.
     """
 
-    def __init__(self, body, count: int, ratio: float):
+    def __init__(self, body: Body, count: int, ratio: float) -> None:
         self.body, self.ratio = body, ratio
         self.frequencies, self.shapes = elastic_modes(body, count)
         self._momenta = np.array([body.apply(body.mass, shape) for shape in self.shapes]).reshape(
@@ -33,22 +40,22 @@ class ModalDamping:
         )
         self._rates = 2 * ratio * self.frequencies
 
-    def _modal(self, velocity, rotation) -> np.ndarray:
+    def _modal(self, velocity: Array, rotation: Array) -> Array:
         """Damping force (m,) on each mode at velocities (n_owned, 3) [m/s]."""
         return self._rates * self.body.sum(np.tensordot(self._momenta, velocity @ rotation, axes=2))
 
-    def force(self, velocity: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    def force(self, velocity: Array, rotation: Array) -> Array:
         """Nodal forces (n_owned, 3) [N] that velocities (n_owned, 3) [m/s] need, in the sense of
         internal forces.
         """
         return np.tensordot(self._modal(velocity, rotation), self._momenta, axes=1) @ rotation.T
 
-    def acceleration(self, velocity: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    def acceleration(self, velocity: Array, rotation: Array) -> Array:
         """M^-1 of `force`."""
         return np.tensordot(self._modal(velocity, rotation), self.shapes, axes=1) @ rotation.T
 
     def damped(
-        self, factor, mass_factor: float, stiffness_factor: float, rate_factor: float
+        self, factor: Factor, mass_factor: float, stiffness_factor: float, rate_factor: float
     ) -> DampedFactor:
         """Factor of mass_factor M + stiffness_factor (K + rate_factor C) from that of mass_factor M
         + stiffness_factor K.
@@ -64,19 +71,19 @@ class DampedFactor:
     phi^T of each mode.
     """
 
-    def __init__(self, factor, shapes: np.ndarray, change: np.ndarray):
+    def __init__(self, factor: Factor, shapes: Array, change: Array) -> None:
         self._factor, self._change = factor, change
         self._flat = shapes.reshape(len(shapes), -1)
 
-    def _correction(self, forces: np.ndarray) -> np.ndarray:
+    def _correction(self, forces: Array) -> Array:
         return self._flat.T @ (self._change[:, None] * self._factor.body.sum(self._flat @ forces))
 
-    def solve(self, forces: np.ndarray) -> np.ndarray:
+    def solve(self, forces: Array) -> Array:
         """`Factor.solve` with damping."""
         copies = forces.reshape(-1, self._flat.shape[1])
         return self._factor.solve(forces) + self._correction(copies.T).T.reshape(forces.shape)
 
-    def solve_many(self, forces: np.ndarray) -> np.ndarray:
+    def solve_many(self, forces: Array) -> Array:
         """`Factor.solve_many` with damping."""
         return self._factor.solve_many(forces) + self._correction(forces)
 

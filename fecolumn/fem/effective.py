@@ -4,10 +4,16 @@ once.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from petsc4py import PETSc
 
 from fecolumn.foundation import _dolfinx
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
 
 #: Solves with one load in less than half the time of MUMPS, but on a single rank alone
 _OF_ONE_RANK = "cholmod" if PETSc.Sys.hasExternalPackage("suitesparse") else "mumps"
@@ -27,7 +33,7 @@ class Factor:
         fails, and at once on several ranks.
     """
 
-    def __init__(self, body, matrix: PETSc.Mat, definite: bool = True):
+    def __init__(self, body: Body, matrix: PETSc.Mat, definite: bool = True) -> None:
         self.body, self._matrix = body, body.constraint.pinned(matrix)
         alone = body.comm.size == 1
         try:
@@ -40,7 +46,7 @@ class Factor:
             self._solver = _solver(self._matrix, "mumps", False)
         self._release = _dolfinx.release_with(self, self._solver, self._matrix)
 
-    def solve(self, forces: np.ndarray) -> np.ndarray:
+    def solve(self, forces: Array) -> Array:
         """Displacements (n_owned, 3) of all nodes from reduced forces (n_owned, 3); (k, n_owned, 3)
         of k copies at once, for which the factor is read once.
         """
@@ -51,7 +57,7 @@ class Factor:
         self._solver.solve(source, target)
         return self.body.constraint.expand(target.array.reshape(-1, 3).copy())
 
-    def solve_many(self, forces: np.ndarray) -> np.ndarray:
+    def solve_many(self, forces: Array) -> Array:
         """Displacements (3 n_owned, m) of all nodes from m columns of reduced forces (3 n_owned,
         m).
         """
@@ -100,7 +106,7 @@ def _solver(matrix: PETSc.Mat, package: str, definite: bool) -> PETSc.KSP:
 
 
 def effective_factor(
-    body, mass_factor: float, stiffness_factor: float, stiffness: PETSc.Mat | None = None
+    body: Body, mass_factor: float, stiffness_factor: float, stiffness: PETSc.Mat | None = None
 ) -> Factor:
     """Factor of mass_factor M + stiffness_factor K, with the body's reference stiffness unless
     another is given.
@@ -112,7 +118,7 @@ def effective_factor(
     return Factor(body, matrix, definite=stiffness is None)
 
 
-def unit_loads(body, nodes) -> np.ndarray:
+def unit_loads(body: Body, nodes: Array) -> Array:
     """Unit forces in x, y, z at `nodes` as columns (3 n_owned, 3 len(nodes))."""
     loads = np.zeros((3 * body.n_owned, 3 * len(nodes)), order="F")
     here, local = body.owned(nodes)
@@ -121,7 +127,7 @@ def unit_loads(body, nodes) -> np.ndarray:
     return loads
 
 
-def blocks(matrix: np.ndarray) -> np.ndarray:
+def blocks(matrix: Array) -> Array:
     """Symmetric (3 n, 3 n) matrix as node blocks (n, n, 3, 3)."""
     n = len(matrix) // 3
     return np.ascontiguousarray(((matrix + matrix.T) / 2).reshape(n, 3, n, 3).transpose(0, 2, 1, 3))

@@ -4,9 +4,16 @@ static rest.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.fem.effective import blocks, unit_loads
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
+    from fecolumn.fem.effective import Factor
 
 
 class FilteredFoot:
@@ -35,7 +42,9 @@ class FilteredFoot:
 
     filtered = True
 
-    def __init__(self, body, nodes, factor, mass_factor: float, stiffness_factor: float):
+    def __init__(
+        self, body: Body, nodes: Array, factor: Factor, mass_factor: float, stiffness_factor: float
+    ) -> None:
         self.body, self.nodes = body, nodes
         once = mass_factor * factor.solve_many(unit_loads(body, nodes))
         momentum = body.apply_many(body.mass, once)
@@ -48,7 +57,7 @@ class FilteredFoot:
         self.mobility = blocks(body.sum((2 * momentum - last).T @ self.jump))
         self.static = blocks(stiffness_factor / mass_factor * (s1 + s2 - 3 * s3 + s4))
 
-    def position(self, displacement: np.ndarray) -> np.ndarray:
+    def position(self, displacement: Array) -> Array:
         """Filtered displacement or velocity (..., n, 3) of the foot from fields (..., n_owned, 3)
         of as many copies, both in the body's frame.
         """
@@ -56,19 +65,19 @@ class FilteredFoot:
             *displacement.shape[:-2], -1, 3
         )
 
-    def load(self, forces: np.ndarray) -> np.ndarray:
+    def load(self, forces: Array) -> Array:
         """Nodal forces (..., n_owned, 3) of contact forces (..., n, 3) on as many copies, both in
         the body's frame: the mass times their `acceleration`.
         """
         return self.body.momentum(self.acceleration(forces))
 
-    def unit_push(self) -> np.ndarray:
+    def unit_push(self) -> Array:
         """U (3 n_owned, 3 n), as large as Y and not kept: nodal forces of unit forces on
         the nodes.
         """
         return self.body.apply_many(self.body.mass, self.jump)
 
-    def acceleration(self, forces: np.ndarray) -> np.ndarray:
+    def acceleration(self, forces: Array) -> Array:
         """M^-1 of `load`: acceleration of contact forces, or velocity jump of contact impulses."""
         return _combine(self.jump, forces)
 
@@ -78,11 +87,11 @@ class PlainFoot:
 
     filtered = False
 
-    def __init__(self, body, nodes):
+    def __init__(self, body: Body, nodes: Array) -> None:
         self.body, self.nodes = body, nodes
         self.static = np.zeros((len(nodes), len(nodes), 3, 3))
 
-    def position(self, displacement: np.ndarray) -> np.ndarray:
+    def position(self, displacement: Array) -> Array:
         """As of FilteredFoot."""
         return (
             self.body.gather(self.nodes, displacement)
@@ -90,7 +99,7 @@ class PlainFoot:
             else np.stack([self.position(one) for one in displacement])
         )
 
-    def load(self, forces: np.ndarray) -> np.ndarray:
+    def load(self, forces: Array) -> Array:
         """As of FilteredFoot."""
         return (
             self.body.spread(self.nodes, forces)
@@ -98,7 +107,7 @@ class PlainFoot:
             else np.stack([self.load(one) for one in forces])
         )
 
-    def unit_push(self) -> np.ndarray:
+    def unit_push(self) -> Array:
         """As of FilteredFoot."""
         return unit_loads(self.body, self.nodes)
 
@@ -114,24 +123,24 @@ class Response:
         of the stage's effective matrix.
     """
 
-    def __init__(self, foot, factor):
+    def __init__(self, foot: FilteredFoot | PlainFoot, factor: Factor) -> None:
         push = foot.unit_push()
         self._columns = factor.solve_many(push)
         self.compliance = blocks(foot.body.sum(push.T @ self._columns))
 
-    def displacement(self, forces: np.ndarray) -> np.ndarray:
+    def displacement(self, forces: Array) -> Array:
         """Displacements (..., n_owned, 3) of contact forces (..., n, 3) on as many copies, both in
         the frame of the factored matrix.
         """
         return _combine(self._columns, forces)
 
 
-def as_row(values: np.ndarray) -> np.ndarray:
+def as_row(values: Array) -> Array:
     """Vectors (..., n, 3) as numbers (..., 3 n)."""
     return values.reshape(*values.shape[:-2], -1)
 
 
-def _combine(columns: np.ndarray, forces: np.ndarray) -> np.ndarray:
+def _combine(columns: Array, forces: Array) -> Array:
     """Sums (..., n_owned, 3) of columns times forces (..., n, 3), over what any of them loads only:
     few while rocking.
     """

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.fem.effective import effective_factor
 from fecolumn.fem.rayleigh import spectral_shift
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
 
 # Shift of the singular free-free stiffness over the bound of the first elastic frequency's square:
 # two terms of the series do
@@ -18,7 +24,7 @@ REMAINDER = 1e-10
 MOST_TERMS = 1000
 
 
-def rigid_fields(body) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def rigid_fields(body: Body) -> tuple[Array, Array, Array]:
     """Rigid motions (3 n_owned, 6), translations and rotations about the centre of mass; M times
     them; and the 6 x 6 masses.
     """
@@ -41,7 +47,7 @@ class FreeBody:
     what is left out is known from the last two terms.
     """
 
-    def __init__(self, body):
+    def __init__(self, body: Body) -> None:
         self.body = body
         #: s [1/s2].
         self.shift = spectral_shift(body, _SHARE)
@@ -49,7 +55,7 @@ class FreeBody:
         self.fields, self.momentum, self.masses = rigid_fields(body)
         self._shares = np.linalg.inv(self.masses)
 
-    def response(self, forces: np.ndarray) -> np.ndarray:
+    def response(self, forces: Array) -> Array:
         """Elastic displacements (3 n_owned, k) under reduced forces (3 n_owned, k), to REMAINDER of
         each.
 
@@ -78,9 +84,9 @@ class FreeBody:
             f"{size.max():.3g} m, of all {first.max():.3g} m"
         )
 
-    def _size(self, columns: np.ndarray) -> np.ndarray:
+    def _size(self, columns: Array) -> Array:
         """Root of the sum of squares (k,) of each column."""
         return np.sqrt(self.body.sum(np.einsum("ik,ik->k", columns, columns)))
 
-    def _elastic(self, columns: np.ndarray) -> np.ndarray:
+    def _elastic(self, columns: Array) -> Array:
         return columns - self.fields @ (self._shares @ self.body.sum(self.momentum.T @ columns))

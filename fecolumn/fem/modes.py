@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 from petsc4py import PETSc
@@ -10,6 +11,10 @@ from scipy.linalg import eigh
 
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rayleigh import spectral_shift
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
 
 # Shift of the spectrum over the bound of the first elastic frequency's square: K + s M can be
 # factored, and 1 / (w^2 + s) still tells the rigid modes from the first elastic ones
@@ -24,11 +29,11 @@ class Modes:
     pi.
     """
 
-    frequencies: np.ndarray
-    shapes: np.ndarray
+    frequencies: Array
+    shapes: Array
 
 
-def free_modes(body, count: int, tolerance: float = 1e-10) -> Modes:
+def free_modes(body: Body, count: int, tolerance: float = 1e-10) -> Modes:
     """The `count` lowest modes of K x = w^2 M x, rigid ones included, ties as in the body.
 
     The six rigid ones are known, and Ritz's method among them tells their frequencies. The elastic
@@ -93,12 +98,12 @@ def free_modes(body, count: int, tolerance: float = 1e-10) -> Modes:
     return Modes(_hertz(np.array(values)[order]), np.array(shapes)[order])
 
 
-def _hertz(values: np.ndarray) -> np.ndarray:
+def _hertz(values: Array) -> Array:
     """Frequencies of eigenvalues [1/s2]."""
     return np.sign(values) * np.sqrt(np.abs(values)) / (2 * np.pi)
 
 
-def elastic_modes(body, count: int) -> tuple[np.ndarray, np.ndarray]:
+def elastic_modes(body: Body, count: int) -> tuple[Array, Array]:
     """Frequencies (m,) [rad/s] and shapes (m, n_owned, 3) of unit modal mass of the lowest elastic
     modes: `count` of them, or all there are.
     """

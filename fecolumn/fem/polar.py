@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 #: Change of an iterate [-] at which the next one is exact to rounding: Newton's iteration squares
 #: it
@@ -15,7 +15,7 @@ _ITERATIONS = 40
 
 
 @njit(alone=True)
-def polar_of(moment, rotation):
+def polar_of(moment: Array, rotation: Array) -> bool:
     """Fill in the rotation (3, 3) nearest to `moment` (3, 3), by Newton's iteration with scaling
     (Higham 1986); whether it was found: not of one whose determinant is not positive, or vanishes
     beside its entries.

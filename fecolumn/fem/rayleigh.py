@@ -4,7 +4,12 @@ is shifted by.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
 
 # Least shift over the largest eigenvalue of K x = w^2 M x: rounding in K moves rigid motions from 0
 # by some 1e-16 of that eigenvalue
@@ -14,7 +19,7 @@ ROUNDING = 1e-12
 _ALIKE = 1e-10
 
 
-def elastic_bound(body) -> float:
+def elastic_bound(body: Body) -> float:
     """Upper bound of the square of the lowest elastic frequency [1/s2].
 
     Ritz's method with the displacements of second degree in x, y and z. Pure bending, stretch and
@@ -38,7 +43,7 @@ def elastic_bound(body) -> float:
     return float(np.linalg.eigvalsh(basis.T @ stiffness @ basis)[6])
 
 
-def spectral_shift(body, share: float) -> float:
+def spectral_shift(body: Body, share: float) -> float:
     """Shift s [1/s2] that makes K + s M positive definite: a share of `elastic_bound`, but above
     the rounding of K.
     """

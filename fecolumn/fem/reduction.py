@@ -4,13 +4,17 @@ the nodes that may touch.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from fecolumn.fem.effective import blocks, unit_loads
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.modes import elastic_modes
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
 
 # Unit forces solved for at once: bounds the memory, 3 n_nodes x BATCH numbers a block
 BATCH = 120
@@ -23,17 +27,17 @@ class Reduction(NamedTuple):
     """
 
     body: Any
-    inertia: np.ndarray
-    frequencies: np.ndarray
-    fields: np.ndarray
-    flexibility: np.ndarray
+    inertia: Array
+    frequencies: Array
+    fields: Array
+    flexibility: Array
 
-    def at(self, nodes) -> np.ndarray:
+    def at(self, nodes: Array) -> Array:
         """Shapes (k, 3, m) of the modes at nodes (k,)."""
         return np.ascontiguousarray(self.body.gather(nodes, self.fields.transpose(1, 2, 0)))
 
 
-def reduced_at(body, nodes: np.ndarray, n_modes: int) -> Reduction:
+def reduced_at(body: Body, nodes: Array, n_modes: int) -> Reduction:
     """Reduce a Body to its `n_modes` lowest elastic modes and the flexibility of nodes (n,)."""
     frequencies, fields = elastic_modes(body, n_modes)
     free, n = FreeBody(body), len(nodes)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.fem.polar import polar_of
+from fecolumn.foundation._compiled import Array
 
 
-def rotation_matrix(vector) -> np.ndarray:
+def rotation_matrix(vector: ArrayLike) -> Array:
     """Rotation (3, 3) of the rotation vector (3,) [rad], by Rodrigues' formula."""
     vector = np.asarray(vector, float)
     angle = np.linalg.norm(vector)
@@ -20,7 +22,7 @@ def rotation_matrix(vector) -> np.ndarray:
     return np.eye(3) + a * spin + b * spin @ spin
 
 
-def polar_rotation(moment: np.ndarray) -> np.ndarray:
+def polar_rotation(moment: Array) -> Array:
     """Rotation R (3, 3) nearest to `moment` = sum m x X^T, so that x ~ R X in the mass-weighted
     mean; (nb, 3, 3) of as many moments.
     """
@@ -33,17 +35,17 @@ def polar_rotation(moment: np.ndarray) -> np.ndarray:
     return left @ np.diag([1.0, 1.0, np.sign(np.linalg.det(left @ right))]) @ right
 
 
-def tilt_angle(rotation: np.ndarray) -> float:
+def tilt_angle(rotation: Array) -> float:
     """Angle between the body's axis and the vertical [rad]."""
     return float(np.arctan2(np.hypot(rotation[0, 2], rotation[1, 2]), rotation[2, 2]))
 
 
-def twist_angle(rotation: np.ndarray) -> float:
+def twist_angle(rotation: Array) -> float:
     """Rotation about the vertical left when the tilt is undone the short way [rad]."""
     return float(np.arctan2(rotation[1, 0] - rotation[0, 1], rotation[0, 0] + rotation[1, 1]))
 
 
-def into_frames(values: np.ndarray, rotation: np.ndarray, rows: list[slice]) -> np.ndarray:
+def into_frames(values: Array, rotation: Array, rows: list[slice]) -> Array:
     """Vectors (n, 3) in the table frame as vectors in the frames of their bodies.
 
     Parameters
@@ -56,7 +58,7 @@ def into_frames(values: np.ndarray, rotation: np.ndarray, rows: list[slice]) -> 
     return np.concatenate([values[own] @ R for own, R in zip(rows, rotation, strict=True)])
 
 
-def out_of_frames(values: np.ndarray, rotation: np.ndarray, rows: list[slice]) -> np.ndarray:
+def out_of_frames(values: Array, rotation: Array, rows: list[slice]) -> Array:
     """Vectors (n, 3) in the frames of their bodies as vectors in the table frame; arguments as of
     `into_frames`.
     """

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from fecolumn.fem.body import Body
+from fecolumn.foundation._compiled import Array
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import BrickMesh, boundary_faces
 from fecolumn.mesh.surface import face_basis, face_points
 from fecolumn.mesh.tie import project_to_quads
 
+if TYPE_CHECKING:
+    from mpi4py import MPI
 
-def known_to_all(comm, make):
+    from fecolumn.mesh.tie import Tie
+
+
+def known_to_all(comm: MPI.Intracomm, make: Callable[..., Any]) -> Any:
     """What `make` makes on rank 0, known on every rank; a refusal is raised on every rank."""
     result, refusal = None, None
     if comm.rank == 0:
@@ -25,18 +34,20 @@ def known_to_all(comm, make):
     return result
 
 
-def tied_body(mesh: BrickMesh, ties, material, order: int, comm) -> Body:
+def tied_body(
+    mesh: BrickMesh, ties: tuple[Tie, ...], material: Any, order: int, comm: MPI.Intracomm
+) -> Body:
     """The parts of a mesh as one body, held together by its ties (`mesh.tie.Tie`); order: of the
     elements.
     """
 
-    def links(body):
+    def links(body: Body) -> tuple[dict[int, tuple[Array, Array]], tuple[()]]:
         return {slave: link for one in ties for slave, link in _tie_links(body, mesh, one)}, ()
 
     return Body(comm, mesh, material, order, links)
 
 
-def _tie_links(body: Body, mesh, tie):
+def _tie_links(body: Body, mesh: BrickMesh, tie: Tie) -> Iterator[Any]:
     """(slave node, (master nodes, weights)) of one tie, at the Lagrange nodes of the body."""
     slave_quads = boundary_faces(
         mesh,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import ufl
 from dolfinx import fem
@@ -12,6 +14,10 @@ from fecolumn.fem.corotated import mean_rotation
 from fecolumn.fem.material.elasticity import isotropic_stress
 from fecolumn.fem.material.kinematics import green_lagrange_strain
 from fecolumn.foundation import _dolfinx
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.body import Body
 
 
 class TotalLagrangian:
@@ -25,7 +31,7 @@ class TotalLagrangian:
     #: serves, turned.
     has_tangent = True
 
-    def __init__(self, body):
+    def __init__(self, body: Body) -> None:
         self.body = body
         self.u = fem.Function(body.space)
         strain = green_lagrange_strain(self.u)
@@ -37,15 +43,15 @@ class TotalLagrangian:
         self._energy, self._residual = fem.form(energy), fem.form(residual)
         self._tangent = ufl.derivative(residual, self.u, ufl.TrialFunction(body.space))
 
-    def _set(self, x: np.ndarray) -> None:
+    def _set(self, x: Array) -> None:
         self.u.x.array[: 3 * self.body.n_owned] = (x - self.body.X).reshape(-1)
         self.u.x.scatter_forward()
 
-    def rotation(self, x: np.ndarray) -> np.ndarray:
+    def rotation(self, x: Array) -> Array:
         """Mean rotation (3, 3) of the body at positions x (n_owned, 3) [m]."""
         return mean_rotation(self.body, x)
 
-    def internal(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+    def internal(self, x: Array) -> tuple[Array, Array, float]:
         """Mean rotation (3, 3), internal forces (n_owned, 3) [N] and strain energy [J] at positions
         x.
         """
@@ -61,7 +67,7 @@ class TotalLagrangian:
         """`internal` of copies of the body at each of the positions."""
         return [self.internal(x) for x in places]
 
-    def tangent(self, x: np.ndarray) -> PETSc.Mat:
+    def tangent(self, x: Array) -> PETSc.Mat:
         """Reduced tangent stiffness at positions x, in the table frame."""
         self._set(x)
         full = _dolfinx.assemble_matrix(self._tangent)
@@ -69,7 +75,7 @@ class TotalLagrangian:
         full.destroy()
         return reduced
 
-    def moved(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
+    def moved(self, x: Array, step: Array) -> Array:
         """Positions after an increment (n_owned, 3) [m] of an iteration, its rigid part made a
         rotation.
 
@@ -79,7 +85,7 @@ class TotalLagrangian:
         rigid, linear = self._rigid_parts(x, step)
         return rigid + step - linear
 
-    def predicted(self, x: np.ndarray, step: np.ndarray) -> np.ndarray:
+    def predicted(self, x: Array, step: Array) -> Array:
         """First guess after a time step's increment (n_owned, 3) [m]: only its rigid part.
 
         Elastic velocities that the step does not resolve would carry the guess far outside small
@@ -87,7 +93,7 @@ class TotalLagrangian:
         """
         return self._rigid_parts(x, step)[0]
 
-    def _rigid_parts(self, x, step):
+    def _rigid_parts(self, x: Array, step: Array) -> tuple[Array, Array]:
         """Positions moved by the rigid part of an increment, and that part taken straight."""
         body = self.body
         mass = body.node_mass[:, None]
@@ -101,7 +107,7 @@ class TotalLagrangian:
         arm = x - centre
         return centre + shift + arm @ turn.T, shift + arm @ skew.T
 
-    def local_displacement(self, x: np.ndarray) -> np.ndarray:
+    def local_displacement(self, x: Array) -> Array:
         """Displacement (n_owned, 3) [m] seen in the body's frame, from which stresses are
         computed.
         """

@@ -7,19 +7,21 @@ its arithmetic on a rocking column.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numba
 from numba.core import cgutils, types
 from numba.extending import intrinsic
 
 
-def _without_owner(context, builder, kind, value):
+def _without_owner(context: Any, builder: Any, kind: Any, value: Any) -> Any:
     """A value of a numba type, its arrays without the memory that counts."""
     if isinstance(kind, types.Array):
         array = context.make_array(kind)(context, builder, value)
         array.meminfo = cgutils.get_null_value(array.meminfo.type)
         array.parent = cgutils.get_null_value(array.parent.type)
         return array._getvalue()
-    if isinstance(kind, types.BaseTuple):
+    if isinstance(kind, types.BaseTuple):  # type: ignore[attr-defined]
         for place, part in enumerate(kind.types):
             value = builder.insert_value(
                 value,
@@ -30,14 +32,14 @@ def _without_owner(context, builder, kind, value):
 
 
 @intrinsic
-def _borrowed(typing, whole):
-    def build(context, builder, signature, arguments):
+def _borrowed(typing: Any, whole: Any) -> tuple[Any, Any]:
+    def build(context: Any, builder: Any, signature: Any, arguments: tuple[Any]) -> Any:
         return _without_owner(context, builder, signature.args[0], arguments[0])
 
     return whole(whole), build
 
 
-def _same(whole):
+def _same(whole: Any) -> Any:
     return whole
 
 

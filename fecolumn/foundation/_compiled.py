@@ -5,12 +5,19 @@ from __future__ import annotations
 import functools
 import os
 from pathlib import Path
+from typing import Any, TypeAlias
 
 import numba
 from llvmlite.binding import get_host_cpu_name
+from numpy.typing import NDArray
 
 from fecolumn.foundation._kernel import Kernel, is_kept, is_tested
 from fecolumn.foundation.sources import digest_of
+
+#: What compiled functions take: an array, of whose shape and type their docstrings tell, and one
+#: element of an array of records, whose fields are its attributes
+Array: TypeAlias = NDArray[Any]
+Record: TypeAlias = Any
 
 # Folders of which compiled functions take code or constants, and the files that say how they are
 # compiled
@@ -55,7 +62,7 @@ def compiled_folder(alone: tuple[str, ...] = ()) -> str:
     return str(home / f"compiled-{sources}-numba-{numba.__version__}-{get_host_cpu_name()}")
 
 
-def njit(function=None, *, alone: bool | tuple[str, ...] = False, **options):
+def njit(function: Any = None, *, alone: bool | tuple[str, ...] = False, **options: Any) -> Any:
     """numba.njit with a cache on disk that knows all sources; a decorator, with or without options.
 
     Parameters
@@ -82,14 +89,14 @@ def njit(function=None, *, alone: bool | tuple[str, ...] = False, **options):
         numba.config.CACHE_DIR = before
 
 
-def compiled(function) -> bool:
+def compiled(function: Any) -> bool:
     """Whether a function of `njit` has been compiled on this machine, by whatever process, or is
     not to be compiled at all.
     """
     return numba.config.DISABLE_JIT or bool(function.signatures) or is_kept(function)
 
 
-def compile_for(function, arguments) -> None:
+def compile_for(function: Any, arguments: tuple[Any, ...]) -> None:
     """Have a function of `njit` ready for arguments like these, without calling it: so that its
     first call costs what all cost.
     """
@@ -97,7 +104,7 @@ def compile_for(function, arguments) -> None:
         function.compile(tuple(numba.typeof(argument) for argument in arguments))
 
 
-def interpreted(function):
+def interpreted(function: Any) -> Any:
     """A function of `njit` as plain Python, which calls compiled ones: for a single call it is not
     worth compiling it by itself.
     """

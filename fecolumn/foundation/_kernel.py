@@ -19,7 +19,9 @@ functions are compiled as numba does.
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import numba
 from llvmlite import binding as llvm
@@ -39,7 +41,7 @@ _ENVIRONMENT = "_ZN08NumbaEnv"  # how numba's names of environments begin
 _entries: list = []  # functions called from Python that are being compiled now: one
 
 
-def is_kept(function) -> bool:
+def is_kept(function: Any) -> bool:
     """Whether a compiled form of a function is on disk."""
     return any(Path(function.stats.cache_path).glob(f"*.{function.__name__}-*.nbi"))
 
@@ -54,13 +56,13 @@ class _Library(JITCodeLibrary):
 
     _translated = None
 
-    def add_linking_library(self, library):
+    def add_linking_library(self, library: _Library) -> None:
         if isinstance(library, _Library) and not library._finalized:
             self._linking_libraries.append(library)
         else:
             super().add_linking_library(library)
 
-    def finalize(self):
+    def finalize(self) -> None:
         self._raise_if_finalized()
         own = {
             function.name
@@ -100,7 +102,7 @@ class _Library(JITCodeLibrary):
                     waiting += library._linking_libraries
         return list(found)
 
-    def _for_entry(self):
+    def _for_entry(self) -> Any:
         """The translated code, such that several entries may take it in and drop what they do not
         use.
         """
@@ -112,14 +114,16 @@ class _Library(JITCodeLibrary):
         return self._translated
 
 
-def _counting():
+def _counting() -> Any:
     """Numba's code that counts references to arrays, to be put in place of each call."""
     return llvm.parse_assembly(
         str(rtsys.library._get_module_for_linking()).replace("noinline", "alwaysinline")
     )
 
 
-def _executable(context, library, fndesc, env, emitted=CPUContext.get_executable):
+def _executable(
+    context: Any, library: _Library, fndesc: Any, env: Any, emitted: Any = CPUContext.get_executable
+) -> Any:
     """As CPUContext.get_executable; a function below the entry gets no address: only compiled code
     calls it.
     """
@@ -140,7 +144,7 @@ def _executable(context, library, fndesc, env, emitted=CPUContext.get_executable
 
 
 @contextlib.contextmanager
-def _one_piece(entry):
+def _one_piece(entry: Any) -> Iterator[None]:
     """Everything compiled in here is left to `entry`, the function called from Python."""
     if _entries:  # within another: that one is the entry
         yield
@@ -160,14 +164,14 @@ class Kernel(CPUDispatcher):
     does.
     """
 
-    def __init__(self, py_func, **options):
+    def __init__(self, py_func: Any, **options: dict[str, bool | set[str] | str]) -> None:
         super().__init__(py_func, **options)
         wrappers = dict(no_cpython_wrapper=True, no_cfunc_wrapper=True)
         self._part = CPUDispatcher(
             py_func, **(options | dict(targetoptions=options.get("targetoptions", {}) | wrappers))
         )
 
-    def compile(self, sig):
+    def compile(self, sig: tuple[Any, ...]) -> Any:
         with contextlib.ExitStack() as stack:
             # one process of this machine compiles; others wait and open what it made
             if not self._keeps(sig):
@@ -175,7 +179,7 @@ class Kernel(CPUDispatcher):
             stack.enter_context(_one_piece(self.py_func))
             return super().compile(sig)
 
-    def _keeps(self, sig) -> bool:
+    def _keeps(self, sig: tuple[Any, ...]) -> bool:
         """Whether the form for these types is on disk.
 
         It is not enough that some form is: two processes that each add one at once would give both
@@ -186,12 +190,14 @@ class Kernel(CPUDispatcher):
             in self._cache._cache_file._load_index()
         )
 
-    def get_call_template(self, args, kws):
+    def get_call_template(
+        self, args: tuple[Any, ...], kws: dict[Any, Any]
+    ) -> tuple[Any, Any, tuple[Any, ...], dict[Any, Any]]:
         # numba would compile a function again for each constant that it is called with
         return self._part.get_call_template(
             tuple(types.unliteral(one) for one in args),
             {name: types.unliteral(one) for name, one in kws.items()},
         )
 
-    def get_overload(self, sig):
+    def get_overload(self, sig: tuple[Any, ...]) -> Any:
         return self._part.get_overload(sig)

@@ -23,7 +23,7 @@ class Bar:
         stream: TextIO | None = None,
         pause_s: float = 0.3,
         keep: bool = True,
-    ):
+    ) -> None:
         self.total, self._quiet, self._stream, self._keep = total, quiet, stream or sys.stderr, keep
         # a notebook's
         self._in_place = self._stream.isatty() or "ipykernel" in type(self._stream).__module__
@@ -82,7 +82,7 @@ class Progress(Bar):
 
     def __init__(
         self, steps: int, dt: float, quiet: bool = False, until_rest_from: int | None = None
-    ):
+    ) -> None:
         """`steps` to be made; from step `until_rest_from` on, where it is given, these are the most
         that are, and rest may come before.
         """
@@ -120,7 +120,7 @@ class Progress(Bar):
 class CountProgress(Bar):
     """How many of a number of things are done, and the time left."""
 
-    def __init__(self, total: int, things: str, quiet: bool = False):
+    def __init__(self, total: int, things: str, quiet: bool = False) -> None:
         """`total` of `things`, such as "pictures"."""
         super().__init__(total, quiet, keep=False)
         self._things = things

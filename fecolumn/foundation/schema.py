@@ -30,7 +30,7 @@ class InputError(ValueError):
         message's lines.
     """
 
-    def __init__(self, file: Path | str, key: str, value: object, allowed: str):
+    def __init__(self, file: Path | str, key: str, value: object, allowed: str) -> None:
         self.file, self.key, self.value, self.allowed = (
             in_text(str(file)),
             key,

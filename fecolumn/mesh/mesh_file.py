@@ -22,7 +22,7 @@ _LIKELY, _POSSIBLE = (0.01, 100.0), (5e-3, 1e4)
 class UnusableShape(ValueError):
     """What is wrong with a file, and what to do: value, such as "12 holes", and allowed."""
 
-    def __init__(self, value: str | None, allowed: str):
+    def __init__(self, value: str | None, allowed: str) -> None:
         super().__init__(f"{value}: {allowed}" if value else allowed)
         self.value, self.allowed = value, allowed
 

@@ -113,7 +113,7 @@ def _meshed(file: MeshFile) -> dict:
 class _Gmsh:
     """Gmsh begun and ended, without a word to the console."""
 
-    def __init__(self, gmsh: ModuleType):
+    def __init__(self, gmsh: ModuleType) -> None:
         self.gmsh = gmsh
 
     def __enter__(self) -> None:

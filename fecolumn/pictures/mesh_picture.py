@@ -176,7 +176,7 @@ class _Panels:
         surfaces: Sequence[tuple[np.ndarray, np.ndarray, str]],
         structure: StructureModel,
         level: float | None,
-    ):
+    ) -> None:
         self.figure, self.size, self.surfaces = figure, size, surfaces
         self.structure, self.level = structure, level
 

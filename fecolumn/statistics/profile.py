@@ -125,7 +125,7 @@ class ProfiledFit:
 class _Squares:
     """Sum of squares at parameters (d,); what has been looked at is not run again."""
 
-    def __init__(self, residuals: Residuals):
+    def __init__(self, residuals: Residuals) -> None:
         self._residuals = residuals
         self._known: dict[tuple[float, ...], float] = {}
 
@@ -263,7 +263,9 @@ class _Profile:
         fits (d,) as good as the best, which comes first.
     """
 
-    def __init__(self, squares: _Squares, place: int, number: float, alike: list[NDArray[Any]]):
+    def __init__(
+        self, squares: _Squares, place: int, number: float, alike: list[NDArray[Any]]
+    ) -> None:
         self._squares, self._place, self._number = squares, place, number
         self._alike = sorted(alike, key=lambda one: float(one[place]))
         self._best = self.seen = alike[0]

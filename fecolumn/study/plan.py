@@ -88,7 +88,9 @@ class PlannedAnalysis:
 
     __slots__ = ("case", "id", "keys", "levels", "duration_s")
 
-    def __init__(self, case: Case, case_id: str, keys: tuple[str, ...], levels: tuple[Any, ...]):
+    def __init__(
+        self, case: Case, case_id: str, keys: tuple[str, ...], levels: tuple[Any, ...]
+    ) -> None:
         self.case, self.id, self.keys, self.levels = case, case_id, keys, levels
         self.duration_s = case.integration.duration_s or 1.0
 
@@ -218,7 +220,7 @@ def _case_tables(case: object, path: Path) -> dict[str, Any]:
 class _Maker:
     """Makes the analyses of a plan."""
 
-    def __init__(self, common: dict[str, Any], factors: list[AxisFactor], path: Path):
+    def __init__(self, common: dict[str, Any], factors: list[AxisFactor], path: Path) -> None:
         self.common, self.factors, self.path = common, factors, path
         self.keys = tuple(key for factor in factors for key in factor.keys)
 

@@ -167,6 +167,7 @@ def strike(engine: str, bricks: int, alpha: float, impact: str, arrival: float =
 
 def foot_mass(system: System) -> float:
     """Mass [kg] with which the filtered foot resists a common vertical velocity of its points."""
+    assert system.interface.foot.mobility is not None
     mobility = system.interface.foot.mobility[0][:, :, 2, 2]
     return float(np.linalg.solve(mobility, np.ones(len(mobility))).sum())
 

@@ -142,7 +142,7 @@ def engine(
     base = rigid_base(np.concatenate([p.center + p.model.arms for p in parts]))
     model = StructureModel(tuple(parts), tuple(joints), tuple(links), base, (observed, "top"))
     limits = Limits.of_tilt(len(model.parts))
-    begin = partial(of_parts, parts=parts, stands=stands)
+    begin = partial(of_parts, parts=tuple(parts), stands=stands)
     return engine_on(model, HHT(dt, alpha), begin, limits=limits)
 
 

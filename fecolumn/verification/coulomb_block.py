@@ -31,7 +31,7 @@ class NewmarkBlock:
         all it slid [m].
     """
 
-    def __init__(self, amplitude: float, frequency: float, resistance: float):
+    def __init__(self, amplitude: float, frequency: float, resistance: float) -> None:
         A, w, r = self.amplitude, self.frequency, self.resistance = amplitude, frequency, resistance
         begin, end = np.arcsin(r / A) / w, 2 * np.pi / w
         turn = brentq(
@@ -92,7 +92,9 @@ class TurningBlock:
         how long.
     """
 
-    def __init__(self, amplitude: float, frequency: float, resistance: float, seconds: float):
+    def __init__(
+        self, amplitude: float, frequency: float, resistance: float, seconds: float
+    ) -> None:
         self.amplitude, self.frequency, self._first = amplitude, frequency, 1e-6
 
         def rate(t: float, y: np.ndarray) -> np.ndarray:

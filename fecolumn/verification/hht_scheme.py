@@ -80,7 +80,7 @@ class Mode:
         w [rad/s].
     """
 
-    def __init__(self, engine: str):
+    def __init__(self, engine: str) -> None:
         self.engine = engine
         modes = free_modes(self.system(1e-4, 0.0).body, 7)
         self.frequency, self.shape = 2 * np.pi * modes.frequencies[6], modes.shapes[6]

@@ -38,7 +38,7 @@ class MovingInterface(ContactInterface):
         the last one is the end of the step.
     """
 
-    def __init__(self, still: ContactInterface):
+    def __init__(self, still: ContactInterface) -> None:
         super().__init__(still.composite, still.foot, still.bases, still.joints)
         self.position, self.first = np.zeros(3), np.zeros(3)
         self.known_velocities: list = []
@@ -77,7 +77,7 @@ class MovingStepper(Stepper):
         of the base so far [J].
     """
 
-    def __init__(self, system: System, ledger: Ledger, path: BasePath):
+    def __init__(self, system: System, ledger: Ledger, path: BasePath) -> None:
         super().__init__(system, ledger)
         self.path, self.base, self.work, self._moved = (
             path,
@@ -87,7 +87,8 @@ class MovingStepper(Stepper):
         )
 
     def _part(self, state: State, ground: np.ndarray, hht: HHT) -> State:
-        interface, first = self.system.interface, self.base
+        interface: Any = self.system.interface
+        first = self.base
         last = self.path(hht, first, ground, state.time + hht.dt)
         self._moved = last.position - first.position
         interface.position, interface.first, interface.known_velocities = (
@@ -124,7 +125,7 @@ class InertialTrial:
         Trial of the absolute motion; its ledger has no base work.
     """
 
-    def __init__(self, system: System, start: Callable[[System], State], path: BasePath):
+    def __init__(self, system: System, start: Callable[[System], State], path: BasePath) -> None:
         moving = copy.copy(system)
         moving.interface = MovingInterface(system.interface)
         self.trial = Trial(moving, start)

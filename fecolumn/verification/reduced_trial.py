@@ -45,7 +45,7 @@ class ReducedColumn:
         (3 n_owned, 6) rigid motions and M times them.
     """
 
-    def __init__(self, system: System, n_modes: int):
+    def __init__(self, system: System, n_modes: int) -> None:
         body, top = system.body, highest_nodes(system.body)
         free = 3 * (body.n_nodes - len(body.constraint.nodes)) - 6
         self.model, self.shapes = with_elasticity(
@@ -110,7 +110,7 @@ class Expanded:
     motion and modes.
     """
 
-    def __init__(self, engine: Engine, reduction: ReducedColumn, column: Body):
+    def __init__(self, engine: Engine, reduction: ReducedColumn, column: Body) -> None:
         self._motion, self._reduction, self._column = engine.motion_at_rest(), reduction, column
         copy(engine.motion, self._motion)
         motion = self._motion
@@ -191,7 +191,7 @@ class ReducedTrial(Trial):
 
     def __init__(
         self, system: System, start: Callable[[System], State] = standing, n_modes: int = N_MODES
-    ):
+    ) -> None:
         self.system, self.penetration = system, 0.0
         self.reduction = ReducedColumn.of(system, n_modes)
         first = None if start is standing else start(system)

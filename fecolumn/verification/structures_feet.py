@@ -88,7 +88,7 @@ class Rolling:
         of the sphere, half: radius of the dome's edge [m].
     """
 
-    def __init__(self, model: BodyModel, radius: float, half: float = math.inf):
+    def __init__(self, model: BodyModel, radius: float, half: float = math.inf) -> None:
         self.mass, self.inertia, self.height, self.radius, self.half = (
             model.mass,
             float(model.inertia[1, 1]),

@@ -72,7 +72,7 @@ class Tied:
         "corotated" or "total_lagrangian".
     """
 
-    def __init__(self, kinematics: str, shape: Shape, material: Material):
+    def __init__(self, kinematics: str, shape: Shape, material: Material) -> None:
         self.body, self.mesh = body_of(shape, material), shape.mesh
         self.kinematics = kinematics_of(kinematics)(self.body)
         # of the strain 1 [J]

@@ -112,7 +112,7 @@ class Trial:
 
     def __init__(
         self, system: System, start: Callable[[System], State] = standing, impact: str = "plastic"
-    ):
+    ) -> None:
         self.system = system
         self.state: TrialState = start(system)
         self.start: TrialState = self.state
@@ -188,12 +188,12 @@ class RigidRocking:
         1 - 2 m R^2 sin^2(alpha) / I_O [-].
     """
 
-    def __init__(self, system: System):
+    def __init__(self, system: System) -> None:
         column = system.body
         radius = np.linalg.norm(system.interface.reference[:, :2], axis=1).max()
         turn = np.cross([0.0, 1.0, 0.0], column.X - column.center)
         about_center = float(column.dot(turn, column.momentum(turn)))
-        self._of(column.total_mass, system.weight, radius, column.center[2], about_center)
+        self._of(column.total_mass, system.weight, radius, float(column.center[2]), about_center)
 
     @classmethod
     def of_body(cls, body: BodyModel) -> RigidRocking:

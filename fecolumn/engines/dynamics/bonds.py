@@ -7,12 +7,16 @@ side, so that it keeps its direction in the master's frame to that share.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.dynamics.links import LINK
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.structures.model import Joint, StructureModel, Surface
 
 # Length of a link of a bond over the way at which it has failed
 LONG = 2e3
@@ -23,16 +27,16 @@ class BondLinks(NamedTuple):
     and b, (3, m) or None on a ground.
     """
 
-    links: np.ndarray
+    links: Array
     shapes: list[tuple]
 
 
-def bonded(model) -> list:
+def bonded(model: StructureModel) -> list:
     """The joints of a StructureModel that are bonded, in their order."""
     return [joint for joint in model.joints if joint.bond is not None]
 
 
-def bond_links(model) -> BondLinks:
+def bond_links(model: StructureModel) -> BondLinks:
     """The links of all bonded joints of a StructureModel, number 1 those of the first of them."""
     links, shapes = [np.zeros(0, LINK)], []
     for number, joint in enumerate(bonded(model), 1):
@@ -56,9 +60,10 @@ def bond_links(model) -> BondLinks:
     return BondLinks(np.concatenate(links).astype(LINK), shapes)
 
 
-def _links_of_point(model, joint, point: np.ndarray, area: float) -> np.ndarray:
+def _links_of_point(model: StructureModel, joint: Joint, point: Array, area: float) -> Array:
     """Three links (3,) of LINK at a point (3,) [m] of the slave that stands for an area [m2]."""
     bond, rows = joint.bond, np.zeros(3, LINK)
+    assert bond is not None
     axes = model.parts[joint.slave].rotation @ _face(model, joint.slave, joint.slave_surface).axes
     stiffness = area * np.array([bond.stiffness, bond.shear_stiffness, bond.shear_stiffness])
     strength = area * np.array([bond.tension, bond.cohesion, bond.cohesion])
@@ -78,7 +83,7 @@ def _links_of_point(model, joint, point: np.ndarray, area: float) -> np.ndarray:
     return rows
 
 
-def _held_at(model, place: int, ground: int, point: np.ndarray) -> tuple:
+def _held_at(model: StructureModel, place: int, ground: int, point: Array) -> tuple:
     """Body, ground and arm of the end of a link at a point (3,) [m] of a part or the ground; what
     a fixed body holds, its ground holds.
     """
@@ -88,11 +93,12 @@ def _held_at(model, place: int, ground: int, point: np.ndarray) -> tuple:
     return place, 0, part.rotation.T @ (point - part.center)
 
 
-def _face(model, place: int, name: str):
+def _face(model: StructureModel, place: int, name: str | None) -> Surface:
+    assert name is not None
     return model.parts[place].model.surfaces[name]
 
 
-def _shapes_below(model, joint, points: np.ndarray) -> list:
+def _shapes_below(model: StructureModel, joint: Joint, points: Array) -> list:
     """Shapes (3, m) of the master's modes below points (n, 3) [m] of the slave; None of a
     ground.
     """

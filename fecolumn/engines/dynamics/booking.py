@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from fecolumn.contact.work import losses
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.system import State
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.energy import Ledger
+    from fecolumn.engines.dynamics.system import System
 
 
 @dataclass(slots=True)
@@ -33,21 +39,21 @@ class StepMade:
     """
 
     start: State
-    before: np.ndarray
+    before: Array
     after: State
     hht: HHT
-    ends: tuple[np.ndarray, np.ndarray]
-    load_sum: np.ndarray
-    untwists: np.ndarray | float
-    beside: np.ndarray | float
-    within: np.ndarray | float
+    ends: tuple[Array, Array]
+    load_sum: Array
+    untwists: Array | float
+    beside: Array | float
+    within: Array | float
     carried: float
-    damped: np.ndarray | float
-    resisted: np.ndarray | float
-    springs: tuple
+    damped: Array | float
+    resisted: Array | float
+    springs: Any
 
 
-def book_step(system, made: StepMade, ledger) -> float:
+def book_step(system: System, made: StepMade, ledger: Ledger) -> float:
     """Energy of a step into the ledger; returns the work of contact but that of dashpots [J].
 
     From the identity dT = dx.(M a_mean + push) - dt^2 al^2/4 da.(M a_mean + push), a_mean = (1-ga)

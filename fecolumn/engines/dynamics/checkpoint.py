@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,8 +13,13 @@ from fecolumn.contact.points import CONTACT
 from fecolumn.contact.pose import GROUND_STATE
 from fecolumn.engines.dynamics.links import TIE
 from fecolumn.engines.dynamics.system import State
+from fecolumn.foundation._compiled import Array
 from fecolumn.foundation.atomic import write_bytes
 from fecolumn.foundation.files import read_bytes
+
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.system import System
+    from fecolumn.fem.body import Body
 
 _FIELDS = ("x", "v", "a", "contact_a", "internal", "surface_a")
 # arrays and fields that need not be finite: the angle of the rim's lowest point, nan while the foot
@@ -36,27 +42,27 @@ _SHARED = (
 )
 
 
-def node_order(body) -> np.ndarray:
+def node_order(body: Body) -> Array:
     """Node numbers in an order that does not depend on the partition: by part, then by position."""
     size = np.ptp(body.all_X, axis=0).max()
     keys = np.round(body.all_X / size * 1e9).astype(np.int64)
     return np.lexsort((keys[:, 0], keys[:, 1], keys[:, 2], body.all_part))
 
 
-def gather_all(body, values: np.ndarray) -> np.ndarray | None:
+def gather_all(body: Body, values: Array) -> Array | None:
     """Values (n_nodes, ...) of all ranks on rank 0, by node number; None elsewhere."""
-    pieces = body.comm.gather(values)
+    pieces: Any = body.comm.gather(values)
     return np.concatenate(pieces) if body.comm.rank == 0 else None
 
 
-def write_checkpoint(path: Path, system, state: State, extra: dict) -> None:
+def write_checkpoint(path: Path, system: System, state: State, extra: dict) -> None:
     """Write state and `extra` arrays atomically on rank 0; called on every rank."""
     bodies = system.bodies
     orders = {part: node_order(part) for part in set(bodies.parts)}
     known = [name for name in _FIELDS + _SHARED if getattr(state, name) is not None]
     arrays = {name: getattr(state, name) for name in _SHARED if name in known}
     for name in filter(known.__contains__, _FIELDS):
-        values = [
+        values: list[Any] = [
             gather_all(part, getattr(state, name)[rows])
             for part, rows in zip(bodies.parts, bodies.rows)
         ]
@@ -70,7 +76,7 @@ def write_checkpoint(path: Path, system, state: State, extra: dict) -> None:
         write_bytes(path, content.getvalue())
 
 
-def read_arrays(path: Path) -> dict[str, np.ndarray]:
+def read_arrays(path: Path) -> dict[str, Array]:
     """Arrays of a checkpoint by name.
 
     Raises
@@ -96,11 +102,11 @@ def read_arrays(path: Path) -> dict[str, np.ndarray]:
     return arrays
 
 
-def read_state(arrays: dict[str, np.ndarray], system) -> tuple[State, dict]:
+def read_state(arrays: dict[str, Array], system: System) -> tuple[State, dict]:
     """State on this rank and the `extra` arrays of a checkpoint of the full-order engine."""
     parts = system.bodies.parts
     orders = {part: node_order(part) for part in set(parts)}
-    values = {
+    values: dict[str, Any] = {
         name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name]
         for name in _SHARED
         if name in arrays
@@ -119,6 +125,6 @@ def read_state(arrays: dict[str, np.ndarray], system) -> tuple[State, dict]:
     }
 
 
-def read_checkpoint(path: Path, system) -> tuple[State, dict]:
+def read_checkpoint(path: Path, system: System) -> tuple[State, dict]:
     """State on this rank and the `extra` arrays that `write_checkpoint` wrote."""
     return read_state(read_arrays(path), system)

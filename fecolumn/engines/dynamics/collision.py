@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.impact import (
@@ -22,8 +24,20 @@ from fecolumn.engines.dynamics.booking import StepMade
 from fecolumn.engines.dynamics.cuts import StepFailed, Stop
 from fecolumn.foundation._compiled import interpreted
 
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.energy import Ledger
+    from fecolumn.engines.dynamics.record import Record
+    from fecolumn.engines.dynamics.system import System
 
-def collide(system, made: StepMade, contact_work: float, booked: dict, ledger, record) -> None:
+
+def collide(
+    system: System,
+    made: StepMade,
+    contact_work: float,
+    booked: dict,
+    ledger: Ledger,
+    record: Record,
+) -> None:
     """Take the velocities at the end of a step anew where a point lands or slip ends.
 
     Parameters

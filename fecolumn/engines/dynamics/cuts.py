@@ -7,8 +7,10 @@ from __future__ import annotations
 import enum
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from fecolumn.engines.dynamics.hht import HHT
+from fecolumn.foundation._compiled import Array
 
 #: Places of "rolling" and "impacts" among SUBSTEPS, for compiled code.
 ROLLING_PARTS, IMPACT_PARTS = range(2)
@@ -30,7 +32,7 @@ class StepFailed(RuntimeError):
     of which a body left what was prepared.
     """
 
-    def __init__(self, stop: Stop, message: str, joints: tuple[str, ...] = ()):
+    def __init__(self, stop: Stop, message: str, joints: tuple[str, ...] = ()) -> None:
         super().__init__(message)
         self.stop, self.joints = stop, joints
 
@@ -54,7 +56,15 @@ class Halving:
     count: Callable[[], None]
 
 
-def in_halves(halving: Halving, state, before, after, hht: HHT, failure: StepFailed, cuts: int = 0):
+def in_halves(
+    halving: Halving,
+    state: Any,
+    before: Array,
+    after: Array,
+    hht: HHT,
+    failure: StepFailed,
+    cuts: int = 0,
+) -> Any:
     """The state after a step that failed with `failure`, made in two halves, and these in halves
     where they fail, too.
 

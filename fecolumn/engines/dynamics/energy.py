@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
+
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.system import System
 
 #: State terms, then accumulated terms, in the order they are written.
 TERMS = (
@@ -34,12 +41,12 @@ class Ledger:
     energy; closure is what is left over, the error of solver and bookkeeping.
     """
 
-    def __init__(self, system):
+    def __init__(self, system: System) -> None:
         self.system = system
         self.work = dict.fromkeys(TERMS[3:-1], 0.0)
         self.start: float | None = None
 
-    def state_terms(self, state) -> dict[str, float]:
+    def state_terms(self, state: Any) -> dict[str, float]:
         """Kinetic, strain and gravity energy now; gravity is relative to the reference
         configuration.
         """
@@ -51,7 +58,7 @@ class Ledger:
             gravity=-bodies.dot(weight, state.x - bodies.placed),
         )
 
-    def open(self, state) -> None:
+    def open(self, state: Any) -> None:
         """Take the energy now as the start."""
         self.start = sum(self.state_terms(state).values())
 
@@ -60,8 +67,9 @@ class Ledger:
         for name, value in terms.items():
             self.work[name] += float(value)
 
-    def row(self, state) -> np.ndarray:
+    def row(self, state: Any) -> Array:
         """All terms in the order of TERMS."""
         now = self.state_terms(state)
+        assert self.start is not None
         closure = sum(now.values()) - self.start - sum(self.work.values())
         return np.array([*now.values(), *self.work.values(), closure])

@@ -4,7 +4,9 @@ velocity and a spin.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +22,11 @@ from fecolumn.engines.dynamics.stage import Stage, equilibrate
 from fecolumn.engines.dynamics.system import State
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.case.sections import Initial
+    from fecolumn.engines.dynamics.system import System
 
 
 class NoEquilibrium(RuntimeError):
@@ -36,7 +43,7 @@ class NoEquilibrium(RuntimeError):
     mover: int | None = None
 
 
-def pseudo_inertia(weight: float, depth: float, inertia: np.ndarray) -> float:
+def pseudo_inertia(weight: float, depth: float, inertia: Array) -> float:
     """Inertia factor [1/s2] of the proximal steps of a column of `weight` [N] with its centre of
     mass `depth` [m] above its foot.
 
@@ -48,7 +55,9 @@ def pseudo_inertia(weight: float, depth: float, inertia: np.ndarray) -> float:
     return FIRMNESS * weight * depth / float(np.linalg.eigvalsh(inertia[:2, :2])[0])
 
 
-def iterate_to_rest(proximal_step, height: float, progress: float | None = None) -> None:
+def iterate_to_rest(
+    proximal_step: Callable[..., Any], height: float, progress: float | None = None
+) -> None:
     """Make proximal steps until one moves the structure by less than the rounding of its `height`
     [m] allows to tell; a step returns by how much it moved.
 
@@ -80,7 +89,7 @@ def iterate_to_rest(proximal_step, height: float, progress: float | None = None)
     )
 
 
-def standing(system, tolerance: float = 1e-9) -> State:
+def standing(system: System, tolerance: float = 1e-9) -> State:
     """Gravity equilibrium on the elastic base with friction.
 
     Raises
@@ -93,7 +102,7 @@ def standing(system, tolerance: float = 1e-9) -> State:
     firmness = _firmness(system)
     factors, load, pulls, straight = (firmness, 1.0), system.load(np.zeros(3)), None, 0.0
 
-    def proximal_step():
+    def proximal_step() -> float:
         nonlocal state, pulls, straight, mover
         before, rims = interface.lay(state)
         stage = Stage(
@@ -164,7 +173,7 @@ def standing(system, tolerance: float = 1e-9) -> State:
     return replace(state, a=-push, contact_a=push)
 
 
-def _firmness(system) -> float:
+def _firmness(system: System) -> float:
     """Inertia factor [1/s2] of the proximal steps of a system."""
     bodies = system.bodies
     depths = bodies.of_each(lambda part, _: part.center[2] - part.all_X[:, 2].min())
@@ -177,8 +186,8 @@ def _firmness(system) -> float:
 
 
 def leaning(
-    foot, round_rim: bool, tilt: float, direction: float
-) -> tuple[np.ndarray, np.ndarray, float]:
+    foot: Array, round_rim: bool, tilt: float, direction: float
+) -> tuple[Array, Array, float]:
     """Rotation (3, 3) of a column that leans by `tilt` [rad] towards `direction` [rad], the point
     (3,) [m] of the foot's circle about which it is turned, and the lift [m] that then puts its
     lowest point on the base; foot: (n, 3) nodes.
@@ -193,8 +202,8 @@ def leaning(
 
 
 def spun(
-    foot, round_rim: bool, tilt: float, direction: float, spin
-) -> tuple[np.ndarray, np.ndarray]:
+    foot: Array, round_rim: bool, tilt: float, direction: float, spin: Array
+) -> tuple[Array, Array]:
     """Points (3,) [m] about which a column at t = 0 turns, by the horizontal and by the vertical
     part of its `spin` (3,) [rad/s].
 
@@ -213,7 +222,7 @@ def spun(
     return toe, np.zeros(3) if upright else toe
 
 
-def moving(foot, round_rim: bool, initial, x: np.ndarray) -> np.ndarray:
+def moving(foot: Array, round_rim: bool, initial: Initial, x: Array) -> Array:
     """Velocities (n, 3) [m/s] at positions x (n, 3) of a column that the [initial] section of a
     case sets moving; further arguments as of `spun`.
     """
@@ -227,7 +236,7 @@ def moving(foot, round_rim: bool, initial, x: np.ndarray) -> np.ndarray:
     )
 
 
-def begin(system, initial) -> State:
+def begin(system: System, initial: Initial) -> State:
     """The state that the [initial] section of a case describes."""
     state = (
         tilted(system, initial.tilt_rad, np.radians(initial.direction_deg))
@@ -239,12 +248,12 @@ def begin(system, initial) -> State:
     return state
 
 
-def _is_round(system) -> bool:
+def _is_round(system: System) -> bool:
     """Whether a column stands on a round rim."""
     return bool(system.interface.interfaces[0]["rim_count"])
 
 
-def tilted(system, tilt: float, direction: float) -> State:
+def tilted(system: System, tilt: float, direction: float) -> State:
     """The unstrained column turned rigidly by `tilt` [rad] towards `direction` [rad], its lowest
     point on the base.
     """

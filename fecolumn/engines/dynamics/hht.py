@@ -27,7 +27,7 @@ class HHT:
     dt: float
     alpha: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not -1 / 3 <= self.alpha <= 0:
             raise ValueError(
                 f"alpha_hht = {self.alpha}: must lie in [-1/3, 0] (OpenSees writes 1 + "

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.foundation._compiled import Array
 from fecolumn.foundation.atomic import write_hdf5
 
 UNITS = {
@@ -63,7 +65,7 @@ MEANING = {
 class History:
     """Rows of measures and energy terms."""
 
-    def __init__(self, rows: dict[str, np.ndarray] | None = None):
+    def __init__(self, rows: dict[str, Array] | None = None) -> None:
         self._columns: dict[str, list] = {
             name: list(values) for name, values in (rows or {}).items()
         }
@@ -71,7 +73,7 @@ class History:
     def __len__(self) -> int:
         return len(self._columns.get("time", ()))
 
-    def add(self, measures: dict, energy: np.ndarray, iterations: int) -> None:
+    def add(self, measures: dict, energy: Array, iterations: int) -> None:
         """Append a row; `energy` in the order of energy.TERMS [J]."""
         row = dict(
             measures,
@@ -81,12 +83,12 @@ class History:
         for name, value in row.items():
             self._columns.setdefault(name, []).append(value)
 
-    def extend(self, columns: dict[str, np.ndarray]) -> None:
+    def extend(self, columns: dict[str, Array]) -> None:
         """Append many rows, by column."""
         for name, values in columns.items():
             self._columns.setdefault(name, []).extend(values)
 
-    def arrays(self) -> dict[str, np.ndarray]:
+    def arrays(self) -> dict[str, Array]:
         """Columns by name, first axis time."""
         return {name: np.asarray(values) for name, values in self._columns.items()}
 
@@ -99,7 +101,7 @@ class History:
         a part.
         """
 
-        def fill(file):
+        def fill(file: Any) -> None:
             file.attrs.update(attributes)
             for name, values in self.arrays().items():
                 rows = (
@@ -120,7 +122,7 @@ class History:
         write_hdf5(path, fill)
 
 
-def read_history(path, names: tuple[str, ...] = ()) -> dict[str, np.ndarray]:
+def read_history(path: Path, names: tuple[str, ...] = ()) -> dict[str, Array]:
     """Columns of a history file, all or those named; energy terms as "energy/<term>".
 
     Raises
@@ -135,8 +137,8 @@ def read_history(path, names: tuple[str, ...] = ()) -> dict[str, np.ndarray]:
     with h5py.File(path) as file:
         if names:
             return {name: file[name][()] for name in names}
-        names = []
+        found: list[str] = []
         file.visititems(
-            lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None
+            lambda name, item: found.append(name) if isinstance(item, h5py.Dataset) else None
         )
-        return {name: file[name][()] for name in names}
+        return {name: file[name][()] for name in found}

@@ -4,6 +4,9 @@ and what it gives back.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from fecolumn.contact.compliance import assemble
@@ -33,7 +36,14 @@ from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.engines.dynamics.cuts import StepFailed, Stop
 from fecolumn.engines.dynamics.places import Nodal, Places
 from fecolumn.engines.dynamics.stay import StickOperatorCache
-from fecolumn.foundation._compiled import compile_for, compiled, interpreted
+from fecolumn.foundation._compiled import Array, Record, compile_for, compiled, interpreted
+
+if TYPE_CHECKING:
+    from fecolumn.contact.base_plate import BasePlate
+    from fecolumn.contact.pad import Springs
+    from fecolumn.contact.unbounded_base import UnboundedBase
+    from fecolumn.fem.composite import Composite, CompositeFoot
+    from fecolumn.structures.kept_plate import KeptPlate
 
 _STOPS = {CONTACT_FAILED: Stop.CONTACT, ITERATIONS_SPENT: Stop.CONTACT, OFF_BASE: Stop.OFF_BASE}
 
@@ -47,7 +57,14 @@ class ContactInterface(Places):
         each ground: BasePlate, or what answers as it does; the others as of Places.
     """
 
-    def __init__(self, composite, foot, bases, joints: Joints, levels=(0.0,)):
+    def __init__(
+        self,
+        composite: Composite,
+        foot: CompositeFoot,
+        bases: tuple[BasePlate | KeptPlate | UnboundedBase, ...],
+        joints: Joints,
+        levels: tuple[float] = (0.0,),
+    ) -> None:
         super().__init__(composite, foot, joints, levels)
         self.bases = tuple(bases)
         self.surface, self.counts = grounds_for_steps(self.bases), np.zeros(N_COUNTS, np.int64)
@@ -55,9 +72,9 @@ class ContactInterface(Places):
         #: Of bodies on one another; the problem of feet on the base is small.
         self.stay = StickOperatorCache(self.interfaces, self.size if self.moving else 0)
         # Length of the step, and what the points give alone in it
-        self._springs = np.nan, None
+        self._springs: tuple[float, Any] = (np.nan, None)
 
-    def prepare(self, say=lambda text: None) -> None:
+    def prepare(self, say: Callable[..., Any] = lambda text: None) -> None:
         """Have compiled what the steps call, so that the first landing costs what all cost; `say`
         is told why it takes long, if it does.
         """
@@ -128,7 +145,7 @@ class ContactInterface(Places):
                 (self.bodies, self.interfaces, self.points, poses, values, True, values),
             )
 
-    def springs(self, dt: float):
+    def springs(self, dt: float) -> Springs:
         """What the points give alone in a step dt [s]: of `contact.pad.springs_of`; within a step
         it knows which pads yield.
         """
@@ -136,9 +153,7 @@ class ContactInterface(Places):
             self._springs = dt, springs_of(self.points, self.interfaces, dt)
         return self._springs[1]
 
-    def begin_step(
-        self, state, halfway: np.ndarray, rolls: bool
-    ) -> tuple[np.ndarray, np.ndarray, bool]:
+    def begin_step(self, state: Any, halfway: Array, rolls: bool) -> tuple[Array, Array, bool]:
         """Place the points of a step: what the State brings to them (P,) of CONTACT, its rims (ni,)
         of RIM, whether any rolled.
 
@@ -181,7 +196,7 @@ class ContactInterface(Places):
         before["anchor"][elsewhere], before["located"] = before["relative"][elsewhere, :2], taking
         return before, rims, rolled
 
-    def lay(self, state) -> tuple[np.ndarray, np.ndarray]:
+    def lay(self, state: Any) -> tuple[Array, Array]:
         """What a State brings to its points, (P,) of CONTACT, and its rims, once the points of
         joints with two sides are laid; once they are, they stay.
         """
@@ -199,11 +214,11 @@ class ContactInterface(Places):
             before["relative"][far], before["anchor"][far] = positions[far], positions[far, :2]
         return before, rims
 
-    def _mark_unused(self, x, poses, rims) -> None:
+    def _mark_unused(self, x: Array, poses: Array, rims: Array) -> None:
         if len(self.overlaps.joints):
             mark_unused(self.overlaps, self.interfaces, frames_at(self.centers(x)), poses, rims)
 
-    def _lay_points(self, state, poses, before, rims) -> None:
+    def _lay_points(self, state: Any, poses: Array, before: Array, rims: Array) -> None:
         """Lay the points of joints with two sides."""
         if len(self.overlaps.joints) and place_overlaps(
             self.overlaps,
@@ -234,7 +249,9 @@ class ContactInterface(Places):
         """List the points that take part, after these have changed."""
         interpreted(list_present)(self._problem, self.points)
 
-    def _find_sunk(self, before, positions, poses, rims_before, rims) -> None:
+    def _find_sunk(
+        self, before: Array, positions: Array, poses: Array, rims_before: Array, rims: Array
+    ) -> None:
         """As `reduced.equilibrium.find_sunk`; sunk points are put high above the surface."""
         k, comes = self.points["interface"], before["beyond"]
         for i in np.flatnonzero((before["raised"] > 0) & ~self.points["idle"] & ~comes):
@@ -265,7 +282,16 @@ class ContactInterface(Places):
         sunk = self.points["beyond"] == SUNK
         positions[sunk, 2] = self.interfaces["width"][k[sunk]]
 
-    def _roll(self, interface, rim, pose, halfway, state, before, rolls) -> bool:
+    def _roll(
+        self,
+        interface: Record,
+        rim: Record,
+        pose: Record,
+        halfway: Array,
+        state: Any,
+        before: Array,
+        rolls: bool,
+    ) -> bool:
         """Place the points of a rim; whether they rolled."""
         points = self.joints.rim[
             interface["rim_first"] : interface["rim_first"] + interface["rim_count"]
@@ -280,13 +306,13 @@ class ContactInterface(Places):
         roll_points(roll, points, rim, self.arms, places, state.contact, self.points, before)
         return True
 
-    def lowest_directions(self, poses: np.ndarray) -> np.ndarray:
+    def lowest_directions(self, poses: Array) -> Array:
         """Ways down (k, 2) to the master's surface along the slave's axes x and y, of those with a
         round rim.
         """
         return -poses["turned"][self.interfaces["rim_count"] > 0, SLAVE, 2, :2]
 
-    def static_compliance(self, listed: np.ndarray) -> np.ndarray:
+    def static_compliance(self, listed: Array) -> Array:
         """Compliance (3 k, 3 k) [m/N] of some points on the base that follows their forces at once,
         where the bodies are drawn.
         """
@@ -314,7 +340,14 @@ class ContactInterface(Places):
         return W
 
     def solve(
-        self, nodal: Nodal, poses, positions, dt: float, before, after, times: int = ITERATIONS
+        self,
+        nodal: Nodal,
+        poses: Array,
+        positions: Array,
+        dt: float,
+        before: Array,
+        after: Array,
+        times: int = ITERATIONS,
     ) -> tuple[Stop, float]:
         """Find forces in `after` that obey the laws at points that move from `positions` (P, 3)
         along with them: why it ended, violation over what is allowed.
@@ -357,7 +390,7 @@ class ContactInterface(Places):
                 # the operator of feet that stick is that of pads that do not yield
                 self._problem.flags[:] = False
 
-    def _extend_base(self, positions, listed) -> None:
+    def _extend_base(self, positions: Array, listed: Array) -> None:
         """Make the grounds' compliance known under the listed points (k,) at positions (n, 3) and
         one row of nodes around.
         """
@@ -368,7 +401,7 @@ class ContactInterface(Places):
                 base.need(base.grid.around(positions[own], 1))
         self.surface = grounds_for_steps(self.bases)
 
-    def stored(self, dt: float, before, after) -> float:
+    def stored(self, dt: float, before: Array, after: Array) -> float:
         """Strain energy [J] of base, foot's static rest, contact law and pad, whose indentation is
         found, after `solve`.
         """
@@ -382,7 +415,7 @@ class ContactInterface(Places):
         )
 
     @property
-    def near(self) -> np.ndarray:
+    def near(self) -> Array:
         """Points (k,) that may carry at the end of the stage."""
         return near_points(self._problem)
 

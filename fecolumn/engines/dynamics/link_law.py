@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Record, njit
 
 # Part of a step of the curve at most, over its exponent: it closes in on yielding as fast as that
 _CURVE_STEP = 0.1
@@ -16,7 +16,7 @@ _HALVINGS = 60
 
 
 @njit
-def stretch_of(link, over):
+def stretch_of(link: Record, over: float) -> float:
     """Elastic part of an elongation less what has yielded [m]: above 0 it pulls, else pushes."""
     if link.pulls and over > link.play:
         return over - link.play
@@ -26,13 +26,13 @@ def stretch_of(link, over):
 
 
 @njit
-def strain_of(link, stretch, flowed):
+def strain_of(link: Record, stretch: float, flowed: float) -> float:
     """Energy [J] that a link stores: elastic, and what hardening holds back."""
     return link.stiffness * stretch**2 / 2 + link.hardens * flowed**2 / 2
 
 
 @njit
-def follow_elongation(link, tie, length):
+def follow_elongation(link: Record, tie: Record, length: float) -> tuple[float, float, float]:
     """From the length of a tie [m] to another one: the elastic stretch at its end and the part of
     the way that yields [m]; energy [J] that yielding takes.
 
@@ -56,7 +56,7 @@ def follow_elongation(link, tie, length):
 
 
 @njit
-def _flow_at_once(link, flowed, over, trial):
+def _flow_at_once(link: Record, flowed: float, over: float, trial: float) -> float:
     """Part [m] of an elongation that yields beyond the yield force; trial: the stretch without."""
     force = link.stiffness * trial - link.hardens * flowed
     if not abs(force) > link.yields:
@@ -75,7 +75,7 @@ def _flow_at_once(link, flowed, over, trial):
 
 
 @njit
-def _follow_curve(link, tie, over):
+def _follow_curve(link: Record, tie: Record, over: float) -> tuple[float, float, float]:
     """`follow_elongation` where the link yields along a curve."""
     start = tie.length - link.length
     stretch = stretch_of(link, start - tie.flowed)
@@ -117,7 +117,9 @@ def _follow_curve(link, tie, over):
 
 
 @njit
-def _until_unloaded(link, stretch, sign, z, left):
+def _until_unloaded(
+    link: Record, stretch: float, sign: float, z: float, left: float
+) -> tuple[float, float, float]:
     """Way along the curve from `z` on, at most `left` [m], until the link carries nothing; the part
     of it that yields [m] and the energy that this takes [J].
     """
@@ -137,7 +139,7 @@ def _until_unloaded(link, stretch, sign, z, left):
 
 
 @njit
-def _curve(link, z, way):
+def _curve(link: Record, z: float, way: float) -> tuple[float, float]:
     """Part of a way [m] along the curve dz/dw = 1 - z^n that yields, and the energy [J] it takes;
     w: the way over the elongation at which it would yield, z: 0 to 1 at its start.
     """
@@ -166,7 +168,7 @@ def _curve(link, z, way):
 
 
 @njit
-def drag_of(link, rate):
+def drag_of(link: Record, rate: float) -> float:
     """Force [N] of a link's dashpot at a rate of elongation [m/s]."""
     if link.power == 1.0:
         return link.damping * rate
@@ -177,7 +179,7 @@ def drag_of(link, rate):
 
 
 @njit
-def damage_of(normal, shear, opened, slipped):
+def damage_of(normal: Record, shear: Record, opened: float, slipped: float) -> float:
     """Share of its stiffness, 0 to 1, that a point of a bond has lost which has opened and slipped
     so far [m], by its links along the normal and in shear.
 

@@ -4,7 +4,7 @@ restrainers with play, dashpots and friction dampers; and those of bonded joints
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from fecolumn.engines.dynamics.link_law import (
     strain_of,
     stretch_of,
 )
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
 
 #: A link from body a to body b, -1 for a ground; ground: which one then; arm_a, arm_b: (3,) of its
 #: ends from the centres of mass in the bodies' frames, of a ground where it is in the table frame
@@ -75,22 +75,22 @@ class Held(NamedTuple):
     first row are coordinates; ties (nl,) of TIE.
     """
 
-    grounds: np.ndarray
-    frames: np.ndarray
-    rotation: np.ndarray
-    modal: np.ndarray
-    ties: np.ndarray
+    grounds: Array
+    frames: Array
+    rotation: Array
+    modal: Array
+    ties: Array
 
 
 class Linked(NamedTuple):
     """links: (nl,) of LINK; ends: (nl, 2, 3, m) shapes of the modes at their ends a and b."""
 
-    links: np.ndarray
-    ends: np.ndarray
+    links: Array
+    ends: Array
 
 
 @njit
-def _end_of(link, side, shape, at, target):
+def _end_of(link: Record, side: int, shape: Array, at: Any, target: Array) -> None:
     """Target (3,): where an end of a link is, 0 or 1; shape: (3, m) of the modes there."""
     b, arm = link.b if side else link.a, link.arm_b if side else link.arm_a
     x, y, z = arm[0], arm[1], arm[2]
@@ -107,7 +107,7 @@ def _end_of(link, side, shape, at, target):
 
 
 @njit
-def span(linked, n, at, target):
+def span(linked: Any, n: int, at: Any, target: Array) -> float:
     """Target (3,): way from end a to end b [m] of link n, held as `at` says; its length."""
     other = np.empty(3)
     _end_of(linked.links[n], 0, linked.ends[n, 0], at, other)
@@ -120,7 +120,9 @@ def span(linked, n, at, target):
 
 
 @njit
-def pull(link, tie, begin, way, length, dt, target):
+def pull(
+    link: Record, tie: Record, begin: Array, way: Array, length: float, dt: float, target: Array
+) -> float:
     """Target (3,): force [N] of a link on its end a within a step, on b the opposite; the elastic
     force and that of the dashpot.
 
@@ -156,7 +158,7 @@ def pull(link, tie, begin, way, length, dt, target):
 
 
 @njit
-def pull_links(linked, start, end, dt, pulls):
+def pull_links(linked: Any, start: Any, end: Any, dt: float, pulls: Array) -> float:
     """Pulls (nl, 3): forces [N] of links on their ends a, in a step that brings what they hold from
     `start` to `end`, with the ties of its start; the largest change over the largest force.
 
@@ -179,7 +181,7 @@ def pull_links(linked, start, end, dt, pulls):
 
 
 @njit
-def strain_of_links(links, ties):
+def strain_of_links(links: Array, ties: Array) -> float:
     """Strain energy [J] of links with `ties` (nl,)."""
     energy = 0.0
     for n in range(len(links)):
@@ -190,7 +192,7 @@ def strain_of_links(links, ties):
 
 
 @njit
-def end_links(linked, start, end, dt):
+def end_links(linked: Any, start: Any, end: Any, dt: float) -> tuple[float, float]:
     """Carry the ties of `start` on to those of `end`, where links are held as it says: strain
     energy then, energy that their dashpots, yielding and breaking have taken in the step [J].
 
@@ -235,7 +237,7 @@ def end_links(linked, start, end, dt):
 
 
 @njit
-def _end_point(links, ties):
+def _end_point(links: Array, ties: Array) -> tuple[float, float]:
     """Damage of a point of a bond at the end of a step, whose three links have the lengths that
     they have then: strain energy that is left, and energy that is taken [J].
     """

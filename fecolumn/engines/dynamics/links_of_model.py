@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 from scipy.optimize import bisect
 
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.dynamics.bonds import bond_links, bonded
 from fecolumn.engines.dynamics.links import LINK, Linked
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.hht import HHT
+    from fecolumn.structures.model import StructureModel
 
 # Share of a change of the links' forces that the motion within a step may answer at once: beyond it
 # the step is too long for the links
@@ -20,7 +27,7 @@ class StiffLink(ValueError):
     """
 
 
-def links_of(model, hht, filters=None) -> Linked:
+def links_of(model: StructureModel, hht: HHT, filters: Array | None = None) -> Linked:
     """The links of a StructureModel, and after them those of its bonded joints.
 
     filters: (nb, m) of the modes of each body that move; None where links are held by the rigid
@@ -39,7 +46,7 @@ def links_of(model, hht, filters=None) -> Linked:
     return linked
 
 
-def _filtered(links, shapes, filters) -> np.ndarray:
+def _filtered(links: Array, shapes: list[tuple[None, None]], filters: Array | None) -> Array:
     """Shapes (nl, 2, 3, m) of the modes that move at the ends of links; `shapes` of each are those
     of its two ends, (3, k) or None.
     """
@@ -53,7 +60,7 @@ def _filtered(links, shapes, filters) -> np.ndarray:
     return found
 
 
-def _own_links(model) -> np.ndarray:
+def _own_links(model: StructureModel) -> Array:
     """Links (nl,) of LINK that the case names."""
     links = np.zeros(len(model.links), LINK)
     for row, link in zip(links, model.links):
@@ -79,7 +86,7 @@ def _own_links(model) -> np.ndarray:
     return links
 
 
-def _check_step(model, linked: Linked, hht) -> None:
+def _check_step(model: StructureModel, linked: Linked, hht: HHT) -> None:
     """Refuse links that a step of `hht` cannot follow."""
     links = linked.links
     bodies = [
@@ -88,11 +95,11 @@ def _check_step(model, linked: Linked, hht) -> None:
 
     steepest = _steepest(links)
 
-    def shrinks(dt):
+    def shrinks(dt: float) -> list[Array]:
         share = (dt / hht.dt) ** 2 * hht.stiffness_factor / hht.mass_factor
         return [1 / (1 + share * part.model.frequencies**2) for part in model.parts]
 
-    def answered(dt):
+    def answered(dt: float) -> tuple[float, int]:
         square, place = fastest(linked, links["stiffness"] + steepest / dt, bodies, shrinks(dt))
         return square * dt**2 / 2, place
 
@@ -124,7 +131,7 @@ def _check_step(model, linked: Linked, hht) -> None:
         )
 
 
-def _steepest(links: np.ndarray) -> np.ndarray:
+def _steepest(links: Array) -> Array:
     """Largest change (nl,) of the dashpots' forces per rate [N s/m], up to 1 m/s."""
     power, slow = links["power"], links["slow"]
     below = np.where(power < 1, slow, 1.0) ** (power - 1)
@@ -132,7 +139,7 @@ def _steepest(links: np.ndarray) -> np.ndarray:
 
 
 def fastest(
-    linked, stiffness: np.ndarray, bodies: list[tuple], shrinks: list[np.ndarray] | None = None
+    linked: Linked, stiffness: Array, bodies: list[tuple], shrinks: list[Array] | None = None
 ) -> tuple[float, int]:
     """Square of the fastest frequency [1/s2] at which free bodies swing on their links, were these
     as stiff as `stiffness` (nl,) [N/m]; place of the link that does most.
@@ -160,8 +167,8 @@ def fastest(
 
 
 def fastest_of_each(
-    linked, stiffness: np.ndarray, bodies: list[tuple], shrinks: list[np.ndarray]
-) -> np.ndarray:
+    linked: Any, stiffness: Array, bodies: list[tuple], shrinks: list[Array]
+) -> Array:
     """Squares (nb,) of frequencies [1/s2] of which none of the bodies swings faster, were their
     masses times these: with such inertia together they answer their links as strongly as each.
 
@@ -176,7 +183,12 @@ def fastest_of_each(
     return np.linalg.norm(scaled, 2) ** 2 * alone
 
 
-def rows_of_links(linked, stiffness, bodies, shrinks) -> tuple[np.ndarray, list[int]]:
+def rows_of_links(
+    linked: Any,
+    stiffness: Array,
+    bodies: list[tuple[float, Array, Array, Array]],
+    shrinks: list[Array] | None,
+) -> tuple[Array, list[int]]:
     """Rows (k, 6 nb + nb m) of which the squares add up to the stiffness of links over the masses,
     first of the bodies' rigid motion, then of their modes; places (k,) of their links; arguments as
     of `fastest`.
@@ -200,7 +212,7 @@ def rows_of_links(linked, stiffness, bodies, shrinks) -> tuple[np.ndarray, list[
                     row[6 * b + 3 : 6 * b + 6] += sign * np.linalg.solve(
                         np.linalg.cholesky(inertia), np.cross(arm, local)
                     )
-                    if modes:
+                    if shrinks is not None and modes:
                         count = len(shrinks[b])
                         at = rigid + modes * b
                         moved = local @ ends[place, side, :, :count]

@@ -5,6 +5,7 @@ the surface nodes of the bodies.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +15,10 @@ from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, grounds_at
 from fecolumn.contact.projection import place_on_masters
 from fecolumn.fem.rotation import into_frames, out_of_frames
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.fem.composite import Composite, CompositeFoot, CompositeResponse
 
 
 @dataclass(slots=True)
@@ -22,8 +27,8 @@ class Nodal:
     `contact.bodies.Bodies`: `elastic` that of the factored matrix, `dynamic` with the static part.
     """
 
-    elastic: np.ndarray
-    dynamic: np.ndarray
+    elastic: Array
+    dynamic: Array
 
 
 class Places:
@@ -44,7 +49,13 @@ class Places:
         heights of the grounds [m].
     """
 
-    def __init__(self, composite, foot, joints: Joints, levels=(0.0,)):
+    def __init__(
+        self,
+        composite: Composite,
+        foot: CompositeFoot,
+        joints: Joints,
+        levels: tuple[float] = (0.0,),
+    ) -> None:
         self.composite, self.foot, self.joints = composite, foot, joints
         # (G,) of GROUND_STATE at start and end of the step
         self._started = self._grounds = grounds_at(levels)
@@ -56,7 +67,9 @@ class Places:
         self.reference = np.concatenate(
             [part.all_X[own] for part, own in zip(composite.parts, foot.nodes)]
         )
-        mobility = foot.mobility if foot.filtered else [np.zeros_like(one) for one in foot.static]
+        mobility: Any = (
+            foot.mobility if foot.filtered else [np.zeros_like(one) for one in foot.static]
+        )
         centers = np.repeat(
             [part.center for part in composite.parts], [len(own) for own in foot.nodes], axis=0
         )
@@ -76,9 +89,10 @@ class Places:
         #: where they were found last.
         self._arms_now = self.arms.copy()
         # Positions, and velocities, and the rotation that were filtered last, and what came of it
-        self._filtered = self._filtered_velocity = None, None, None
+        self._filtered: tuple[Any, Any, Any] = (None, None, None)
+        self._filtered_velocity: tuple[Any, Any, Any] = (None, None, None)
         # Positions and their centres of mass
-        self._centers = None, None
+        self._centers: tuple[Any, Any] = (None, None)
 
     @property
     def width(self) -> float:
@@ -86,19 +100,17 @@ class Places:
         rolls = self.interfaces["rim_count"] > 0
         return float(self.interfaces["width"][rolls if rolls.any() else slice(None)].min())
 
-    def take_grounds(self, start: np.ndarray, end: np.ndarray) -> None:
+    def take_grounds(self, start: Array, end: Array) -> None:
         """Let the grounds be where they are at start and end of a step, each (G,) of
         GROUND_STATE.
         """
         self._started, self._grounds = start, end
 
-    def at_points(self, values: np.ndarray) -> np.ndarray:
+    def at_points(self, values: Array) -> Array:
         """Values (P, ...) at the points from those at the nodes (N, ...) of their slaves."""
         return np.einsum("pq,pqa->pa", self.points["weights"], values[self.points["carriers"]])
 
-    def at_nodes(
-        self, forces: np.ndarray, rotation: np.ndarray, within: bool = False
-    ) -> np.ndarray:
+    def at_nodes(self, forces: Array, rotation: Array, within: bool = False) -> Array:
         """Forces (N, 3) on the nodes, in the table frame, from those (P, 3) on the points: on
         slaves, and the opposite on moving masters.
 
@@ -135,7 +147,7 @@ class Places:
                 np.add.at(shared, below[rows], -shares[rows, :, None] * pushes[:, None] / len(ends))
         return shared
 
-    def _frames(self, rotation: np.ndarray) -> np.ndarray:
+    def _frames(self, rotation: Array) -> Array:
         """Axes (ni, 3, 3) of the interfaces in the table frame."""
         frames, masters = (
             np.tile(np.eye(3), (len(self.interfaces), 1, 1)),
@@ -146,14 +158,14 @@ class Places:
         )
         return frames
 
-    def poses(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    def poses(self, x: Array, rotation: Array) -> Array:
         """(ni,) of POSE of bodies at positions x (n_owned, 3) turned by `rotation`."""
         poses = np.zeros(len(self.interfaces), POSE)
         frames = frames_at(self.centers(x))
         find_poses(self.interfaces, self._grounds, frames, rotation, poses, None)
         return poses
 
-    def centers(self, x: np.ndarray) -> np.ndarray:
+    def centers(self, x: Array) -> Array:
         """Centres of mass (nb, 3) [m] of bodies at positions x (n_owned, 3), of the same x found
         once: all ranks sum them up.
         """
@@ -161,13 +173,13 @@ class Places:
             self._centers = x, self.composite.centers(x)
         return self._centers[1]
 
-    def node_positions(self, x: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    def node_positions(self, x: Array, rotation: Array) -> Array:
         """Positions (N, 3) of the surface nodes from the bodies' positions x (n_owned, 3), without
         the static part.
         """
         return self._out_of_frames(self.reference + self._displacement(x, rotation), rotation)
 
-    def _displacement(self, x, rotation) -> np.ndarray:
+    def _displacement(self, x: Array, rotation: Array) -> Array:
         """Filtered displacement (N, 3) of the surface nodes in the frames of their bodies, from
         where these are drawn; of the same x once, as the filter of a large body is the most of what
         a step reads.
@@ -182,21 +194,19 @@ class Places:
             )
         return self._filtered[2]
 
-    def _into_frames(self, values, rotation):
+    def _into_frames(self, values: Array, rotation: Array) -> Array:
         return into_frames(values, rotation, self.rows)
 
-    def _out_of_frames(self, values, rotation):
+    def _out_of_frames(self, values: Array, rotation: Array) -> Array:
         return out_of_frames(values, rotation, self.rows)
 
-    def start_positions(self, x: np.ndarray, rotation: np.ndarray, poses: np.ndarray) -> np.ndarray:
+    def start_positions(self, x: Array, rotation: Array, poses: Array) -> Array:
         """`positions` at the start of a step, to which the nodes below the points are kept."""
         positions = self.positions(x, rotation, poses, True)
         self._below, self._shares = self.points["below"].copy(), self.points["shares"].copy()
         return positions
 
-    def positions(
-        self, x: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False
-    ) -> np.ndarray:
+    def positions(self, x: Array, rotation: Array, poses: Array, starts: bool = False) -> Array:
         """Positions (P, 3) of the points, without the static part: in the frame of the ground on
         which they stand, or relative to the surface of the moving master in that of the interface.
 
@@ -222,13 +232,13 @@ class Places:
         positions[:, 2] += self.points["lift"]
         return positions
 
-    def levers(self) -> np.ndarray:
+    def levers(self) -> Array:
         """Arms (P, 2, 3) [m] of the points from the centres of mass of slave and moving master, in
         their frames, where `positions` has found them last.
         """
         return np.stack([self.at_points(self._arms_now), self.points["seat"]], axis=1)
 
-    def moments(self, forces: np.ndarray, rotation: np.ndarray, levers: np.ndarray) -> np.ndarray:
+    def moments(self, forces: Array, rotation: Array, levers: Array) -> Array:
         """Moments (nb, 3) [N m] of forces (P, 3) at the points' `levers` about the centres of mass
         of bodies turned by `rotation`, in their frames.
         """
@@ -254,9 +264,7 @@ class Places:
             )
         return moments
 
-    def velocities(
-        self, v: np.ndarray, rotation: np.ndarray, poses: np.ndarray, starts: bool = False
-    ) -> np.ndarray:
+    def velocities(self, v: Array, rotation: Array, poses: Array, starts: bool = False) -> Array:
         """Velocities (P, 3) of the points from the bodies' velocities, relative to the master in
         the frame of the interface; starts: with the nodes that were below them at the start of the
         step.
@@ -285,17 +293,17 @@ class Places:
         ]
         return values
 
-    def carried(self, forces: np.ndarray) -> float:
+    def carried(self, forces: Array) -> float:
         """Work [J] that grounds which move do by forces (P, 3) on the points in the step."""
         ways = (self._grounds["place"] - self._started["place"])[self.points["ground"]]
         return float(np.vdot(forces, ways * (self.points["master"] == GROUND)[:, None]))
 
-    def brought(self, impulses: np.ndarray) -> float:
+    def brought(self, impulses: Array) -> float:
         """Work [J] that grounds which move do by impulses (P, 3) at the end of the step."""
         speeds = self._grounds["velocity"][self.points["ground"]]
         return float(np.vdot(impulses, speeds * (self.points["master"] == GROUND)[:, None]))
 
-    def _relative(self, nodes, poses, below, shares) -> np.ndarray:
+    def _relative(self, nodes: Array, poses: Array, below: Array, shares: Array) -> Array:
         """Values (P, 3) at the points, relative to the nodes `below` in the frame of the interface,
         from those at the nodes (N, 3).
         """
@@ -308,23 +316,19 @@ class Places:
             )
         return values
 
-    def load(self, forces: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    def load(self, forces: Array, rotation: Array) -> Array:
         """Nodal forces (n_owned, 3) of contact forces (P, 3) in a step on bodies turned by
         `rotation`.
         """
         return self.answer(self.surface_forces(forces, rotation), rotation)[0]
 
-    def surface_forces(
-        self, forces: np.ndarray, rotation: np.ndarray, within: bool = True
-    ) -> np.ndarray:
+    def surface_forces(self, forces: Array, rotation: Array, within: bool = True) -> Array:
         """Forces (N, 3) [N] on the surface nodes, in the frames of their bodies turned by
         `rotation`, of contact forces (P, 3); within: as of `at_nodes`.
         """
         return self._into_frames(self.at_nodes(forces, rotation, within), rotation)
 
-    def answer(
-        self, surface_forces: np.ndarray, rotation: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray | None]:
+    def answer(self, surface_forces: Array, rotation: Array) -> tuple[Array, Array | None]:
         """Nodal forces (n_owned, 3) [N] of `surface_forces` and their acceleration (n_owned, 3)
         [m/s2], of which they are the mass times; None where the foot has no filter.
         """
@@ -335,9 +339,7 @@ class Places:
             return self.composite.momentum(acceleration), acceleration
         return out_of_frames(self.foot.load(surface_forces), rotation, self.composite.rows), None
 
-    def acceleration(
-        self, forces: np.ndarray, rotation: np.ndarray, within: bool = True
-    ) -> np.ndarray:
+    def acceleration(self, forces: Array, rotation: Array, within: bool = True) -> Array:
         """Accelerations (n_owned, 3) of contact forces in a step; within False: velocity jumps of
         contact impulses (P, 3) at its end.
         """
@@ -349,12 +351,12 @@ class Places:
 
     def displacement(
         self,
-        response,
+        response: CompositeResponse,
         scale: float,
-        surface_forces: np.ndarray,
-        rotation: np.ndarray,
-        frame: np.ndarray,
-    ) -> np.ndarray:
+        surface_forces: Array,
+        rotation: Array,
+        frame: Array,
+    ) -> Array:
         """Displacement (n_owned, 3) [m] of `scale` times `surface_forces` on bodies turned by
         `rotation`; response: CompositeResponse, found with the bodies turned by `frame`.
         """
@@ -365,9 +367,7 @@ class Places:
             self.composite.rows,
         )
 
-    def shifts(
-        self, nodal: Nodal, surface_forces: np.ndarray, rotation: np.ndarray, poses: np.ndarray
-    ) -> np.ndarray:
+    def shifts(self, nodal: Nodal, surface_forces: Array, rotation: Array, poses: Array) -> Array:
         """By how much `positions` (P, 3) [m] change where the bodies, turned by `rotation`, answer
         `surface_forces` in a stage.
         """
@@ -384,7 +384,7 @@ class Places:
             self._out_of_frames(moved, rotation), poses, self.points["below"], self.points["shares"]
         )
 
-    def nodal(self, compliance, scale: float, frame: np.ndarray) -> Nodal:
+    def nodal(self, compliance: list[Array], scale: float, frame: Array) -> Nodal:
         """Compliance of a stage from those of its response, (n, n, 3, 3) of each body, found with
         the bodies turned by `frame`.
         """
@@ -394,6 +394,6 @@ class Places:
         return Nodal(elastic, elastic + self.bodies.static)
 
 
-def _turned(compliance, scale, frame) -> np.ndarray:
+def _turned(compliance: Array, scale: float, frame: Array) -> Array:
     """Node blocks (n, n, 3, 3) found in a frame (3, 3), in the body's, as a matrix (3 n, 3 n)."""
     return node_matrix(scale * np.einsum("ab,ijac,cd->ijbd", frame, compliance, frame))

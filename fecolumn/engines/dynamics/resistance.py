@@ -4,6 +4,8 @@ nothing.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from fecolumn.contact.points import GROUND
@@ -11,6 +13,7 @@ from fecolumn.contact.pose import MASTER, SLAVE
 from fecolumn.contact.rolling import rolling_moment
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import into_frames, out_of_frames
+from fecolumn.foundation._compiled import Array
 
 
 class Resistance:
@@ -18,13 +21,13 @@ class Resistance:
     roll, and the opposite on those on which they roll.
     """
 
-    def __init__(self, system):
+    def __init__(self, system: Any) -> None:
         self._bodies, self._interface = system.bodies, system.interface
         made = system.bodies.of_each(lambda part, _: rigid_fields(part))
         self._turns, self._momenta = ([one[:, 3:] for one in each] for each in list(zip(*made))[:2])
         self._inverse = [np.linalg.inv(masses[3:, 3:]) for _, _, masses in made]
 
-    def acceleration(self, state, dt: float) -> np.ndarray:
+    def acceleration(self, state: Any, dt: float) -> Array:
         """Acceleration (n_owned, 3) [m/s2] in a step of `dt` [s] from a state."""
         bodies, interface, R = self._bodies, self._interface, state.rotation
         own = into_frames(state.v, R, bodies.rows)

@@ -5,12 +5,18 @@ step.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from fecolumn.engines.dynamics.cuts import Stop
 from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.interface import ContactInterface
+    from fecolumn.engines.dynamics.places import Nodal
+    from fecolumn.fem.composite import Composite
 
 
 @dataclass(slots=True)
@@ -42,29 +48,29 @@ class Stage:
     at the start, the first guess of what contact forces do; None: it is found.
     """
 
-    target: np.ndarray
-    load: np.ndarray
-    start: np.ndarray
+    target: Array
+    load: Array
+    start: Array
     scale: float
-    before: np.ndarray
+    before: Array
     dt: float
-    rotation: np.ndarray
-    velocity: np.ndarray | None = None
-    centers: np.ndarray | None = None
+    rotation: Array
+    velocity: Array | None = None
+    centers: Array | None = None
     grounds: tuple = ()
-    ties: np.ndarray | None = None
-    memory: np.ndarray | None = None
+    ties: Any = None
+    memory: Array | None = None
     shares: tuple[float, float] = (0.0, 0.0)
-    held: np.ndarray | None = None
+    held: Any = None
     turns: bool = False
     beside: float = 1.0
-    place: np.ndarray | None = None
-    internal: np.ndarray | None = None
-    levers: np.ndarray | None = None
-    surface_a: np.ndarray | None = None
-    surface_forces: np.ndarray | None = None
+    place: Any = None
+    internal: Any = None
+    levers: Any = None
+    surface_a: Array | None = None
+    surface_forces: Array | None = None
 
-    def middle(self, bodies, halfway: np.ndarray) -> Middle:
+    def middle(self, bodies: Composite, halfway: Array) -> Middle:
         """What the stage asks for, with all that its start brings, in the frame `halfway`."""
         if self.memory is None:
             return Middle(self.target, self.load, self.velocity, None)
@@ -81,14 +87,14 @@ class Stage:
 
     def twist_corrections_at(
         self,
-        system,
-        x: np.ndarray,
-        internal: np.ndarray,
-        rotation: np.ndarray,
-        halfway: np.ndarray,
-        forces: np.ndarray,
-        push: np.ndarray,
-    ):
+        system: Any,
+        x: Array,
+        internal: Array,
+        rotation: Array,
+        halfway: Array,
+        forces: Array,
+        push: Array,
+    ) -> tuple[Any, Any]:
         """Two corrections (n_owned, 3) of accelerations in a step to positions x, or at rest there.
 
         They balance moments that are right to first order in the strain only; 0 where nothing
@@ -105,6 +111,8 @@ class Stage:
             if self.memory is None
             else [(self.place, self.internal, self.rotation), (x, internal, rotation)]
         )
+        inner: Any
+        arms: Any
         arms, inner = (
             sum(into_frames(values, R, bodies.rows) for values, R in each) / len(ends)
             for each in zip(
@@ -131,7 +139,7 @@ class Stage:
             )
         )
         mended = moments[0], interface.moments(forces, halfway, levers) - moments[1]
-        return tuple(
+        internal_part, contact_part = (
             out_of_frames(
                 np.concatenate(
                     [
@@ -144,6 +152,7 @@ class Stage:
             )
             for each in mended
         )
+        return internal_part, contact_part
 
 
 class Middle(NamedTuple):
@@ -151,20 +160,20 @@ class Middle(NamedTuple):
     frame halfway.
     """
 
-    target: np.ndarray
-    load: np.ndarray
-    velocity: np.ndarray | None
-    memory: np.ndarray | None
+    target: Array
+    load: Array
+    velocity: Array | None
+    memory: Array | None
 
 
-def arms_of(bodies, x: np.ndarray) -> np.ndarray:
+def arms_of(bodies: Composite, x: Array) -> Array:
     """Arms (n_owned, 3) [m] of positions x (n_owned, 3) from the centres of mass."""
     return x - np.repeat(
         bodies.centers(x), [rows.stop - rows.start for rows in bodies.rows], axis=0
     )
 
 
-def turn_of(product: np.ndarray, moment: np.ndarray) -> np.ndarray:
+def turn_of(product: Array, moment: Array) -> Array:
     """Find nu (3,) [1/s2] such that the forces M (nu x X) on a body have the moment (3,) [N m].
 
     X are the reference arms of the body, p its present arms about which the moment is taken, and
@@ -174,7 +183,7 @@ def turn_of(product: np.ndarray, moment: np.ndarray) -> np.ndarray:
     return np.linalg.solve(np.trace(product) * np.eye(3) - product, moment)
 
 
-def carried(bodies, accelerations: np.ndarray, turn: np.ndarray) -> np.ndarray:
+def carried(bodies: Composite, accelerations: Array, turn: Array) -> Array:
     """Accelerations (n_owned, 3) of bodies by internal forces and gravity, after they turn by
     `turn` (nb, 3, 3).
 
@@ -195,23 +204,25 @@ class Outcome:
     """
 
     stop: Stop
-    x: np.ndarray
-    internal: np.ndarray
+    x: Array
+    internal: Array
     strain: float
-    rotation: np.ndarray
-    halfway: np.ndarray
-    contact: np.ndarray
+    rotation: Array
+    halfway: Array
+    contact: Array
     static: float
     iterations: int
     residual: float
-    surface_forces: np.ndarray
-    push: np.ndarray
-    surface_a: np.ndarray | None
+    surface_forces: Array
+    push: Array
+    surface_a: Array | None
     twist_corrections: tuple
     message: str = ""
 
 
-def equilibrate(system, operators, stage: Stage, tolerance: float, max_iterations: int) -> Outcome:
+def equilibrate(
+    system: Any, operators: Any, stage: Stage, tolerance: float, max_iterations: int
+) -> Outcome:
     """Newton iteration with the factored operators turned into the bodies' present rotations.
 
     The strains are small, so that the turned operator is an almost exact tangent: one or two
@@ -227,10 +238,11 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     """
     interface, bodies, links, scale = system.interface, system.bodies, system.links, stage.scale
     x, contact, static = np.array(stage.start), stage.before.copy(), 0.0
-    surface_forces = push = surface_a = twist_corrections = None
+    surface_forces: Any = None
+    push = surface_a = twist_corrections = surface_forces
     first = previous = size = np.inf
 
-    def ended(stop, message=""):
+    def ended(stop: Stop, message: str = "") -> Outcome:
         # a point that is far from the base was found by nothing but its place, and would stick
         # there
         far = ~contact["located"]
@@ -359,7 +371,7 @@ def equilibrate(system, operators, stage: Stage, tolerance: float, max_iteration
     return ended(Stop.ITERATIONS)
 
 
-def _nodal(interface, operators, scale):
+def _nodal(interface: ContactInterface, operators: Any, scale: float) -> Nodal:
     """Compliance of the foot's nodes in a stage, found once for its operators."""
     if operators.nodal is None:
         operators.nodal = interface.nodal(operators.response.compliance, scale, operators.rotation)

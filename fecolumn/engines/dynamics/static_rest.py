@@ -4,10 +4,16 @@ to statics.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.rotation import into_frames
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.system import System
 
 
 class StaticRest:
@@ -15,7 +21,7 @@ class StaticRest:
     step does not resolve, without which stresses near contacts lack.
     """
 
-    def __init__(self, system):
+    def __init__(self, system: System) -> None:
         self._bodies, self._foot, self._first = (
             system.bodies,
             system.interface.foot,
@@ -27,7 +33,7 @@ class StaticRest:
             else {}
         )
 
-    def displacement(self, at_nodes: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    def displacement(self, at_nodes: Array, rotation: Array) -> Array:
         """(n_owned, 3) [m] in the frames of the bodies, turned by `rotation`, of forces (N, 3) [N]
         on the surface nodes in the table frame.
         """

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.arrays import arrays_of
@@ -10,7 +12,11 @@ from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.problem import STICKS_STILL, begin_problem
 from fecolumn.contact.stick import holds, is_worth, no_stick
 from fecolumn.contact.tolerances import LEVEL
-from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation._compiled import Array, interpreted
+
+if TYPE_CHECKING:
+    from fecolumn.contact.problem import Problem
+    from fecolumn.engines.dynamics.places import Nodal
 
 
 class StickOperatorCache:
@@ -27,15 +33,16 @@ class StickOperatorCache:
         of all of them; 0 where no operator is wanted, as of a single foot, whose problem is small.
     """
 
-    def __init__(self, interfaces: np.ndarray, points: int):
+    def __init__(self, interfaces: Array, points: int) -> None:
         self._interfaces = interfaces
         self.stick, self.rims = no_stick(points, len(interfaces)), rims_at_rest(len(interfaces))
         # compliance that the operator was found with, None of a checkpoint's; poses at the start of
         # the step
-        self._nodal, self._poses = None, None
+        self._nodal: Nodal | None = None
+        self._poses: Array | None = None
         self._still, self._worth = False, False
 
-    def note(self, poses: np.ndarray, rims: np.ndarray) -> None:
+    def note(self, poses: Array, rims: Array) -> None:
         """Note, at the start of a step, whether feet with these poses (ni,) of POSE and rims are
         where the operator holds, and whether they go on to stay as they did in the step before,
         long enough for finding it to pay.
@@ -55,17 +62,17 @@ class StickOperatorCache:
             )
             self._worth = level.all() and all(worth)
 
-    def begin(self, problem, nodal) -> None:
+    def begin(self, problem: Problem, nodal: Nodal) -> None:
         """Begin a contact problem of a stage with the compliance `nodal` of `dynamics.places`."""
         still = self._still and (self._nodal is nodal or self._nodal is None)
         begin_problem(problem, still, self._worth and not still)
 
-    def end(self, problem, nodal) -> None:
+    def end(self, problem: Problem, nodal: Nodal) -> None:
         """Note whether the problem has found the operator."""
         if problem.flags[STICKS_STILL]:
             self._nodal = nodal
 
-    def to_keep(self, nodal) -> dict[str, np.ndarray]:
+    def to_keep(self, nodal: Nodal | None) -> dict[str, Array]:
         """Arrays of a checkpoint with the operator found with `nodal`, so that an analysis goes on
         to the last digit as if it had not been interrupted; none of another.
         """
@@ -75,7 +82,7 @@ class StickOperatorCache:
             else {}
         )
 
-    def take(self, arrays: dict[str, np.ndarray]) -> None:
+    def take(self, arrays: dict[str, Array]) -> None:
         """Take over the operator from the arrays of a checkpoint, if there is one."""
         own = arrays_of(self.stick)
         if all(f"stick.{name}" in arrays for name in own):

@@ -4,6 +4,8 @@ a contact closes.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 
 from fecolumn.case.sections import SUBSTEPS
@@ -26,7 +28,11 @@ from fecolumn.engines.dynamics.record import Record
 from fecolumn.engines.dynamics.stage import Stage, carried, equilibrate
 from fecolumn.engines.dynamics.system import State
 from fecolumn.fem.rotation import into_frames, out_of_frames
-from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation._compiled import Array, interpreted
+
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.energy import Ledger
+    from fecolumn.engines.dynamics.system import System
 
 
 class Stepper:
@@ -62,19 +68,19 @@ class Stepper:
 
     def __init__(
         self,
-        system,
-        ledger,
-        impact="plastic",
-        tolerance=1e-7,
-        max_iterations=20,
-        max_cuts=4,
-        substeps="rolling",
-    ):
+        system: System,
+        ledger: Ledger,
+        impact: str = "plastic",
+        tolerance: float = 1e-7,
+        max_iterations: int = 20,
+        max_cuts: int = 4,
+        substeps: str = "rolling",
+    ) -> None:
         self.system, self.ledger, self.plastic = system, ledger, impact == "plastic"
         self.tolerance, self.max_iterations, self.max_cuts = tolerance, max_iterations, max_cuts
         self.substeps, self.record = SUBSTEPS.index(substeps), Record()
 
-    def step(self, state: State, ground: np.ndarray) -> State:
+    def step(self, state: State, ground: Array) -> State:
         """State one dt later, under the ground acceleration `ground` (3,) [m/s2] at that time.
 
         Raises
@@ -108,7 +114,7 @@ class Stepper:
         state.time = start.time + hht.dt
         return state
 
-    def _to_make_at_once(self, state, done) -> int:
+    def _to_make_at_once(self, state: State, done: int) -> int:
         """How much of the step to make next, in dt / PARTS.
 
         A rim that is followed limits it, see `rolling.part_of_step`. Without one it is the largest
@@ -135,7 +141,7 @@ class Stepper:
             interpreted(part_of_step)(*down, *rate, dt, done) for down, rate in zip(downs, rates)
         )
 
-    def _part(self, state, ground, hht) -> State:
+    def _part(self, state: State, ground: Array, hht: HHT) -> State:
         """A step of `hht`, in halves where it fails."""
         try:
             return self._hht_step(state, ground, hht)
@@ -146,7 +152,7 @@ class Stepper:
     def _count_cut(self) -> None:
         self.record.cuts += 1
 
-    def _hht_step(self, start, ground, hht, rolls=True) -> State:
+    def _hht_step(self, start: State, ground: Array, hht: HHT, rolls: bool = True) -> State:
         system, bodies, interface, booked = (
             self.system,
             self.system.bodies,
@@ -163,7 +169,7 @@ class Stepper:
         F0, F1 = system.load(start.ground), system.load(ground)
         damping, resistance, links = system.damping, system.resistance, system.links
         damped = damping.force(start.v, start.rotation) if damping else 0.0
-        turned = resistance.acceleration(start, dt) if resistance else 0.0
+        turned: Any = resistance.acceleration(start, dt) if resistance else 0.0
         resisted = bodies.momentum(turned) if resistance else 0.0
         stage = Stage(
             target=start.x + dt * start.v,
@@ -222,6 +228,7 @@ class Stepper:
             ties=start.ties.copy(),
             grounds=grounds,
         )
+        untwists: Any
         push, (moment_correction, transport_correction), w, untwists = (
             outcome.push,
             outcome.twist_corrections,
@@ -229,6 +236,7 @@ class Stepper:
             0.0,
         )
         # work of forces that HHT's remembered accelerations leave out, and of those they contain
+        within: Any
         beside, within = resisted, 0.0
         # what grounds that move do
         carried_by = outcome.contact["force"]
@@ -249,6 +257,7 @@ class Stepper:
             beside, w = beside + links.load(pulls, R), w + links.acceleration(pulls, R)
             done += links.carried(pulls, start.grounds, grounds)
         middle = stage.middle(bodies, R)
+        first: Any
         first, last = middle.memory, hht.mass_factor * (after.x - middle.target) - w / (2 * be)
         onward = after.rotation @ R.swapaxes(-1, -2)
         after.contact_a = w + np.zeros_like(start.x)
@@ -289,7 +298,7 @@ class Stepper:
                 raise
         return after
 
-    def _halfway(self, forces, start, after, R):
+    def _halfway(self, forces: list[Any], start: State, after: State, R: Array) -> Array | int:
         """Sum (n_owned, 3) of internal forces at start and end of a step, as they act in it; 0 of
         none.
         """

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.contact.joints import joints_of
 from fecolumn.engines.dynamics.hht import HHT
@@ -13,11 +15,14 @@ from fecolumn.engines.dynamics.system import State, System, Touching
 from fecolumn.fem.composite import Composite, CompositeDamping, CompositeKinematics
 from fecolumn.fem.corotated import Corotated
 
+if TYPE_CHECKING:
+    from fecolumn.structures.model import Part, StructureModel
+
 # Elastic modes that are damped where the model of a body has none
 _DAMPED = 30
 
 
-def kinematics_of(name: str):
+def kinematics_of(name: str) -> Any:
     """Kinematics of a body by the name that integration.kinematics gives it."""
     if name == "total_lagrangian":
         from fecolumn.fem.total_lagrangian import TotalLagrangian
@@ -27,14 +32,14 @@ def kinematics_of(name: str):
 
 
 def structure_system(
-    model,
+    model: StructureModel,
     bodies: list,
     hht: HHT,
-    gravity,
+    gravity: ArrayLike,
     filtered: bool = True,
     nodes: list | None = None,
     damped: list | None = None,
-    kinematics=Corotated,
+    kinematics: Any = Corotated,
 ) -> System:
     """System of a structure with all degrees of freedom of its bodies.
 
@@ -68,7 +73,7 @@ def structure_system(
                 next(part.model for part, own in zip(parts, bodies) if own is body).reference
             )
         )
-    ratios = [
+    ratios: list[Any] = [
         part.damping_ratio if part.model.damping is None else part.model.damping for part in parts
     ]
     damped = damped or [len(part.model.frequencies) or _DAMPED for part in parts]
@@ -90,7 +95,7 @@ def structure_system(
     return system
 
 
-def released(system: System, parts, standing: State | None) -> State:
+def released(system: System, parts: tuple[Part, ...], standing: State | None) -> State:
     """The state that the parts of a StructureModel begin with, as `reduced.start.of_parts`.
 
     standing: gravity equilibrium that they come from; None: they are unstrained where the parts

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from fecolumn.contact.interface import rims_at_rest
 from fecolumn.contact.joints import Joints
 from fecolumn.contact.points import CONTACT, may_touch
 from fecolumn.contact.pose import grounds_at
 from fecolumn.engines.dynamics.hht import HHT
-from fecolumn.engines.dynamics.interface import ContactInterface, Nodal
+from fecolumn.engines.dynamics.interface import ContactInterface
 from fecolumn.engines.dynamics.linkage import Linkage
 from fecolumn.engines.dynamics.links import TIE
+from fecolumn.engines.dynamics.places import Nodal
 from fecolumn.engines.dynamics.resistance import Resistance
 from fecolumn.fem.composite import (
     Composite,
@@ -24,6 +26,11 @@ from fecolumn.fem.composite import (
     CompositeKinematics,
     CompositeResponse,
 )
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.links import Linked
+    from fecolumn.fem.body import Body
 
 
 @dataclass(slots=True)
@@ -46,46 +53,47 @@ class State:
     """
 
     time: float
-    x: np.ndarray
-    v: np.ndarray
-    a: np.ndarray
-    contact_a: np.ndarray
-    internal: np.ndarray
+    x: Array
+    v: Array
+    a: Array
+    contact_a: Array
+    internal: Array
     strain: float
-    rotation: np.ndarray
-    contact: np.ndarray
+    rotation: Array
+    contact: Array
     static: float
-    ground: np.ndarray
-    rims: np.ndarray = field(default_factory=rims_at_rest)
-    ties: np.ndarray = field(default_factory=lambda: np.zeros(0, TIE))
-    surface_a: np.ndarray | None = None
-    surface_forces: np.ndarray | None = None
-    grounds: np.ndarray = field(default_factory=lambda: grounds_at([0.0]))
+    ground: Array
+    rims: Array = field(default_factory=rims_at_rest)
+    ties: Array = field(default_factory=lambda: np.zeros(0, TIE))
+    surface_a: Array | None = None
+    surface_forces: Array | None = None
+    grounds: Array = field(default_factory=lambda: grounds_at([0.0]))
 
     @property
-    def forces(self) -> np.ndarray:
+    def forces(self) -> Array:
         """Contact forces (P, 3) on the slaves [N], in the frames of their interfaces."""
         return self.contact["force"]
 
     @property
-    def anchors(self) -> np.ndarray:
+    def anchors(self) -> Array:
         """Positions (P, 2) at which the points stick [m]."""
         return self.contact["anchor"]
 
     @property
-    def relative(self) -> np.ndarray:
+    def relative(self) -> Array:
         """Positions (P, 3) of the points relative to ground or master, the third the gap [m]."""
         return self.contact["relative"]
 
     def copy(self) -> State:
         """A state with arrays of its own."""
+        copies: dict[str, Any] = {
+            one.name: value.copy()
+            for one in fields(self)
+            if isinstance(value := getattr(self, one.name), np.ndarray)
+        }
         return replace(
             self,
-            **{
-                one.name: value.copy()
-                for one in fields(self)
-                if isinstance(value := getattr(self, one.name), np.ndarray)
-            },
+            **copies,
         )
 
 
@@ -100,7 +108,7 @@ class Operators:
     rate_factor: float
     factor: CompositeFactor
     response: CompositeResponse
-    rotation: np.ndarray
+    rotation: Array
     nodal: Nodal | None = None
 
 
@@ -142,11 +150,11 @@ class System:
         bodies: Composite,
         kinematics: CompositeKinematics,
         touching: Touching,
-        gravity,
+        gravity: ArrayLike,
         hht: HHT,
         damping: CompositeDamping | None = None,
-        links=None,
-    ):
+        links: Linked | None = None,
+    ) -> None:
         self.bodies, self.kinematics, self.damping = bodies, kinematics, damping
         self.bases, self.levels = tuple(touching.bases), touching.levels
         self.gravity, self.hht = np.asarray(gravity, float), hht
@@ -166,16 +174,16 @@ class System:
         )
 
     @property
-    def body(self):
+    def body(self) -> Body:
         """The Body of a column, the first of many."""
         return self.bodies.parts[0]
 
     @property
-    def base(self):
+    def base(self) -> Any:
         """What a column stands on, the first ground of many."""
         return self.bases[0]
 
-    def unstrained(self, x: np.ndarray) -> State:
+    def unstrained(self, x: Array) -> State:
         """The bodies at rest at positions x (n_owned, 3) to which rigid motions have carried them;
         nothing touches yet.
         """
@@ -211,12 +219,21 @@ class System:
         state.static = self.links.stored(state) if self.links else 0.0
         return state
 
-    def _factor(self, mass_factor, stiffness_factor, tangents=None) -> CompositeFactor:
+    def _factor(
+        self, mass_factor: float, stiffness_factor: float, tangents: list[Any] | None = None
+    ) -> CompositeFactor:
         made = CompositeFactor.of(self.bodies, mass_factor, stiffness_factor, tangents)
         self.factorizations += len(set(made.each))
         return made
 
-    def _add(self, mass_factor, stiffness_factor, rate_factor, factor, rotation) -> Operators:
+    def _add(
+        self,
+        mass_factor: float,
+        stiffness_factor: float,
+        rate_factor: float,
+        factor: CompositeFactor,
+        rotation: Array,
+    ) -> Operators:
         if self.damping and rate_factor:
             factor = self.damping.damped(factor, mass_factor, stiffness_factor, rate_factor)
         operators = Operators(
@@ -246,7 +263,7 @@ class System:
         hht = hht or self.hht
         return self.operators(hht.mass_factor, hht.stiffness_factor, hht.rate_factor)
 
-    def refresh(self, old: Operators, x: np.ndarray) -> Operators:
+    def refresh(self, old: Operators, x: Array) -> Operators:
         """Operators with the tangents of the bodies at positions x; only where the kinematics has
         them.
         """
@@ -272,7 +289,7 @@ class System:
         scale = bodies.stiffness_scale + mass_factor * bodies.mass_scale
         return 4 * np.finfo(float).eps * scale * bodies.extent
 
-    def load(self, ground: np.ndarray) -> np.ndarray:
+    def load(self, ground: Array) -> Array:
         """Gravity and base-motion forces (n_owned, 3) on the bodies, in the frame of the first
         ground; ground: (3 G,) accelerations [m/s2].
         """

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.ball import from_center, roll_on
 from fecolumn.contact.pose import SLAVE
 from fecolumn.engines.reduced.elastic import END, START, find_elastic
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.engines.reduced.equilibrium import Work
+    from fecolumn.engines.reduced.model import Structure
+    from fecolumn.engines.reduced.motion import MotionState
 
 
 @njit
-def roll_balls(structure, k, work, start, end):
+def roll_balls(
+    structure: Structure, k: int, work: Work, start: MotionState, end: MotionState
+) -> None:
     """Place the points of interface k where their balls touch in the middle of the step; `end` gets
     the state of the foot.
 
@@ -58,7 +67,15 @@ def roll_balls(structure, k, work, start, end):
 
 
 @njit
-def _carry_dome(structure, work, i, start, offset, sign, moved):
+def _carry_dome(
+    structure: Structure,
+    work: Work,
+    i: int,
+    start: MotionState,
+    offset: Array,
+    sign: float,
+    moved: Array,
+) -> None:
     """Let the foot's mean motion and its tilts carry the point i of a dome at `offset` (3,) [m]
     from the centre of the ball; adds its elastic displacement at the start to moved (3,).
     """

@@ -4,14 +4,14 @@ found where they are wanted.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from fecolumn.contact.points import GROUND, OVER
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.projection import find_seat, side_of_outline, take_surface
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
 
 # What is asked for at each point is put in place of its call: a call would hand on two hundred
 # addresses of arrays, which takes as long as what is done there
@@ -28,11 +28,11 @@ class Elastic(NamedTuple):
     points on moving masters, from their centres of mass in their frames.
     """
 
-    node: np.ndarray
-    stamp: np.ndarray
-    now: np.ndarray
-    point: np.ndarray
-    seat: np.ndarray
+    node: Array
+    stamp: Array
+    now: Array
+    point: Array
+    seat: Array
 
 
 START, END = range(2)
@@ -50,7 +50,7 @@ def no_elastic(nodes: int, points: int) -> Elastic:
 
 
 @njit(fastmath={"reassoc", "contract"})
-def _node_displacement(pushes, coordinates, node, target):
+def _node_displacement(pushes: Array, coordinates: Array, node: int, target: Array) -> None:
     """Target (3,): filtered displacement of a node by modal coordinates (m,)."""
     x = y = z = 0.0
     for k in range(len(coordinates)):
@@ -61,7 +61,7 @@ def _node_displacement(pushes, coordinates, node, target):
 
 
 @njit
-def find_all_elastic(structure, b, motion, elastic, when):
+def find_all_elastic(structure: Any, b: int, motion: Any, elastic: Elastic, when: int) -> None:
     """Find the elastic displacement of all nodes of body b, for a foot of which all points touch:
     one product.
     """
@@ -77,7 +77,7 @@ def find_all_elastic(structure, b, motion, elastic, when):
 
 
 @njit(inline="always")
-def _find_node(structure, node, b, motion, elastic, when):
+def _find_node(structure: Any, node: int, b: int, motion: Any, elastic: Elastic, when: int) -> None:
     """Find the elastic displacement of a node of body b unless it is known."""
     if elastic.stamp[when, node] != elastic.now[when]:
         elastic.stamp[when, node] = elastic.now[when]
@@ -87,7 +87,9 @@ def _find_node(structure, node, b, motion, elastic, when):
 
 
 @njit(inline="always")
-def find_elastic(structure, points, i, motion, elastic, when):
+def find_elastic(
+    structure: Any, points: Array, i: int, motion: Any, elastic: Elastic, when: int
+) -> None:
     """Find the elastic displacement of point i in a motion at START or END of a step."""
     b = points[i].slave
     x = y = z = 0.0
@@ -105,7 +107,16 @@ def find_elastic(structure, points, i, motion, elastic, when):
 
 
 @njit
-def find_places(structure, points, rim, motion, pose, elastic, wanted, places):
+def find_places(
+    structure: Any,
+    points: Array,
+    rim: Array,
+    motion: Any,
+    pose: Record,
+    elastic: Elastic,
+    wanted: Array,
+    places: Array,
+) -> None:
     """Places (N, 3): positions at the START of the wanted nodes (mask) of the points of a rim (n,)
     in the frame of its interface, without their static part.
     """
@@ -123,7 +134,7 @@ def find_places(structure, points, rim, motion, pose, elastic, wanted, places):
 
 
 @njit
-def _into_table(motion, b, x, y, z, target):
+def _into_table(motion: Any, b: int, x: float, y: float, z: float, target: Array) -> None:
     """Target (3,): position of the place x, y, z of body b in its frame."""
     for a in range(3):
         target[a] = (
@@ -135,7 +146,9 @@ def _into_table(motion, b, x, y, z, target):
 
 
 @njit(inline="always")
-def find_position(points, i, motion, elastic, when, target):
+def find_position(
+    points: Array, i: int, motion: Any, elastic: Elastic, when: int, target: Array
+) -> None:
     """Target (3,): position of point i in the table frame without its static part, its elastic
     displacement being known; on a ground in the frame of that, which is all of it.
     """
@@ -155,7 +168,16 @@ def find_position(points, i, motion, elastic, when, target):
 
 
 @njit(inline="always")
-def find_on_master(structure, points, i, motion, poses, elastic, when, target):
+def find_on_master(
+    structure: Any,
+    points: Array,
+    i: int,
+    motion: Any,
+    poses: Array,
+    elastic: Elastic,
+    when: int,
+    target: Array,
+) -> None:
     """Position (3,) of point i in the table frame as its place relative to its moving master's
     surface, in the frame of its interface, in place.
 
@@ -178,7 +200,16 @@ def find_on_master(structure, points, i, motion, poses, elastic, when, target):
 
 
 @njit
-def locate_start(structure, points, i, start, poses, elastic, before, place):
+def locate_start(
+    structure: Any,
+    points: Array,
+    i: int,
+    start: Any,
+    poses: Array,
+    elastic: Elastic,
+    before: Array,
+    place: Array,
+) -> None:
     """Elastic displacement at the START of a step of point i, which was open, and where it was,
     unless the step before located it; place: (3,) room.
     """
@@ -200,7 +231,16 @@ def locate_start(structure, points, i, start, poses, elastic, before, place):
 
 
 @njit
-def find_velocity(structure, points, i, motion, poses, elastic, when, target):
+def find_velocity(
+    structure: Any,
+    points: Array,
+    i: int,
+    motion: Any,
+    poses: Array,
+    elastic: Elastic,
+    when: int,
+    target: Array,
+) -> None:
     """Target (3,): velocity of point i relative to its master in a motion, in the frame of its
     interface, its elastic displacement being known.
     """

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -39,7 +41,13 @@ from fecolumn.engines.reduced.ledger import N_PLACES
 from fecolumn.engines.reduced.model import scheme
 from fecolumn.engines.reduced.observe import ENERGY, outcome_of_row
 from fecolumn.engines.reduced.run import LENGTHS, StepBatch, StepState, advance
-from fecolumn.foundation._compiled import compile_for, interpreted
+from fecolumn.foundation._compiled import Array, compile_for, interpreted
+
+if TYPE_CHECKING:
+    from fecolumn.engines.reduced.model import Scheme, Structure
+    from fecolumn.engines.reduced.motion import MotionState
+    from fecolumn.engines.reduced.observe import View
+    from fecolumn.structures.model import StructureModel
 
 # for the halves of a failed step: the point of no return and rest are looked for at its end only
 _NO_END, _NO_REST, _NO_STEPS = np.array([np.inf]), (0.0, -np.inf), np.empty(0)
@@ -77,18 +85,18 @@ class Engine:
 
     def __init__(
         self,
-        build,
-        bases,
-        view,
+        build: Callable[..., Any],
+        bases: Sequence[Any],
+        view: View,
         hht: HHT,
-        start,
+        start: Callable[..., Any],
         max_cuts: int = 4,
-        model=None,
+        model: StructureModel | None = None,
         substeps: str = "rolling",
-    ):
-        self.model, self.bases, self.view, self.hht, self.max_cuts, self.substeps = (
-            model,
-            bases,
+    ) -> None:
+        self.model: Any = model
+        self.bases, self.view, self.hht, self.max_cuts, self.substeps = (
+            tuple(bases),
             view,
             hht,
             max_cuts,
@@ -101,7 +109,7 @@ class Engine:
             self.motion_at_rest(),
             self.motion_at_rest(),
         )
-        self._schemes = {}
+        self._schemes: dict[HHT, tuple[Any, ...]] = {}
         self.spent_s = 0.0  # processor time of compiled steps [s]
         self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
         upright = np.tile(np.eye(3), (len(view.center), 1, 1))
@@ -125,7 +133,7 @@ class Engine:
             len(structure.interfaces) - structure.found.interface,
         )
 
-    def _need_below(self, centers, rotations, grounds: np.ndarray, rows: int) -> None:
+    def _need_below(self, centers: Array, rotations: Array, grounds: Array, rows: int) -> None:
         """Make the compliance of the grounds known below the nodes that may touch them, of bodies
         with centres of mass (nb, 3) turned by (nb, 3, 3), and so many rows of nodes around.
         """
@@ -138,7 +146,7 @@ class Engine:
                 places = centers[slaves] + np.einsum("pab,pb->pa", rotations[slaves], arms)
                 base.need(base.grid.around(places - ground["place"], rows))
 
-    def places(self, centers: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+    def places(self, centers: Array, rotations: Array) -> Array:
         """Places (P, 3) [m] of the points in the frames of their interfaces, of bodies with centres
         of mass (nb, 3) turned by (nb, 3, 3).
         """
@@ -154,7 +162,9 @@ class Engine:
         table = centers[points["slave"]] + np.einsum("pab,pb->pa", rotations[points["slave"]], arms)
         return np.einsum("pba,pb->pa", poses["frame"], table - poses["origin"])
 
-    def link_lengths(self, motion: motions.MotionState, structure=None) -> np.ndarray:
+    def link_lengths(
+        self, motion: motions.MotionState, structure: Structure | None = None
+    ) -> Array:
         """Lengths (nl,) [m] of the links of a motion; structure: as of `settle`."""
         structure = self.structure if structure is None else structure
         return np.array(
@@ -164,7 +174,9 @@ class Engine:
             ]
         )
 
-    def settle(self, structure, scheme, motion, end) -> int:
+    def settle(
+        self, structure: Structure, scheme: Scheme, motion: MotionState, end: MotionState
+    ) -> int:
         """One proximal step of `scheme` towards gravity equilibrium, from `motion` to `end`: a way
         to end; structure: this one's, with masses for the search.
         """
@@ -173,13 +185,13 @@ class Engine:
 
     def _arguments(
         self,
-        schemes,
-        motion,
-        spare,
-        grounds=None,
-        steepest=_NO_STEPS,
-        rest=_NO_REST,
-        rows=None,
+        schemes: tuple[Scheme, ...],
+        motion: MotionState,
+        spare: MotionState,
+        grounds: Array | None = None,
+        steepest: Array = _NO_STEPS,
+        rest: tuple[float, float] = _NO_REST,
+        rows: Array | None = None,
     ) -> tuple:
         rows = np.empty((0, self.view.width)) if rows is None else rows
         grounds = np.empty((0, 3 * len(self.bases))) if grounds is None else grounds
@@ -192,7 +204,7 @@ class Engine:
         """Counts as the full-order engine gives them."""
         return Record(*self.counts[:6].tolist())
 
-    def row(self) -> np.ndarray:
+    def row(self) -> Array:
         """The present row (view.width,) of the history."""
         row = np.empty((1, self.view.width))
         advance(*self._arguments(self._schemes_of(self.hht), self.motion, self.spare, rows=row))
@@ -214,10 +226,10 @@ class Engine:
 
     def advance(
         self,
-        grounds: np.ndarray,
-        steepest: np.ndarray | None = None,
+        grounds: Array,
+        steepest: Array | None = None,
         rest: tuple[float, float] = _NO_REST,
-    ) -> tuple[np.ndarray, bool]:
+    ) -> tuple[Array, bool]:
         """Step under ground accelerations (k, 3) [m/s2] at the ends of the steps: rows (k',
         view.width) and whether the column is lost or at rest.
 
@@ -273,7 +285,9 @@ class Engine:
                     return rows[:done], True
         return rows, False
 
-    def _steps(self, hht, grounds, rows, steepest, rest) -> tuple[int, int]:
+    def _steps(
+        self, hht: HHT, grounds: Array, rows: Array, steepest: Array, rest: tuple[float, float]
+    ) -> tuple[int, int]:
         arguments = self._arguments(
             self._schemes_of(hht), self.motion, self.spare, grounds, steepest, rest, rows
         )
@@ -300,7 +314,7 @@ class Engine:
             if name != "meetings.buckets":
                 values[: len(before[name])] = before[name]
 
-    def _cut(self, ground, answer) -> bool:
+    def _cut(self, ground: Array, answer: int) -> bool:
         """Make a failed step again in two halves, and a half that fails in halves, too.
 
         Parameters
@@ -327,7 +341,7 @@ class Engine:
         )
         motions.copy(self.motion, saved)
 
-        def take(_, target, hht):
+        def take(_: None, target: Array, hht: HHT) -> None:
             while (answer := self._steps(hht, target[None], row, _NO_END, _NO_REST)[1]) == FAR_BASE:
                 self.extend_base(self.spare)
             if answer == NO_ROOM:
@@ -350,18 +364,18 @@ class Engine:
             raise
         return True
 
-    def _accelerations(self) -> np.ndarray:
+    def _accelerations(self) -> Array:
         """Accelerations (3 G,) of the grounds now [m/s2]."""
         found = self.motion.grounds["acceleration"].ravel().copy()
         found[:3] = self.motion.whole["ground"][0]
         return found
 
-    def begin_shaking(self, accelerations: np.ndarray) -> None:
+    def begin_shaking(self, accelerations: Array) -> None:
         """Let the grounds begin with accelerations (3 G,) [m/s2]."""
         self.motion.whole["ground"] = accelerations[:3]
         self.motion.grounds["acceleration"] = accelerations.reshape(-1, 3)
 
-    def _failure(self, answer) -> StepFailed:
+    def _failure(self, answer: int) -> StepFailed:
         """The failure of a step, with the interfaces that a body has left, after OFF_PATCH."""
         stop = _STOPS[answer]
         if answer != OFF_PATCH:
@@ -372,18 +386,18 @@ class Engine:
     def _count_cut(self) -> None:
         self.counts[N_CUTS] += 1
 
-    def _schemes_of(self, hht) -> tuple:
+    def _schemes_of(self, hht: HHT) -> tuple:
         """Schemes of steps and of their parts, which are made when they are needed."""
         if hht not in self._schemes:
             self._schemes[hht] = (scheme(self.structure, self.points, hht),) * LENGTHS
         return self._schemes[hht]
 
-    def extend_base(self, motion) -> None:
+    def extend_base(self, motion: MotionState) -> None:
         """Make the grounds' compliance known under the feet and two rows of its nodes around."""
         self._need_below(motion.frames["center"], motion.rotation, motion.grounds, 2)
         self.surface = grounds_for_steps(self.bases)
 
-    def know_base(self, nodes: np.ndarray) -> None:
+    def know_base(self, nodes: Array) -> None:
         """Make the grounds' compliance known at top nodes (k,) of all of them, one after
         another.
         """

@@ -4,7 +4,7 @@ motion under the forces.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -51,7 +51,12 @@ from fecolumn.engines.reduced.elastic import (
 from fecolumn.engines.reduced.motion import Action, begin_frames, follow, no_action
 from fecolumn.engines.reduced.positions import Positions, find_positions, no_positions
 from fecolumn.engines.reduced.secant import Secant, no_secant, predict_slips, update_secant
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.projection import GroundTops
+    from fecolumn.engines.reduced.model import Scheme, Structure
+    from fecolumn.engines.reduced.motion import MotionState
 
 
 class Work(NamedTuple):
@@ -62,28 +67,28 @@ class Work(NamedTuple):
     (P,), turning: (P,) masks.
     """
 
-    points: np.ndarray
-    before: np.ndarray
+    points: Array
+    before: Array
     problem: Problem
     stick: Stick
     secant: Secant
     action: Action
     elastic: Elastic
-    poses: np.ndarray
+    poses: Array
     positions: Positions
-    early: np.ndarray
-    late: np.ndarray
-    places: np.ndarray
-    wanted: np.ndarray
-    landing: np.ndarray
-    turning: np.ndarray
+    early: Array
+    late: Array
+    places: Array
+    wanted: Array
+    landing: Array
+    turning: Array
 
 
-def work_of(structure, points) -> Work:
+def work_of(structure: Structure, points: Array) -> Work:
     """For the points (P,) of a Structure."""
     n, nodes = len(points), len(structure.bodies.arms)
     bodies, modes = structure.squares.shape
-    return Work(
+    return Work(  # type: ignore[call-arg]  # of unknown number
         points.copy(),
         np.zeros(n, CONTACT),
         room(points),
@@ -102,7 +107,17 @@ def work_of(structure, points) -> Work:
 
 
 @njit
-def stays(interfaces, points, before, poses, start, rims, free_center, advance, reach):
+def stays(
+    interfaces: Array,
+    points: Array,
+    before: Array,
+    poses: Array,
+    start: MotionState,
+    rims: Array,
+    free_center: Array,
+    advance: Array,
+    reach: float,
+) -> bool:
     """Whether all feet stay in their places long enough for finding their stick operator to pay;
     poses: at the start, rims: (ni,) of RIM at the end, reach: as of `stick.is_worth`.
 
@@ -130,7 +145,9 @@ def stays(interfaces, points, before, poses, start, rims, free_center, advance, 
 
 
 @njit
-def find_sunk(structure, base, work, start, rims):
+def find_sunk(
+    structure: Structure, base: GroundTops, work: Work, start: MotionState, rims: Array
+) -> None:
     """Raise the points that come from beyond an outline and are below the surface at the START of a
     step, or mark them as SUNK, and lower those that were raised before; see `contact.outline`.
     """
@@ -184,7 +201,7 @@ def find_sunk(structure, base, work, start, rims):
 
 
 @njit
-def find_arms(structure, work, end):
+def find_arms(structure: Structure, work: Work, end: MotionState) -> None:
     """Elastic displacements and seats at the END of the step of the points that carry, on which
     their moments depend.
     """
@@ -200,8 +217,18 @@ def find_arms(structure, work, end):
 
 @njit
 def find_equilibrium(
-    structure, base, scheme, work, start, free_center, free_modal, advance, rims, end, counts
-):
+    structure: Structure,
+    base: GroundTops,
+    scheme: Scheme,
+    work: Work,
+    start: MotionState,
+    free_center: Array,
+    free_modal: Array,
+    advance: Array,
+    rims: Array,
+    end: MotionState,
+    counts: Array,
+) -> int:
     """Find forces and motion at the end of a step; the motion is exact for the forces at every
     iteration of `contact.problem`.
 

@@ -8,12 +8,13 @@ from fecolumn.contact.tolerances import LINKS_FIRM
 from fecolumn.engines.dynamics.gravity import pseudo_inertia
 from fecolumn.engines.dynamics.links_of_model import fastest_of_each
 from fecolumn.engines.reduced.model import Structure
+from fecolumn.foundation._compiled import Array
 
 # Times that the inertia of iterations is found anew from what modes give in one of that inertia
 _PASSES = 5
 
 
-def firmness_of(structure: Structure, centers: np.ndarray) -> np.ndarray:
+def firmness_of(structure: Structure, centers: Array) -> Array:
     """Inertia factors (nb,) [1/s2] of the proximal steps of bodies with centres of mass `centers`
     (nb, 3) [m]: each is as firm as it has to be by itself.
 
@@ -52,7 +53,7 @@ def firmness_of(structure: Structure, centers: np.ndarray) -> np.ndarray:
     return found
 
 
-def with_masses(structure: Structure, shares: np.ndarray) -> Structure:
+def with_masses(structure: Structure, shares: Array) -> Structure:
     """The structure with `shares` (nb,) of its bodies' masses and of their densities: as heavy and
     as stiff as it is, for the search for rest (Underwood 1983, fictitious masses).
 

@@ -9,7 +9,7 @@ on. One that is found below the surface is lifted to it, and sinks back slowly.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,11 @@ from fecolumn.contact.problem import NO_ROOM, OK, list_present
 from fecolumn.contact.separation import FACE_OF_FIRST, TWO_EDGES
 from fecolumn.contact.tolerances import FOUND_NEAR, OPEN, SAME_PLACE, STAYS_DEEP
 from fecolumn.engines.reduced.motion import copy_meetings
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.meetings import Meetings
+    from fecolumn.engines.reduced.motion import MotionState
 
 
 class Found(NamedTuple):
@@ -39,23 +43,23 @@ class Found(NamedTuple):
     """
 
     hulls: Hulls
-    nodes: np.ndarray
+    nodes: Array
     interface: int
     point: int
-    left_out: np.ndarray
-    friction: np.ndarray
-    restitution: np.ndarray
-    joint: np.ndarray
-    replaced: np.ndarray
-    axes: np.ndarray
-    reach: np.ndarray
+    left_out: Array
+    friction: Array
+    restitution: Array
+    joint: Array
+    replaced: Array
+    axes: Array
+    reach: Array
     boxes: Boxes
-    pairs: np.ndarray
+    pairs: Array
     room: Room
 
 
 @njit
-def lay_found(structure, dt, work, start, end):
+def lay_found(structure: Any, dt: float, work: Any, start: MotionState, end: MotionState) -> int:
     """Find the pairs and places of a step dt [s] and lay its points on them: OK, or NO_ROOM where
     more pairs are near than there are rows.
 
@@ -106,7 +110,7 @@ def lay_found(structure, dt, work, start, end):
 
 
 @njit
-def _without_held(structure, count):
+def _without_held(structure: Any, count: int) -> int:
     """Take the pairs of a ground and a body that a ground holds from the first `count`, which are
     not to be pushed apart; how many are left.
     """
@@ -120,7 +124,7 @@ def _without_held(structure, count):
 
 
 @njit
-def has_pairs(meetings):
+def has_pairs(meetings: Meetings) -> bool:
     """Whether any two bodies are near each other."""
     for row in meetings.rows:
         if row.pair[0] != NO_PAIR:
@@ -129,7 +133,9 @@ def has_pairs(meetings):
 
 
 @njit
-def _travel_bounds(structure, dt, start, margins):
+def _travel_bounds(
+    structure: Any, dt: float, start: MotionState, margins: Array
+) -> tuple[float, float]:
     """Find how far each body may go in a step, margins (nb,) [m] with half of the distance at
     which places are found; the longest way and the least thickness [m].
     """
@@ -152,7 +158,7 @@ def _travel_bounds(structure, dt, start, margins):
 
 
 @njit
-def _lay_row(structure, work, start, end, r):
+def _lay_row(structure: Any, work: Any, start: MotionState, end: MotionState, r: int) -> bool:
     """Lay the points of a row; whether others take part than before, or in other places."""
     found, row, slots = structure.found, end.meetings.rows[r], end.meetings.places.shape[1]
     k, changed, any_place = found.interface + r, False, False
@@ -182,7 +188,7 @@ def _lay_row(structure, work, start, end, r):
 
 
 @njit
-def _place_of(found, first):
+def _place_of(found: Found, first: int) -> int:
     """Row, in tables of Found by pair, of the first of a pair: a body, or one of the grounds, which
     are -1, -2, ... and come after all bodies.
     """
@@ -190,7 +196,7 @@ def _place_of(found, first):
 
 
 @njit
-def set_interface(structure, row, k):
+def set_interface(structure: Any, row: Record, k: int) -> None:
     """Let interface k be that of a row of MEETING."""
     interface, found = structure.interfaces[k], structure.found
     first, second = row.pair[0], row.pair[1]
@@ -210,7 +216,7 @@ def set_interface(structure, row, k):
 
 
 @njit
-def _lay_point(structure, row, place, k, point):
+def _lay_point(structure: Any, row: Record, place: Record, k: int, point: Record) -> bool:
     """Lay a point of interface k on a place; whether it took no part or was elsewhere before."""
     found, interface = structure.found, structure.interfaces[k]
     moved = 0.0
@@ -254,7 +260,7 @@ def _lay_point(structure, row, place, k, point):
 
 
 @njit
-def _share_edge(found, b, edge, place, nodes, shares):
+def _share_edge(found: Found, b: int, edge: int, place: Array, nodes: Array, shares: Array) -> None:
     """Nodes (4,) at the ends of an edge of body b, and their shares (4,) in a place (3,) on it."""
     hulls = found.hulls
     first, e, along, length = hulls.first[b, 0], hulls.first[b, 2] + edge, 0.0, 0.0
@@ -273,7 +279,7 @@ def _share_edge(found, b, edge, place, nodes, shares):
 
 
 @njit
-def _share_face(found, b, face, place, nodes, shares):
+def _share_face(found: Found, b: int, face: int, place: Array, nodes: Array, shares: Array) -> None:
     """Nodes (4,) at three corners of a face of body b, and their shares (4,) in a place (3,) on it:
     of the triangle about the first corner in which the place is, or lacks least.
     """
@@ -301,7 +307,9 @@ def _share_face(found, b, face, place, nodes, shares):
 
 
 @njit
-def _transfer_contact_state(start, end, r, s, width, was, now):
+def _transfer_contact_state(
+    start: MotionState, end: MotionState, r: int, s: int, width: float, was: Record, now: Record
+) -> None:
     """Bring to the place in slot s of row r what its point carried at the start, `was` of CONTACT:
     `now` has it in the frame that the row has now.
 
@@ -351,7 +359,7 @@ def _transfer_contact_state(start, end, r, s, width, was, now):
 
 
 @njit
-def _place_in(motion, row, arm, frame, place):
+def _place_in(motion: MotionState, row: Record, arm: Array, frame: Array, place: Array) -> None:
     """Frame (3, 3) of a row in the table frame, and the place (3,) [m] of an arm of its slave in
     it, of bodies that do not deform.
     """

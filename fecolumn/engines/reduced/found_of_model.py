@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -12,14 +14,20 @@ from fecolumn.contact.nearby import boxes_for, pair_keys
 from fecolumn.contact.points import FLAT_GROUND, GROUND, POINT
 from fecolumn.contact.tolerances import FOUND_SLOTS
 from fecolumn.engines.reduced.found import Found
+from fecolumn.foundation._compiled import Array
 from fecolumn.structures.hulls import HULL
+
+if TYPE_CHECKING:
+    from fecolumn.structures.model import StructureModel
 
 
 class NoRoom(Exception):
     """More pairs of bodies are near each other than there is room for."""
 
 
-def found_of(model, first: np.ndarray, reach: np.ndarray, interface: int, point: int, rows: int):
+def found_of(
+    model: StructureModel, first: Array, reach: Array, interface: int, point: int, rows: int
+) -> Found:
     """Found of a model, of no body where its contact is not found.
 
     Parameters
@@ -79,7 +87,7 @@ def found_of(model, first: np.ndarray, reach: np.ndarray, interface: int, point:
     )
 
 
-def found_interfaces(found: Found, rows: int) -> np.ndarray:
+def found_interfaces(found: Found, rows: int) -> Array:
     """Interfaces (rows,) of INTERFACE of which no pair has any."""
     interfaces = np.zeros(rows, INTERFACE)
     interfaces["master"], interfaces["axes"], interfaces["sector"] = GROUND, np.eye(3), 1.0
@@ -88,7 +96,7 @@ def found_interfaces(found: Found, rows: int) -> np.ndarray:
     return interfaces
 
 
-def found_points(found: Found, rows: int) -> np.ndarray:
+def found_points(found: Found, rows: int) -> Array:
     """Points (FOUND_SLOTS rows,) of POINT that take no part."""
     points = np.zeros(FOUND_SLOTS * rows, POINT)
     points["interface"] = found.interface + np.repeat(np.arange(rows), FOUND_SLOTS)

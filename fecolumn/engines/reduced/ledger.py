@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.problem import near_points
 from fecolumn.contact.work import losses
 from fecolumn.engines.dynamics.links import end_links
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, RATE
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.engines.reduced.equilibrium import Work
+    from fecolumn.engines.reduced.model import Scheme, Structure
+    from fecolumn.engines.reduced.motion import MotionState
 
 # Places in a ledger: the energy at the start, then the works in the order of dynamics.energy.TERMS
 # [J]
@@ -32,7 +39,7 @@ N_PLACES = APPROACH_SPEED + 1
 
 
 @njit
-def rigid_kinetic(structure, motion):
+def rigid_kinetic(structure: Structure, motion: MotionState) -> float:
     """Kinetic energy of the bodies' rigid motion [J]."""
     total = 0.0
     for b in range(len(motion.frames)):
@@ -45,7 +52,7 @@ def rigid_kinetic(structure, motion):
 
 
 @njit
-def kinetic(structure, motion):
+def kinetic(structure: Structure, motion: MotionState) -> float:
     """Kinetic energy [J]."""
     total = 0.0
     for b in range(len(motion.frames)):
@@ -55,7 +62,7 @@ def kinetic(structure, motion):
 
 
 @njit
-def strain(structure, motion):
+def strain(structure: Structure, motion: MotionState) -> float:
     """Strain energy of the modes, and of what responds statically [J]."""
     total = 0.0
     for b in range(len(motion.frames)):
@@ -65,7 +72,7 @@ def strain(structure, motion):
 
 
 @njit
-def weight_energy(structure, reference, motion):
+def weight_energy(structure: Structure, reference: Array, motion: MotionState) -> float:
     """Gravity energy relative to the centres of mass at `reference` (nb, 3) [J]."""
     total = 0.0
     for b in range(len(motion.frames)):
@@ -79,7 +86,9 @@ def weight_energy(structure, reference, motion):
 
 
 @njit
-def _work_of_grounds(structure, work, start, end):
+def _work_of_grounds(
+    structure: Structure, work: Work, start: MotionState, end: MotionState
+) -> float:
     """Energy [J] that grounds which move relative to the first one bring in a step."""
     done = 0.0
     if len(start.grounds) == 1:
@@ -99,7 +108,7 @@ def _work_of_grounds(structure, work, start, end):
 
 
 @njit
-def _work_of_held(structure, work, start, end):
+def _work_of_held(structure: Structure, work: Work, start: MotionState, end: MotionState) -> float:
     """Energy [J] that grounds which move relative to the first one bring in a step through the
     bodies that they hold: as much as contact and links take from these.
     """
@@ -113,7 +122,14 @@ def _work_of_held(structure, work, start, end):
 
 
 @njit
-def book(structure, scheme, work, start, end, ledger):
+def book(
+    structure: Structure,
+    scheme: Scheme,
+    work: Work,
+    start: MotionState,
+    end: MotionState,
+    ledger: Array,
+) -> float:
     """Book a step before its impact; returns the work of contact but that of dashpots [J].
 
     Of the bodies as `dynamics.stepper`, of contact as `contact.work`.

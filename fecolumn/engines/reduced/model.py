@@ -4,7 +4,7 @@ step.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,6 +12,10 @@ from fecolumn.contact.bodies import Bodies
 from fecolumn.contact.overlap import Overlaps
 from fecolumn.contact.pad import Springs, springs_of
 from fecolumn.engines.reduced.found import Found
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.hht import HHT
 
 
 class Structure(NamedTuple):
@@ -30,15 +34,15 @@ class Structure(NamedTuple):
     """
 
     bodies: Bodies
-    squares: np.ndarray
-    damping: np.ndarray
-    reach: np.ndarray
-    interfaces: np.ndarray
-    rim: np.ndarray
+    squares: Array
+    damping: Array
+    reach: Array
+    interfaces: Array
+    rim: Array
     overlaps: Overlaps
-    links: np.ndarray
-    ends: np.ndarray
-    gravity: np.ndarray
+    links: Array
+    ends: Array
+    gravity: Array
     found: Found
 
 
@@ -53,12 +57,12 @@ class Scheme(NamedTuple):
     alpha: float
     beta: float
     gamma: float
-    shrink: np.ndarray
-    dynamic: np.ndarray
+    shrink: Array
+    dynamic: Array
     springs: Springs
 
 
-def scheme(structure: Structure, points: np.ndarray, hht) -> Scheme:
+def scheme(structure: Structure, points: Array, hht: HHT) -> Scheme:
     """Coefficients of a step of `hht`; the filter of the contact stays that of the structure."""
     half, stiffness = hht.dt**2 / 2, structure.squares * hht.stiffness_factor / hht.mass_factor
     stiffness = (
@@ -67,7 +71,7 @@ def scheme(structure: Structure, points: np.ndarray, hht) -> Scheme:
     return _scheme(structure, points, hht.dt, half, hht.alpha, hht.beta, hht.gamma, stiffness)
 
 
-def resting_scheme(structure: Structure, points: np.ndarray, pseudo_inertia: float) -> Scheme:
+def resting_scheme(structure: Structure, points: Array, pseudo_inertia: float) -> Scheme:
     """Coefficients of a proximal step towards equilibrium: (pseudo_inertia M + K) x =
     pseudo_inertia M x0 + F + U r.
     """
@@ -83,7 +87,16 @@ def resting_scheme(structure: Structure, points: np.ndarray, pseudo_inertia: flo
     )
 
 
-def _scheme(structure, points, dt, half, alpha, beta, gamma, stiffness) -> Scheme:
+def _scheme(
+    structure: Structure,
+    points: Array,
+    dt: float,
+    half: float,
+    alpha: float,
+    beta: float,
+    gamma: float,
+    stiffness: Array,
+) -> Scheme:
     shrink = 1 / (1 + stiffness)
     dynamic = structure.bodies.static.copy()
     for body, factors in zip(structure.bodies.body, shrink):
@@ -103,7 +116,7 @@ def _scheme(structure, points, dt, half, alpha, beta, gamma, stiffness) -> Schem
     )
 
 
-def modal_sum(shapes: np.ndarray, factors: np.ndarray) -> np.ndarray:
+def modal_sum(shapes: Array, factors: Array) -> Array:
     """Sum of factor phi phi^T over the modes, (3 n, 3 n)."""
     flat = shapes.reshape(3 * len(shapes), -1)
     return (flat * factors) @ flat.T

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,10 @@ from fecolumn.contact.tolerances import FOUND_SLOTS
 from fecolumn.engines.dynamics.links import TIE, pull_links
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START
 from fecolumn.engines.reduced.rotation import Turning, turn_by, turning
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.engines.reduced.elastic import Elastic
 
 #: A body's frame: center of mass [m], its velocity [m/s] and the acceleration that HHT remembers,
 #: without contact [m/s2]; spin: angular velocity in the body's frame [rad/s].
@@ -41,14 +44,14 @@ class MotionState(NamedTuple):
     grounds: (G,) of GROUND_STATE; meetings: bodies whose contact is found, see `reduced.found`.
     """
 
-    frames: np.ndarray
-    rotation: np.ndarray
-    modal: np.ndarray
-    contact: np.ndarray
-    rims: np.ndarray
-    ties: np.ndarray
-    whole: np.ndarray
-    grounds: np.ndarray
+    frames: Array
+    rotation: Array
+    modal: Array
+    contact: Array
+    rims: Array
+    ties: Array
+    whole: Array
+    grounds: Array
     meetings: Meetings
 
     @property
@@ -57,7 +60,7 @@ class MotionState(NamedTuple):
         return float(self.whole["time"][0])
 
     @property
-    def forces(self) -> np.ndarray:
+    def forces(self) -> Array:
         """Contact forces (P, 3) on the slaves [N], in the frames of their interfaces."""
         return self.contact["force"]
 
@@ -68,7 +71,7 @@ def at_rest(
     bodies: int = 1,
     interfaces: int = 1,
     links: int = 0,
-    levels: tuple[float, ...] = (0.0,),
+    levels: Array | tuple[float, ...] = (0.0,),
     meetings: int = 0,
 ) -> MotionState:
     """Zeros everywhere but for upright rotations, and the levels of the grounds [m]; so many rows
@@ -97,21 +100,21 @@ class Action(NamedTuple):
     pulls: (nl, 3) forces of the links on their ends a [N].
     """
 
-    turn: np.ndarray
-    moment: np.ndarray
-    push: np.ndarray
-    modal: np.ndarray
-    halfway: np.ndarray
-    resistance: np.ndarray
-    frames: np.ndarray
-    total: np.ndarray
-    spread: np.ndarray
-    pulls: np.ndarray
+    turn: Array
+    moment: Array
+    push: Array
+    modal: Array
+    halfway: Array
+    resistance: Array
+    frames: Array
+    total: Array
+    spread: Array
+    pulls: Array
 
 
 def no_action(modes: int, bodies: int = 1, interfaces: int = 1, links: int = 0) -> Action:
     """Room for what acts on so many bodies, of which nothing acts."""
-    return Action(
+    return Action(  # type: ignore[call-arg]  # of unknown number
         *(np.zeros((bodies, 3)) for _ in range(3)),
         np.zeros((bodies, modes)),
         np.zeros((bodies, 3, 3)),
@@ -124,7 +127,7 @@ def no_action(modes: int, bodies: int = 1, interfaces: int = 1, links: int = 0) 
 
 
 @njit
-def copy(source, target):
+def copy(source: MotionState, target: MotionState) -> None:
     """Copy a MotionState."""
     for b in range(len(source.frames)):
         target.frames[b] = source.frames[b]
@@ -143,7 +146,7 @@ def copy(source, target):
 
 
 @njit
-def copy_meetings(source, target):
+def copy_meetings(source: Meetings, target: Meetings) -> None:
     """Copy rows and places of Meetings."""
     for r in range(len(source.rows)):
         target.rows[r] = source.rows[r]
@@ -152,14 +155,21 @@ def copy_meetings(source, target):
 
 
 @njit
-def copy_grounds(source, target):
+def copy_grounds(source: MotionState, target: MotionState) -> None:
     """Copy the grounds of a MotionState."""
     for g in range(len(source.grounds)):
         target.grounds[g] = source.grounds[g]
 
 
 @njit
-def begin_frames(structure, start, free_center, advance, end, action):
+def begin_frames(
+    structure: Any,
+    start: MotionState,
+    free_center: Array,
+    advance: Array,
+    end: MotionState,
+    action: Action,
+) -> None:
     """First guess of what `follow` finds of frames that move and of links: bodies that are free."""
     moving, part = len(structure.links) > 0, np.empty(3)
     for k in range(len(structure.interfaces)):
@@ -174,7 +184,7 @@ def begin_frames(structure, start, free_center, advance, end, action):
 
 
 @njit
-def _turn_frames(structure, action):
+def _turn_frames(structure: Any, action: Action) -> float:
     """Find the frames of the interfaces that carry, in the middle of the step; the largest change.
 
     Nothing depends on the frame of one that carries nothing.
@@ -195,8 +205,18 @@ def _turn_frames(structure, action):
 
 @njit
 def follow(
-    structure, scheme, points, listed, start, free_center, free_modal, advance, elastic, end, action
-):
+    structure: Any,
+    scheme: Any,
+    points: Array,
+    listed: Array,
+    start: MotionState,
+    free_center: Array,
+    free_modal: Array,
+    advance: Array,
+    elastic: Elastic,
+    end: MotionState,
+    action: Action,
+) -> bool:
     """Carry the bodies to the end of the step under the forces of `end` at the listed points (k,),
     which has all that carry, and of the links.
 
@@ -231,7 +251,9 @@ def follow(
 
 
 @njit
-def _sum_forces(points, listed, contact, elastic, action):
+def _sum_forces(
+    points: Array, listed: Array, contact: Array, elastic: Elastic, action: Action
+) -> None:
     """Sums of the forces of `contact` at the listed points (k,), interface by interface, in whose
     frames they are: they turn with these.
     """
@@ -255,7 +277,15 @@ def _sum_forces(points, listed, contact, elastic, action):
 
 
 @njit
-def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
+def _carry_bodies(
+    structure: Any,
+    scheme: Any,
+    start: MotionState,
+    free_center: Array,
+    advance: Array,
+    end: MotionState,
+    action: Action,
+) -> None:
     """`follow`, with frames and links where they are, without modes."""
     bodies, arm = structure.bodies.body, np.empty(3)
     spread = np.zeros((len(bodies), 3, 3))
@@ -318,7 +348,16 @@ def _carry_bodies(structure, scheme, start, free_center, advance, end, action):
 
 
 @njit
-def _carry_modes(structure, scheme, points, listed, start, free_modal, end, action):
+def _carry_modes(
+    structure: Any,
+    scheme: Any,
+    points: Array,
+    listed: Array,
+    start: MotionState,
+    free_modal: Array,
+    end: MotionState,
+    action: Action,
+) -> None:
     """`follow`, of the modes."""
     _push_modes(structure, points, listed, end.contact, action)
     _pull_modes(structure, start, end, action)
@@ -330,7 +369,7 @@ def _carry_modes(structure, scheme, points, listed, start, free_modal, end, acti
 
 
 @njit
-def _pull_modes(structure, start, end, action):
+def _pull_modes(structure: Any, start: MotionState, end: MotionState, action: Action) -> None:
     """Add what the links do on the modes: with the mean of the rotations at both ends of the step,
     with which their work is exactly that of the forces along their ways.
     """
@@ -353,7 +392,9 @@ def _pull_modes(structure, start, end, action):
 
 
 @njit
-def _push_modes(structure, points, listed, contact, action):
+def _push_modes(
+    structure: Any, points: Array, listed: Array, contact: Array, action: Action
+) -> None:
     """Find what the forces of `contact` at the listed points (k,) do on the modes of the bodies,
     turned as they are in the middle of the step.
     """
@@ -420,7 +461,9 @@ def _push_modes(structure, points, listed, contact, action):
 
 
 @njit
-def _add_modal(pushes, point, on, x, y, z, target):
+def _add_modal(
+    pushes: Array, point: Record, on: bool, x: float, y: float, z: float, target: Array
+) -> None:
     """Add to target (m,) what the force (x, y, z) at a point of POINT, in the body's frame, does on
     the modes of its slave, `on`, or of its master.
     """
@@ -434,7 +477,15 @@ def _add_modal(pushes, point, on, x, y, z, target):
 
 
 @njit
-def push_bodies(structure, scheme, points, arms, poses, impulses, motion):
+def push_bodies(
+    structure: Any,
+    scheme: Any,
+    points: Array,
+    arms: Array,
+    poses: Array,
+    impulses: Array,
+    motion: MotionState,
+) -> None:
     """Velocity jump by impulses (P, 3) [N s] on the slaves at the points with `arms` (P, 3) [m], in
     the frames of their interfaces, and by the opposite on the masters.
     """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -21,7 +21,11 @@ from fecolumn.contact.record import record
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.reduced.elastic import COORDINATE
 from fecolumn.engines.reduced.ledger import N_TERMS, kinetic, strain, weight_energy
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
+
+if TYPE_CHECKING:
+    from fecolumn.engines.reduced.model import Structure
+    from fecolumn.engines.reduced.motion import MotionState
 
 #: Columns of a row: name in the history file and how many numbers.
 COLUMNS = (
@@ -40,7 +44,7 @@ COLUMNS = (
 WIDTH = sum(count for _, count in COLUMNS)
 
 
-def column_index(column: str, columns=COLUMNS) -> int:
+def column_index(column: str, columns: tuple[tuple[str, int], ...] = COLUMNS) -> int:
     """Place in a row of the first number of a column."""
     names = [name for name, _ in columns]
     return sum(count for _, count in columns[: names.index(column)])
@@ -108,24 +112,24 @@ class View(NamedTuple):
     (nb,) as of `contact.bodies.BODY`.
     """
 
-    center: np.ndarray
+    center: Array
     body: int
-    top_arm: np.ndarray
-    top_shape: np.ndarray
-    foot_arm: np.ndarray
-    foot_shape: np.ndarray
+    top_arm: Array
+    top_shape: Array
+    foot_arm: Array
+    foot_shape: Array
     stance: Stance
-    limits: np.ndarray
-    standing: np.ndarray
-    corners: np.ndarray
-    feet: np.ndarray
-    normals: np.ndarray
-    marks: np.ndarray
-    shapes: np.ndarray
+    limits: Array
+    standing: Array
+    corners: Array
+    feet: Array
+    normals: Array
+    marks: Array
+    shapes: Array
     links: int = 0
-    levels: np.ndarray = np.zeros(1)
-    held: np.ndarray = np.zeros(0, np.int64)
-    bonds: np.ndarray = np.zeros(0)
+    levels: Array = np.zeros(1)
+    held: Array = np.zeros(0, np.int64)
+    bonds: Array = np.zeros(0)
 
     @property
     def width(self) -> int:
@@ -143,7 +147,16 @@ class View(NamedTuple):
 
 
 @njit
-def _displace(b, arm, shape, center, motion, axes, row, place):
+def _displace(
+    b: int,
+    arm: Array,
+    shape: Array,
+    center: Array,
+    motion: MotionState,
+    axes: int,
+    row: Array,
+    place: int,
+) -> None:
     """Put the displacement along the first `axes` of a point of body b from `place` on in the
     row.
     """
@@ -158,7 +171,16 @@ def _displace(b, arm, shape, center, motion, axes, row, place):
 
 
 @njit
-def observe(structure, points, poses, view, motion, ledger, iterations, row):
+def observe(
+    structure: Structure,
+    points: Array,
+    poses: Array,
+    view: View,
+    motion: MotionState,
+    ledger: Array,
+    iterations: int,
+    row: Array,
+) -> None:
     """Fill a row (view.width,); points: (P,) of POINT, poses: room for (ni,) of POSE."""
     R, contact = motion.rotation[view.body], motion.contact
     row[:] = 0.0
@@ -196,7 +218,9 @@ def observe(structure, points, poses, view, motion, ledger, iterations, row):
 
 
 @njit
-def _observe_all(structure, points, poses, view, motion, row):
+def _observe_all(
+    structure: Structure, points: Array, poses: Array, view: View, motion: MotionState, row: Array
+) -> None:
     """Fill what a row has of bodies, interfaces, marks and links."""
     place = WIDTH
     for b in range(len(motion.frames)):
@@ -260,7 +284,9 @@ def _observe_all(structure, points, poses, view, motion, row):
 
 
 @njit
-def _observe_forces(structure, points, poses, motion, joints, row):
+def _observe_forces(
+    structure: Structure, points: Array, poses: Array, motion: MotionState, joints: int, row: Array
+) -> None:
     """Add forces and centres of pressure to what a row has of interfaces, those of the first
     `joints` of them. Those of pairs that were found are of the joint in whose place they are.
     """
@@ -293,7 +319,7 @@ def _observe_forces(structure, points, poses, motion, joints, row):
 
 
 @njit
-def outcome_of_row(view, motion, row, steepest):
+def outcome_of_row(view: View, motion: MotionState, row: Array, steepest: float) -> int:
     """As `overturning.fallen`, of a motion and its row; FELL where one of many bodies has fallen
     past the lowest ground.
     """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,11 @@ from fecolumn.engines.reduced.elastic import (
     find_position,
     locate_start,
 )
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.engines.reduced.model import Structure
+    from fecolumn.engines.reduced.motion import MotionState
 
 
 class Positions(NamedTuple):
@@ -35,12 +39,12 @@ class Positions(NamedTuple):
     for a list of points.
     """
 
-    place: np.ndarray
-    frames: np.ndarray
-    reach: np.ndarray
-    above: np.ndarray
-    most: np.ndarray
-    low: np.ndarray
+    place: Array
+    frames: Array
+    reach: Array
+    above: Array
+    most: Array
+    low: Array
 
 
 _ALL, _NOW = 0, 1
@@ -60,7 +64,9 @@ def no_positions(points: int, interfaces: int, bodies: int) -> Positions:
 
 
 @njit
-def find_positions(structure, work, start, end, first):
+def find_positions(
+    structure: Structure, work: Any, start: MotionState, end: MotionState, first: bool
+) -> tuple[bool, Array]:
     """Find the positions of the points at the END of the step.
 
     Of points too high to matter the height alone is found, without elastic displacement, and once:
@@ -140,7 +146,7 @@ def find_positions(structure, work, start, end, first):
 
 
 @njit
-def _find_slave(interface, pose, motion, frame):
+def _find_slave(interface: Record, pose: Record, motion: MotionState, frame: Array) -> None:
     """Fill frame (3, 4): how the slave is turned towards the frame of an interface, and where its
     centre of mass is in it [m].
     """
@@ -153,7 +159,7 @@ def _find_slave(interface, pose, motion, frame):
 
 
 @njit
-def _most_moved(positions, rims):
+def _most_moved(positions: Positions, rims: Array) -> float:
     """By how much [m] a point may have come down since all were placed, at most."""
     moved, grown = 0.0, 0.0
     for k in range(positions.frames.shape[1]):
@@ -171,7 +177,7 @@ def _most_moved(positions, rims):
 
 
 @njit
-def _list_low(positions, present, moved):
+def _list_low(positions: Positions, present: Array, moved: float) -> Array:
     """Those of the present points (k,) that may matter after they came down by `moved` [m], or that
     did in an earlier iteration of the step: these may carry.
     """

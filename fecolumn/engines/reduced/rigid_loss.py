@@ -11,6 +11,8 @@ together, from the velocities before the first landing.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.coupling import coupling_by_levers, put_root
@@ -35,10 +37,16 @@ from fecolumn.engines.reduced.ledger import (
     rigid_kinetic,
     weight_energy,
 )
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.coupling import Coupling
+    from fecolumn.engines.reduced.equilibrium import Work
+    from fecolumn.engines.reduced.model import Structure
+    from fecolumn.engines.reduced.motion import MotionState
 
 
-def loss_share(ledger: np.ndarray, interfaces: np.ndarray) -> float | None:
+def loss_share(ledger: Array, interfaces: Array) -> float | None:
     """What impacts have taken over what those of rigid bodies would have; None where none counts,
     or they give back by a coefficient of restitution.
     """
@@ -48,7 +56,7 @@ def loss_share(ledger: np.ndarray, interfaces: np.ndarray) -> float | None:
 
 
 @njit
-def rigid_energy(structure, motion, ledger):
+def rigid_energy(structure: Structure, motion: MotionState, ledger: Array) -> float:
     """Energy [J] of the rigid motion, and of weight and links, less what base, rolling and links
     have brought: its decrease is what contact, friction and vibration have taken.
     """
@@ -64,7 +72,7 @@ def rigid_energy(structure, motion, ledger):
 
 
 @njit
-def find_together(structure, work, end):
+def find_together(structure: Structure, work: Work, end: MotionState) -> Array:
     """Points (k,) that the rigid motion has brought together at the end of a step: those that
     carry, and those no higher than the give of those that do.
     """
@@ -98,7 +106,7 @@ def find_together(structure, work, end):
 
 
 @njit
-def _place_of(point, motion, place):
+def _place_of(point: Record, motion: MotionState, place: Array) -> None:
     """Place (3,): where a point of POINT is in the table frame [m], of bodies that do not
     deform.
     """
@@ -113,7 +121,9 @@ def _place_of(point, motion, place):
 
 
 @njit
-def _velocities_by_motion(structure, points, poses, listed, end):
+def _velocities_by_motion(
+    structure: Structure, points: Array, poses: Array, listed: Array, end: MotionState
+) -> Array:
     """Matrix (3 k, 6 nb): velocities of the listed points (k,), slave relative to master in the
     frames of their interfaces, by velocities and spins of the bodies.
     """
@@ -143,7 +153,7 @@ def _velocities_by_motion(structure, points, poses, listed, end):
 
 
 @njit
-def _velocities(J, points, listed, motion):
+def _velocities(J: Array, points: Array, listed: Array, motion: MotionState) -> Array:
     """(3 k,) velocities of the listed points (k,), slave relative to master; J: of
     `_velocities_by_motion`.
     """
@@ -156,7 +166,7 @@ def _velocities(J, points, listed, motion):
 
 
 @njit
-def _velocities_of(motion):
+def _velocities_of(motion: MotionState) -> Array:
     """(6 nb,) velocities and spins of the bodies."""
     values = np.empty(6 * len(motion.frames))
     for b in range(len(motion.frames)):
@@ -169,7 +179,7 @@ def _velocities_of(motion):
 
 
 @njit
-def _mobility(structure, points, listed, J):
+def _mobility(structure: Structure, points: Array, listed: Array, J: Array) -> Coupling:
     """Coupling by mobility of the listed points (k,); J: of `_velocities_by_motion`."""
     k = len(listed)
     levers, sides, root = np.zeros((k, 3, 12)), np.full((k, 2), -1), np.empty((3, 3))
@@ -193,7 +203,17 @@ def _mobility(structure, points, listed, J):
 
 
 @njit
-def begin_impact(structure, work, start, end, dt, moment, touched, booked, ledger):
+def begin_impact(
+    structure: Structure,
+    work: Work,
+    start: MotionState,
+    end: MotionState,
+    dt: float,
+    moment: float,
+    touched: Array,
+    booked: Array,
+    ledger: Array,
+) -> None:
     """Book the rigid loss of the impact that begins in a step, or goes on in it; `end` has the
     velocities before the impact.
 
@@ -241,7 +261,9 @@ def begin_impact(structure, work, start, end, dt, moment, touched, booked, ledge
 
 
 @njit
-def follow_impact(structure, work, end, dt, ledger):
+def follow_impact(
+    structure: Structure, work: Work, end: MotionState, dt: float, ledger: Array
+) -> None:
     """Whether the impact that goes on is over at the end of a step; then its loss is booked."""
     now = end.whole[0].time
     if ledger[APPROACH_SPEED] > 0.0:
@@ -261,7 +283,7 @@ def follow_impact(structure, work, end, dt, ledger):
 
 
 @njit
-def _book(structure, motion, booked, ledger):
+def _book(structure: Structure, motion: MotionState, booked: Array, ledger: Array) -> None:
     """Book the impact that is over, if its rigid loss counts; motion: after it, booked: the ledger
     then.
     """

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 
 @njit
-def turn_by(rotation, vector, target):
+def turn_by(rotation: Array, vector: Array, target: Array) -> None:
     """Target = rotation exp(vector), by Rodrigues' formula; orthonormal to rounding if `rotation`
     is nearly so.
     """
@@ -32,7 +32,7 @@ def turn_by(rotation, vector, target):
 
 
 @njit
-def orthonormal(rotation):
+def orthonormal(rotation: Array) -> None:
     """Take the rounding of many turns out of a rotation, in place: R (3 - R^T R) / 2."""
     product = np.empty((3, 3))
     for i in range(3):
@@ -61,18 +61,18 @@ class Turning(NamedTuple):
     step, are found.
     """
 
-    body: np.ndarray
-    advance: np.ndarray
-    rotation: np.ndarray
+    body: Any
+    advance: Array
+    rotation: Array
     half: float
-    spread: np.ndarray
-    resistance: np.ndarray
-    moment: np.ndarray
-    halfway: np.ndarray
+    spread: Array
+    resistance: Array
+    moment: Array
+    halfway: Array
 
 
 @njit
-def turning(given, turn):
+def turning(given: Turning, turn: Array) -> None:
     """Solve Th = advance/2 + J^-1 exp(-Th) (J advance/2 + half R0^T M) for the turn Th, and its
     moment M, in the column's frame.
 
@@ -128,7 +128,7 @@ def turning(given, turn):
 
 
 @njit
-def _turn_by_turn(given, momentum, turn, value):
+def _turn_by_turn(given: Turning, momentum: Array, turn: Array, value: Array) -> None:
     """The right side of the equation of `turning` at a turn (3,), put into value (3,); momentum:
     (3,) half of J advance.
     """

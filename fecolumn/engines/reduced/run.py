@@ -4,7 +4,7 @@ compiled code. `engine` has what calls it.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -35,14 +35,24 @@ from fecolumn.engines.reduced.found import has_pairs, lay_found
 from fecolumn.engines.reduced.observe import ENERGY, observe, outcome_of_row
 from fecolumn.engines.reduced.step import lay_points, step
 from fecolumn.foundation._borrowed import borrowed
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.projection import GroundTops
+    from fecolumn.engines.reduced.elastic import Elastic
+    from fecolumn.engines.reduced.equilibrium import Work
+    from fecolumn.engines.reduced.model import Scheme, Structure
+    from fecolumn.engines.reduced.motion import MotionState
+    from fecolumn.engines.reduced.observe import View
 
 # step lengths from a whole step to its smallest part
 LENGTHS = PARTS.bit_length()
 
 
 @njit
-def is_lost_or_at_rest(view, motion, row, steepest, rest):
+def is_lost_or_at_rest(
+    view: View, motion: MotionState, row: Array, steepest: float, rest: tuple[float, float]
+) -> bool:
     """Whether the column is lost or at rest after a step; rest: as of `Engine.advance`."""
     return (
         outcome_of_row(view, motion, row, steepest) != STANDS
@@ -51,7 +61,9 @@ def is_lost_or_at_rest(view, motion, row, steepest, rest):
 
 
 @njit
-def to_make_at_once(structure, motion, dt, done, substeps):
+def to_make_at_once(
+    structure: Structure, motion: MotionState, dt: float, done: int, substeps: int
+) -> int:
     """As `rolling.part_of_step`, of the rims of a structure where these are followed; substeps: a
     number of `case.sections.SUBSTEPS`.
     """
@@ -66,7 +78,7 @@ def to_make_at_once(structure, motion, dt, done, substeps):
 
 
 @njit
-def lowest_direction(interface, motion):
+def lowest_direction(interface: Record, motion: MotionState) -> tuple[float, float, float, float]:
     """Way down to the master's surface along the slave's axes x and y, and its rate [1/s]."""
     b, m, axes = interface.slave, interface.master, interface.axes
     R, spin, normal, rate = motion.rotation[b], motion.frames[b].spin, np.empty(3), np.empty(3)
@@ -89,7 +101,7 @@ def lowest_direction(interface, motion):
 
 
 @njit
-def begin_anew(elastic):
+def begin_anew(elastic: Elastic) -> None:
     """Copy what is known at the end of a step to the start of the next."""
     elastic.now[START] += 1
     for i in range(elastic.node.shape[1]):
@@ -107,8 +119,8 @@ class StepState(NamedTuple):
     motion: motions.MotionState
     spare: motions.MotionState
     kept: motions.MotionState
-    ledger: np.ndarray
-    counts: np.ndarray
+    ledger: Array
+    counts: Array
 
 
 class StepBatch(NamedTuple):
@@ -118,15 +130,23 @@ class StepBatch(NamedTuple):
     width) of the history, to be filled.
     """
 
-    grounds: np.ndarray
-    steepest: np.ndarray
+    grounds: Array
+    steepest: Array
     rest: tuple[float, float]
     substeps: int
-    rows: np.ndarray
+    rows: Array
 
 
 @njit
-def advance(structure, base, schemes, work, view, course, chunk):
+def advance(
+    structure: Structure,
+    base: GroundTops,
+    schemes: tuple[Scheme, Scheme, Scheme, Scheme, Scheme, Scheme, Scheme],
+    work: Work,
+    view: View,
+    course: StepState,
+    chunk: StepBatch,
+) -> tuple[int, int]:
     """Make the steps of a StepBatch: how many were made, and why they ended. `motion` of the
     StepState is then the state after them.
 
@@ -251,7 +271,18 @@ def advance(structure, base, schemes, work, view, course, chunk):
 
 
 @njit
-def proximal_step(structure, base, scheme, work, motion, fall, bent, still, spare, counts):
+def proximal_step(
+    structure: Structure,
+    base: GroundTops,
+    scheme: Scheme,
+    work: Work,
+    motion: MotionState,
+    fall: Array,
+    bent: Array,
+    still: Array,
+    spare: MotionState,
+    counts: Array,
+) -> int:
     """A proximal step towards equilibrium: OK, or the code of what failed.
 
     The places of points on balls and the links are brought along, which a step does elsewhere.

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.tolerances import FULL_FRICTION
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 
 class Secant(NamedTuple):
@@ -23,10 +23,10 @@ class Secant(NamedTuple):
     begun and left are of one step.
     """
 
-    begun: np.ndarray
-    left: np.ndarray
-    share: np.ndarray
-    known: np.ndarray
+    begun: Array
+    left: Array
+    share: Array
+    known: Array
 
 
 def no_secant(points: int) -> Secant:
@@ -35,7 +35,7 @@ def no_secant(points: int) -> Secant:
 
 
 @njit
-def predict_slips(secant, listed, slack):
+def predict_slips(secant: Secant, listed: Array, slack: Array) -> None:
     """Add to the slips and gaps (P, 3) of the listed points (k,) at the beginning of a step those
     that its first forces are expected to leave.
     """
@@ -54,7 +54,9 @@ def predict_slips(secant, listed, slack):
 
 
 @njit
-def update_secant(secant, points, listed, slack, contact):
+def update_secant(
+    secant: Secant, points: Array, listed: Array, slack: Array, contact: Array
+) -> None:
     """Note what the first forces of the step, those of `contact` (P,) at the listed points (k,),
     have left; nothing where points slip or open, whose slips and gaps are no error.
     """

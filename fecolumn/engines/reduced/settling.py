@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import numpy as np
 from scipy.spatial.transform import Rotation
 
@@ -27,7 +29,11 @@ from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.model import resting_scheme
 from fecolumn.engines.reduced.tangent import coordinates_of, displacements_of, masses_of, tangent_of
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation._compiled import Array, interpreted
+
+if TYPE_CHECKING:
+    from fecolumn.engines.reduced.engine import Engine
+    from fecolumn.engines.reduced.motion import MotionState
 
 
 class Diverged(NoEquilibrium):
@@ -43,7 +49,7 @@ class Settling:
         (nb,) of `firmness.firmness_of`.
     """
 
-    def __init__(self, engine, firmness: np.ndarray):
+    def __init__(self, engine: Engine, firmness: Array) -> None:
         self.engine, self._firmness = engine, float(firmness.max())
         shares = firmness / self._firmness
         self._roots = np.sqrt(shares)
@@ -71,10 +77,11 @@ class Settling:
         self._start.frames["center"] = centers
         self._start.contact["anchor"] = engine.places(centers, self._start.rotation)[:, :2]
         self._start.ties["length"] = engine.link_lengths(self._start)
-        self._change = np.inf
+        self._change: Any = np.inf
         # (nl,) what yielded in the last step [m]
         self._flow = np.zeros(len(self._start.ties))
-        self.steps, self.mover = 0, None
+        self.steps = 0
+        self.mover: int | None = None
         self.moved, self.unbalanced = np.inf, np.inf
         # what was not balanced when it was last halved while bodies hardly moved, and in which step
         self._yardstick, self._halved_at = np.inf, 0
@@ -100,7 +107,7 @@ class Settling:
         self._start.modal[:, COORDINATE] /= self._roots[:, None]
         return self._start
 
-    def _made(self, tangent=None) -> bool:
+    def _made(self, tangent: Array | None = None) -> bool:
         """Make a step; whether it serves, of one that was hastened by the stiffness `tangent`: what
         is not balanced then has less energy in that than before (Deuflhard 2011, natural
         monotonicity).
@@ -232,13 +239,13 @@ class Settling:
             or bool((before.contact["settled"] != after.contact["settled"]).any())
         )
 
-    def _coordinates(self, motion) -> np.ndarray:
+    def _coordinates(self, motion: MotionState) -> Array:
         """Displacements of a motion, as of `tangent.coordinates_of`."""
         ways = motion.frames["center"] - self.engine.view.center
         turns = Rotation.from_matrix(motion.rotation).as_rotvec()
         return coordinates_of(self._masses, ways, turns, motion.modal[:, COORDINATE])
 
 
-def _energy(tangent: np.ndarray, change: np.ndarray) -> float:
+def _energy(tangent: Array, change: Array) -> float:
     """Twice the energy of forces (n,) in a stiffness (n, n)."""
     return float(change @ np.linalg.solve(tangent, change))

@@ -4,6 +4,8 @@ and spin.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.points import may_touch
@@ -15,10 +17,15 @@ from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE
 from fecolumn.engines.reduced.firmness import firmness_of
 from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.settling import Diverged, Settling
-from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation._compiled import Array, interpreted
+
+if TYPE_CHECKING:
+    from fecolumn.engines.reduced.engine import Engine
+    from fecolumn.engines.reduced.motion import MotionState
+    from fecolumn.structures.model import Part
 
 
-def gravity_equilibrium(engine) -> motions.MotionState:
+def gravity_equilibrium(engine: Engine) -> motions.MotionState:
     """Gravity equilibrium, by the same proximal steps as the full-order engine: it needs no
     factorisation.
 
@@ -37,7 +44,7 @@ def gravity_equilibrium(engine) -> motions.MotionState:
     return _settled_firmly(engine, np.full_like(firmness, firmness.max()))
 
 
-def _settled_firmly(engine, firmness: np.ndarray) -> motions.MotionState:
+def _settled_firmly(engine: Engine, firmness: Array) -> motions.MotionState:
     """As `_settled`, by firmer steps where contact does not converge."""
     firmest = max(10.0**FIRMER_TIMES * firmness.max(), 2 / engine.hht.dt**2)
     while True:
@@ -49,7 +56,7 @@ def _settled_firmly(engine, firmness: np.ndarray) -> motions.MotionState:
         firmness = np.minimum(10 * firmness, firmest)
 
 
-def _settled_with_room(engine, firmness: np.ndarray) -> motions.MotionState:
+def _settled_with_room(engine: Engine, firmness: Array) -> motions.MotionState:
     """As `_settled`, with room for as many pairs of bodies as are near each other."""
     while True:
         try:
@@ -58,7 +65,7 @@ def _settled_with_room(engine, firmness: np.ndarray) -> motions.MotionState:
             engine.make_room(2 * len(engine.spare.meetings.rows))
 
 
-def _settled(engine, firmness: np.ndarray) -> motions.MotionState:
+def _settled(engine: Engine, firmness: Array) -> motions.MotionState:
     """`standing` by proximal steps of a `firmness` (nb,) [1/s2]."""
     structure, settling = engine.structure, Settling(engine, firmness)
     try:
@@ -82,7 +89,7 @@ def _settled(engine, firmness: np.ndarray) -> motions.MotionState:
     return start
 
 
-def unstrained(engine, motion) -> motions.MotionState:
+def unstrained(engine: Engine, motion: MotionState) -> motions.MotionState:
     """A motion of which the places of the bodies are known: they fall freely from there, and links
     are as tight as they are.
     """
@@ -100,7 +107,7 @@ def unstrained(engine, motion) -> motions.MotionState:
     return motion
 
 
-def of_parts(engine, parts, stands: bool) -> motions.MotionState:
+def of_parts(engine: Engine, parts: tuple[Part, ...], stands: bool) -> motions.MotionState:
     """The motion that the parts of a StructureModel begin with.
 
     stands: whether they come from gravity equilibrium; else they are unstrained where the parts

@@ -4,15 +4,21 @@ pressure of the whole mesh are made again.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import poses_of
 from fecolumn.engines.reduced.elastic import COORDINATE
+from fecolumn.foundation._compiled import Array
 from fecolumn.foundation.atomic import write_hdf5
+
+if TYPE_CHECKING:
+    from fecolumn.engines.reduced.engine import Engine
+    from fecolumn.structures.model import BodyModel
 
 #: File of the states in a result folder
 STATES_FILE = "states.h5"
@@ -56,19 +62,19 @@ class Snapshot(NamedTuple):
     """
 
     time: float
-    center: np.ndarray
-    rotation: np.ndarray
-    modal: np.ndarray
-    position: np.ndarray
-    force: np.ndarray
-    carriers: np.ndarray
-    weights: np.ndarray
-    interface: np.ndarray
-    below: np.ndarray
-    shares: np.ndarray
-    broken: np.ndarray
+    center: Array
+    rotation: Array
+    modal: Array
+    position: Array
+    force: Array
+    carriers: Array
+    weights: Array
+    interface: Array
+    below: Array
+    shares: Array
+    broken: Array
 
-    def at_nodes(self, count: int) -> np.ndarray:
+    def at_nodes(self, count: int) -> Array:
         """Contact forces (count, 3) [N] on the nodes of all bodies, in the table's frame."""
         forces, each = np.zeros((count, 3)), np.asarray(self.force, float)[:, None]
         np.add.at(forces, self.carriers, self.weights[:, :, None] * each)
@@ -76,7 +82,7 @@ class Snapshot(NamedTuple):
         return forces
 
 
-def state_of(engine) -> Snapshot:
+def state_of(engine: Engine) -> Snapshot:
     """The state of an engine's bodies now.
 
     Modal coordinates are kept without their static part F f / w^2: f are the modal forces of the
@@ -147,11 +153,12 @@ class States:
         of a structure's bodies; none of a single column.
     """
 
-    def __init__(self, every: int, models, names=()):
-        self.every, self.models, self.names, self._states = every, models, tuple(names), []
+    def __init__(self, every: int, models: list[BodyModel], names: Sequence[str] = ()) -> None:
+        self.every, self.models, self.names = every, models, tuple(names)
+        self._states: list[Any] = []
         self._bytes = 0
 
-    def add(self, engine, last: bool = False) -> None:
+    def add(self, engine: Engine, last: bool = False) -> None:
         """Keep the state of the engine now; last: of the analysis, which is kept whatever its
         step.
         """
@@ -165,7 +172,7 @@ class States:
             self._states = self._states[::2]
             self._bytes = sum(map(_size, self._states))
 
-    def arrays(self) -> dict[str, np.ndarray]:
+    def arrays(self) -> dict[str, Array]:
         """One array a quantity: of n states, or of the points of all of them one after the
         other.
         """
@@ -189,7 +196,7 @@ class States:
             arrays["broken"] = np.array([state.broken for state in states], _BROKEN[0])
         return arrays
 
-    def to_resume(self) -> dict[str, np.ndarray]:
+    def to_resume(self) -> dict[str, Array]:
         """Arrays of a checkpoint that `resumed` takes."""
         return {
             f"states.{name}": values
@@ -209,7 +216,7 @@ class States:
     def write(self, folder: Path, attributes: dict) -> None:
         """Write the file."""
 
-        def fill(file):
+        def fill(file: Any) -> None:
             file.attrs.update(attributes)
             if self.names:
                 file.attrs["bodies"] = list(self.names)
@@ -245,7 +252,7 @@ class States:
         write_hdf5(folder / STATES_FILE, fill)
 
 
-def modes_of(each: list[np.ndarray]) -> np.ndarray:
+def modes_of(each: list[Array]) -> Array:
     """A row (m,) for each body of what its modes have, zeros where it has fewer modes than another:
     (nb, m).
     """
@@ -255,7 +262,7 @@ def modes_of(each: list[np.ndarray]) -> np.ndarray:
     return rows
 
 
-def read_states(file: Path) -> dict[str, np.ndarray]:
+def read_states(file: Path) -> dict[str, Array]:
     """Arrays of the file by name, as of `States.arrays`, with "frequencies" [rad/s] and `signature`
     of the modes, and the names of a structure's "bodies".
 
@@ -279,7 +286,7 @@ def read_states(file: Path) -> dict[str, np.ndarray]:
         return {name: content[name][()] for name in names} | {"bodies": np.array(bodies)}
 
 
-def signature(model) -> np.ndarray:
+def signature(model: BodyModel) -> Array:
     """(m,) [kg^-1/2] a fixed sum over the shapes at the foot of each mode: other signs, or other
     modes of a pair of one frequency, make another.
     """
@@ -287,7 +294,7 @@ def signature(model) -> np.ndarray:
     return np.einsum("iam,ia->m", model.shapes, np.cos(1.0 + np.arange(count)).reshape(-1, 3))
 
 
-def state_at(arrays: dict[str, np.ndarray], k: int) -> Snapshot:
+def state_at(arrays: dict[str, Array], k: int) -> Snapshot:
     """Snapshot `k` of the arrays of `States.arrays`."""
     first = int(arrays["points"][:k].sum())
     points, count = slice(first, first + int(arrays["points"][k])), int(arrays["points"][k])
@@ -298,7 +305,7 @@ def state_at(arrays: dict[str, np.ndarray], k: int) -> Snapshot:
         else np.zeros((count, *shape), int if kind.startswith("i") else float)
         for name, (kind, shape, *_) in (_OF_POINT | _OF_PAIR).items()
     ]
-    return Snapshot(
+    return Snapshot(  # type: ignore[call-arg]  # of unknown number
         float(arrays["time"][k]),
         np.reshape(arrays["center"][k], (-1, 3)),
         rotation,

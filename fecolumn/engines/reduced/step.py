@@ -4,6 +4,8 @@ rotation, contact, impact.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.arrays import put
@@ -59,11 +61,27 @@ from fecolumn.engines.reduced.ledger import (
 from fecolumn.engines.reduced.motion import push_bodies
 from fecolumn.engines.reduced.rigid_loss import begin_impact, follow_impact
 from fecolumn.engines.reduced.rotation import orthonormal, turn_by
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, Record, njit
+
+if TYPE_CHECKING:
+    from fecolumn.contact.projection import GroundTops
+    from fecolumn.engines.reduced.equilibrium import Work
+    from fecolumn.engines.reduced.model import Scheme, Structure
+    from fecolumn.engines.reduced.motion import MotionState
 
 
 @njit
-def step(structure, base, scheme, work, start, ground, end, ledger, counts):
+def step(
+    structure: Structure,
+    base: GroundTops,
+    scheme: Scheme,
+    work: Work,
+    start: MotionState,
+    ground: Array,
+    end: MotionState,
+    ledger: Array,
+    counts: Array,
+) -> int:
     """Carry `start` to `end`, one scheme.dt later, under the accelerations (3 G,) of the grounds;
     the steps of `dynamics.stepper`.
 
@@ -102,7 +120,9 @@ def step(structure, base, scheme, work, start, ground, end, ledger, counts):
 
 
 @njit
-def place_points_of_step(structure, dt, work, start, end, allowed):
+def place_points_of_step(
+    structure: Structure, dt: float, work: Work, start: MotionState, end: MotionState, allowed: bool
+) -> bool:
     """Place the points of a step, and bring what they carry to them; end gets the state of the
     rims. Returns: whether any rim rolled.
     """
@@ -139,7 +159,9 @@ def place_points_of_step(structure, dt, work, start, end, allowed):
 
 
 @njit
-def lay_points(structure, dt, work, start, end):
+def lay_points(
+    structure: Structure, dt: float, work: Work, start: MotionState, end: MotionState
+) -> None:
     """Lay the points of joints with two sides, for a step dt [s]."""
     if len(structure.overlaps.joints) == 0:
         return
@@ -167,7 +189,15 @@ def lay_points(structure, dt, work, start, end):
 
 
 @njit
-def _place_rim(structure, k, rim, work, start, end, allowed):
+def _place_rim(
+    structure: Structure,
+    k: int,
+    rim: Array,
+    work: Work,
+    start: MotionState,
+    end: MotionState,
+    allowed: bool,
+) -> bool:
     """`place_points_of_step` of the round rim of interface k: whether it rolled."""
     points, now, then = work.points, work.poses[START, k].turned, work.poses[END, k].turned
     rolls, tilt, roll = plan_roll(
@@ -203,7 +233,17 @@ def _place_rim(structure, k, rim, work, start, end, allowed):
 
 
 @njit
-def _advance_without_impact(structure, base, scheme, work, start, ground, end, ledger, counts):
+def _advance_without_impact(
+    structure: Structure,
+    base: GroundTops,
+    scheme: Scheme,
+    work: Work,
+    start: MotionState,
+    ground: Array,
+    end: MotionState,
+    ledger: Array,
+    counts: Array,
+) -> tuple[int, float]:
     """`step` with the points where they are and without impact: OK or the code of what failed, and
     the energy that contact created.
 
@@ -278,7 +318,9 @@ def _advance_without_impact(structure, base, scheme, work, start, ground, end, l
 
 
 @njit
-def _add_rolling_resistance(structure, k, work, start, dt):
+def _add_rolling_resistance(
+    structure: Structure, k: int, work: Work, start: MotionState, dt: float
+) -> None:
     """Add to the action on slave and master what resists that the rim of interface k rolls."""
     interface, pose, resistance = (
         structure.interfaces[k],
@@ -318,7 +360,7 @@ def _add_rolling_resistance(structure, k, work, start, dt):
 
 
 @njit
-def _predictor(scheme, start, b, k):
+def _predictor(scheme: Scheme, start: MotionState, b: int, k: int) -> tuple[float, float]:
     """Coordinate and rate of a mode at the end of the step without new accelerations: as
     Stage.target and Stage.velocity.
     """
@@ -329,7 +371,14 @@ def _predictor(scheme, start, b, k):
 
 
 @njit
-def _finish(structure, scheme, work, start, ground, end):
+def _finish(
+    structure: Structure,
+    scheme: Scheme,
+    work: Work,
+    start: MotionState,
+    ground: Array,
+    end: MotionState,
+) -> None:
     """Velocities, accelerations and anchors at the end of the step."""
     dt, al, ga, action, momentum, carried = (
         scheme.dt,
@@ -397,7 +446,18 @@ def _finish(structure, scheme, work, start, ground, end):
 
 
 @njit
-def _collide(structure, base, scheme, work, start, end, contact_work, booked, ledger, counts):
+def _collide(
+    structure: Structure,
+    base: GroundTops,
+    scheme: Scheme,
+    work: Work,
+    start: MotionState,
+    end: MotionState,
+    contact_work: float,
+    booked: Array,
+    ledger: Array,
+    counts: Array,
+) -> int:
     """Take the velocities of `end` anew where a point lands or slip ends: OK, or the code of what
     failed; booked: the ledger at the start of the step.
     """
@@ -484,7 +544,9 @@ def _collide(structure, base, scheme, work, start, end, contact_work, booked, le
 
 
 @njit
-def _work_of_moving_grounds(structure, point, poses, impulse, end):
+def _work_of_moving_grounds(
+    structure: Structure, point: Record, poses: Array, impulse: Array, end: MotionState
+) -> float:
     """Energy [J] that an impulse (3,) at a point brings from grounds that move relative to the
     first one: those on which its slave stands, or which hold one of its bodies.
     """
@@ -501,7 +563,9 @@ def _work_of_moving_grounds(structure, point, poses, impulse, end):
 
 
 @njit
-def _find_velocities(structure, work, i, start, end):
+def _find_velocities(
+    structure: Structure, work: Work, i: int, start: MotionState, end: MotionState
+) -> None:
     """Velocities of point i at both ends of a step."""
     find_elastic(structure, work.points, i, start, work.elastic, START)
     find_velocity(

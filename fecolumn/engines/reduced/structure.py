@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
@@ -18,11 +20,20 @@ from fecolumn.engines.dynamics.links_of_model import links_of
 from fecolumn.engines.reduced.found_of_model import found_interfaces, found_of, found_points
 from fecolumn.engines.reduced.model import Structure, modal_sum
 from fecolumn.engines.reduced.observe import MARK, View
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.engines.dynamics.hht import HHT
+    from fecolumn.structures.model import BodyModel, StructureModel
 
 
 def structure_of(
-    model, hht, gravity, parts_of_step: int = 1, meetings: int | None = None
-) -> tuple[Structure, np.ndarray]:
+    model: StructureModel,
+    hht: HHT,
+    gravity: Array,
+    parts_of_step: int = 1,
+    meetings: int | None = None,
+) -> tuple[Structure, Array]:
     """Structure as steps of `hht` see it, and its points (P,) of POINT.
 
     Parameters
@@ -79,9 +90,8 @@ def structure_of(
     joints = joints_of(parts, model.joints, model.replaced)
     for interface, joint in zip(joints.interfaces, model.joints):
         if joint.master != GROUND:
-            interface["reach"] = reach[
-                first[joint.master] + parts[joint.master].model.surfaces[joint.master_surface].nodes
-            ].max()
+            surface = parts[joint.master].model.surfaces[str(joint.master_surface)]
+            interface["reach"] = reach[first[joint.master] + surface.nodes].max()
     rows = meetings if meetings is not None else FOUND_ROWS * len(parts) if model.found else 0
     interfaces, points = joints.interfaces, joints.points
     found = found_of(model, first, reach, len(interfaces), len(points), rows)
@@ -104,7 +114,7 @@ def structure_of(
     return structure, points
 
 
-def _least_give(body, dt: float, held: int) -> float:
+def _least_give(body: BodyModel, dt: float, held: int) -> float:
     """What each contact point of a BodyModel that does not deform gives alone in steps dt [s], in
     m/N: RIGID_GIVE of what the body's points move on the mean; none of a fixed one, `held` by a
     ground.
@@ -123,7 +133,9 @@ def _least_give(body, dt: float, held: int) -> float:
     return float(RIGID_GIVE * dt**2 / 2 * moved)
 
 
-def view_of(model, structure, weight: float, limits: Limits, cap: float = 0.0) -> View:
+def view_of(
+    model: StructureModel, structure: Structure, weight: float, limits: Limits, cap: float = 0.0
+) -> View:
     """What is watched of a StructureModel.
 
     Parameters

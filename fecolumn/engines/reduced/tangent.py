@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -10,6 +10,13 @@ from fecolumn.contact.problem import near_points
 from fecolumn.contact.tolerances import LEAST_COMPLIANCE, STICKS
 from fecolumn.engines.dynamics.links_of_model import rows_of_links
 from fecolumn.engines.reduced.elastic import END
+from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.contact.pad import Springs
+    from fecolumn.engines.reduced.equilibrium import Work
+    from fecolumn.engines.reduced.model import Structure
+    from fecolumn.engines.reduced.motion import MotionState
 
 
 class Masses(NamedTuple):
@@ -18,13 +25,13 @@ class Masses(NamedTuple):
     leaves out.
     """
 
-    mass: np.ndarray
-    inertia: np.ndarray
-    factor: np.ndarray
-    free: np.ndarray
+    mass: Array
+    inertia: Array
+    factor: Array
+    free: Array
 
 
-def masses_of(structure) -> Masses:
+def masses_of(structure: Structure) -> Masses:
     """Those of the bodies of a Structure, as their inverses say."""
     bodies = structure.bodies.body
     free = bodies["held"] < 0
@@ -33,7 +40,7 @@ def masses_of(structure) -> Masses:
     return Masses(mass, inertia, np.linalg.cholesky(inertia), free)
 
 
-def coordinates_of(masses: Masses, ways, turns, modal) -> np.ndarray:
+def coordinates_of(masses: Masses, ways: Array, turns: Array, modal: Array) -> Array:
     """Displacements (6 nb + nb m,) times the roots of the masses: ways and turns (nb, 3) [m], [rad]
     body by body, then modal coordinates (nb, m).
     """
@@ -43,9 +50,7 @@ def coordinates_of(masses: Masses, ways, turns, modal) -> np.ndarray:
     return np.concatenate([rigid.ravel(), modal.ravel()])
 
 
-def displacements_of(
-    masses: Masses, coordinates: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def displacements_of(masses: Masses, coordinates: Array) -> tuple[Array, Array, Array]:
     """Ways, turns and modal coordinates of `coordinates_of`."""
     count = len(masses.mass)
     rigid, modal = coordinates[: 6 * count].reshape(count, 6), coordinates[6 * count :]
@@ -54,8 +59,14 @@ def displacements_of(
 
 
 def tangent_of(
-    structure, springs, work, masses: Masses, motion, yielding, touches: float = 0.0
-) -> np.ndarray:
+    structure: Structure,
+    springs: Springs,
+    work: Work,
+    masses: Masses,
+    motion: MotionState,
+    yielding: Array,
+    touches: float = 0.0,
+) -> Array:
     """Stiffness (n, n) [1/s2] in the coordinates of `coordinates_of` about a motion to which a step
     of `springs` came; bodies that grounds hold have none.
 
@@ -90,7 +101,14 @@ def tangent_of(
     return tangent
 
 
-def _contact_rows(structure, springs, work, masses, motion, carrying) -> np.ndarray:
+def _contact_rows(
+    structure: Structure,
+    springs: Springs,
+    work: Work,
+    masses: Masses,
+    motion: MotionState,
+    carrying: Array,
+) -> Array:
     """Rows (k, n) of which the squares add up to the stiffness of contact: C^-1/2 B, of points with
     compliance C (k, k) that displacements move by B relative to one another; carrying: (k,) numbers
     of the points.
@@ -132,9 +150,9 @@ def _contact_rows(structure, springs, work, masses, motion, carrying) -> np.ndar
         if not body["stiff"]:
             compliance += flat @ bodies.static[rows, : 3 * body["count"]] @ flat.T
         if modes:
-            at = slice(6 * count + modes * b, 6 * count + modes * (b + 1))
+            columns = slice(6 * count + modes * b, 6 * count + modes * (b + 1))
             pushes = bodies.pushes.reshape(-1, modes)[rows]
-            moved[..., at] = (flat @ pushes).reshape(len(carrying), 3, modes)
+            moved[..., columns] = (flat @ pushes).reshape(len(carrying), 3, modes)
     force, friction = contact["force"][carrying], points["friction"][carrying]
     holds = np.ones((len(carrying), 3), bool)
     slides = np.hypot(*force[:, :2].T) >= STICKS * friction * force[:, 2]

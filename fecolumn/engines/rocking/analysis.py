@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
 from fecolumn.engines.analysis import Analysis
@@ -20,6 +19,7 @@ from fecolumn.engines.ending import AT_REST, OVERTURNED, STILL_ROCKING, Ending
 from fecolumn.engines.rocking.body_motion import body_motion
 from fecolumn.engines.rocking.model import STATE_TERMS, ModelResponse
 from fecolumn.engines.rocking.of_bodies import ALONG_X, model_of, start_of
+from fecolumn.foundation._compiled import Array
 from fecolumn.motions.record import GroundMotion
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ class ModelAnalysis(Analysis):
         more = dict(impacts=int((times <= end).sum()), notes=list(notes), peaks=response.peaks)
         return self.write_results(ending, len(response.coordinates), more)
 
-    def _left_out(self, samples: NDArray[Any]) -> list[str]:
+    def _left_out(self, samples: Array) -> list[str]:
         """Sentences on what of a motion (n, 3) [m/s2] does nothing to the model."""
         engine, across = self.case.integration.engine, float(np.abs(samples[:, 1]).max())
         if engine not in ALONG_X or self.case.own or not across:
@@ -116,7 +116,7 @@ class ModelAnalysis(Analysis):
             f"{across:.3g} m/s2, does nothing to it"
         ]
 
-    def _energy(self, response: ModelResponse, rows: int) -> dict[str, NDArray[Any]]:
+    def _energy(self, response: ModelResponse, rows: int) -> dict[str, Array]:
         """All terms of the ledger; those that a model has not are 0."""
         from fecolumn.engines.dynamics.energy import TERMS
 

@@ -5,20 +5,19 @@ figures ask of the history of any analysis.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fecolumn.case.bodies import Storeys
 from fecolumn.case.case import Case
 from fecolumn.engines.rocking.column import RigidColumn, rigid_body
 from fecolumn.engines.rocking.model import ModelResponse, moved_about_edge
 from fecolumn.engines.rocking.of_bodies import rocking_bodies
+from fecolumn.foundation._compiled import Array
 from fecolumn.structures.storeys import building_of
 
 
-def body_motion(case: Case, response: ModelResponse, file: Path | str) -> dict[str, NDArray[Any]]:
+def body_motion(case: Case, response: ModelResponse, file: Path | str) -> dict[str, Array]:
     """Columns (n, ...) of the history by name: displacement [m] of the centre of mass, rotation
     vector [rad] and tilt [rad] of each body, displacement [m] of its top, drift [m] and shear [N]
     of its storeys; of a single body also what the ground does to it, as of an interface. Nothing of
@@ -35,7 +34,7 @@ def body_motion(case: Case, response: ModelResponse, file: Path | str) -> dict[s
     rotation = np.column_stack([-lean[:, 1], lean[:, 0], np.zeros(len(lean))])
     center = _moved(lean, wobbles, own.height, own.half_foot, own.offset)
     top = _moved(lean, wobbles, own.top, own.half_foot)
-    found: dict[str, NDArray[Any]] = {}
+    found: dict[str, Array] = {}
     for column in case.names_of(name):
         found |= {
             f"body/{column}/displacement": center,
@@ -73,8 +72,8 @@ def body_motion(case: Case, response: ModelResponse, file: Path | str) -> dict[s
 
 
 def _at_foot(
-    case: Case, name: str, own: RigidColumn, lean: NDArray[Any], response: ModelResponse
-) -> dict[str, NDArray[Any]]:
+    case: Case, name: str, own: RigidColumn, lean: Array, response: ModelResponse
+) -> dict[str, Array]:
     """Columns of the joint of a single body with the ground, by name: as of any interface. A body
     that leans by `lean` (n, 2) [rad] stands on the middle of an edge, or on a place of its rim; one
     that stands, where the resultant of weight and inertia meets its foot.
@@ -105,12 +104,12 @@ def _at_foot(
     }
 
 
-def _lean(response: ModelResponse) -> NDArray[Any]:
+def _lean(response: ModelResponse) -> Array:
     """Angles (n, 2) [rad] by which columns lean towards x and y."""
     known = response.coordinates
     if "phi" in known:
         towards = np.column_stack([np.cos(known["phi"]), np.sin(known["phi"])])
-        leant: NDArray[Any] = known["theta"][:, None] * towards
+        leant: Array = known["theta"][:, None] * towards
         return leant
     still = np.zeros(len(response.time))
     along = known.get("theta_x", known.get("theta", still))
@@ -118,12 +117,12 @@ def _lean(response: ModelResponse) -> NDArray[Any]:
 
 
 def _moved(
-    lean: NDArray[Any],
+    lean: Array,
     wobbles: bool,
     height: float,
     half: tuple[float, float],
     aside: tuple[float, float] = (0.0, 0.0),
-) -> NDArray[Any]:
+) -> Array:
     """Displacement (n, 3) [m] of a point of a column that leans by `lean` (n, 2) [rad].
 
     A round column that wobbles turns about the place of its rim to which it leans; another one

@@ -15,14 +15,13 @@ outweighs what an impulse gives.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.overturning import critical_tilt_rate
 from fecolumn.engines.rocking.swing import rock_one, row_of_block
+from fecolumn.foundation._compiled import Array
 from fecolumn.motions.record import GroundMotion
 
 
@@ -55,7 +54,7 @@ def least_impulse(
 
 def tilt_velocities(
     slenderness: float, p: float, restitution: float, impulse: float, impulses: int
-) -> NDArray[Any]:
+) -> Array:
     """Tilt velocities (n,) after each of equal impulses [m/s] at the impacts, from rest [rad/s];
     magnitudes, as if none overturned.
     """
@@ -86,7 +85,7 @@ def critical_motion(
     )
 
 
-def _samples(places: list[int], impulse: float, dt: float) -> NDArray[Any]:
+def _samples(places: list[int], impulse: float, dt: float) -> Array:
     """Accelerations (n, 3) of impulses at sample numbers, turn about; a positive one tilts the
     block to the negative side.
     """

@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from fecolumn.case.model_sections import FrameSection
 from fecolumn.case.sections import GRAVITY
@@ -22,6 +22,7 @@ from fecolumn.engines.rocking.block import described
 from fecolumn.engines.rocking.impact import frame_restitution
 from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
+from fecolumn.foundation._compiled import Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -146,13 +147,13 @@ class RockingFrame(PlanarModel):
         b = self.half_diagonal * math.sin(self.slenderness)
         return (1 + 2 * self.mass_ratio) * self.column_mass * GRAVITY / (b * self.slenderness)
 
-    def pushover(self, displacement: ArrayLike) -> NDArray[Any]:
+    def pushover(self, displacement: ArrayLike) -> Array:
         """Horizontal force at the beam [N] that holds the frame at a displacement >= 0 [m]; exact,
         from virtual work.
         """
         return self.plane.pushover(displacement)
 
-    def linear_pushover(self, displacement: ArrayLike) -> NDArray[Any]:
+    def linear_pushover(self, displacement: ArrayLike) -> Array:
         """The same for slender columns: (1/2 + gamma) N m_c g alpha + (k b alpha/2 - (1/2 + gamma)
         m_c g) N u/(2 h), k of each tendon over one joint.
         """

@@ -13,11 +13,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, SupportsFloat
+from typing import SupportsFloat
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from fecolumn.foundation._compiled import Array
 from fecolumn.motions.record import GroundMotion
 
 #: Delta_1/Delta_u and Delta_2/Delta_u by the state of the mortar joints, of Doherty, Griffith, Lam
@@ -42,17 +43,17 @@ class Capacity:
         (n,) force over the oscillator's mass [m/s2], 0 at the last.
     """
 
-    displacement: NDArray[Any]
-    acceleration: NDArray[Any]
+    displacement: Array
+    acceleration: Array
 
     @property
     def ultimate(self) -> float:
         """Displacement at which it falls [m]."""
         return float(self.displacement[-1])
 
-    def at(self, displacement: float | NDArray[Any]) -> NDArray[Any]:
+    def at(self, displacement: float | Array) -> Array:
         """Acceleration [m/s2] at a displacement >= 0 [m], 0 beyond the ultimate one."""
-        found: NDArray[Any] = np.interp(displacement, self.displacement, self.acceleration)
+        found: Array = np.interp(displacement, self.displacement, self.acceleration)
         return found
 
     def secant_stiffness(self, displacement: float) -> float:

@@ -23,6 +23,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linprog
 from scipy.sparse import coo_matrix, vstack
 
+from fecolumn.foundation._compiled import Array
+
 #: Two faces touch where they are this close, over the smallest side of a block [-]
 _CLOSE = 1e-6
 
@@ -43,8 +45,8 @@ class StraightJoint:
 
     first: int
     second: int
-    ends: NDArray[Any]
-    normal: NDArray[Any]
+    ends: Array
+    normal: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,9 +72,9 @@ class Collapse:
     """
 
     multiplier: float
-    normal: NDArray[Any]
-    shear: NDArray[Any]
-    velocity: NDArray[Any]
+    normal: Array
+    shear: Array
+    velocity: Array
     residual: float
     iterations: int
 
@@ -93,15 +95,15 @@ class Wall:
         (blocks,) horizontal loads at the centres [N] for a multiplier of 1; towards +x positive.
     """
 
-    boxes: NDArray[Any]
-    weights: NDArray[Any]
+    boxes: Array
+    weights: Array
     joints: tuple[StraightJoint, ...]
-    loads: NDArray[Any]
+    loads: Array
 
     @property
-    def centres(self) -> NDArray[Any]:
+    def centres(self) -> Array:
         """(blocks, 2) [m]."""
-        middles: NDArray[Any] = (self.boxes[:, :2] + self.boxes[:, 2:]) / 2
+        middles: Array = (self.boxes[:, :2] + self.boxes[:, 2:]) / 2
         return middles
 
 
@@ -254,13 +256,13 @@ def non_associated(
     return min(found, key=lambda one: one.multiplier)
 
 
-def _residual(wall: Wall, normal: NDArray[Any], shear: NDArray[Any], friction: float) -> float:
+def _residual(wall: Wall, normal: Array, shear: Array, friction: float) -> float:
     return float((np.abs(shear) - friction * normal.sum(axis=1)).max() / wall.weights.sum())
 
 
 def _programme(
-    wall: Wall, slope: NDArray[Any], kept: NDArray[Any], near: NDArray[Any] | None = None
-) -> tuple[float, NDArray[Any], NDArray[Any], NDArray[Any]]:
+    wall: Wall, slope: Array, kept: Array, near: Array | None = None
+) -> tuple[float, Array, Array, Array]:
     """Multiplier, forces and mechanism for |s| <= kept + slope (n_1 + n_2) at each joint; of many
     forces those nearest to compressions `near`.
     """
@@ -270,7 +272,7 @@ def _programme(
     columns: list[int] = []
     values: list[float] = []
 
-    def act(block: int, column: int, force: NDArray[Any], at: NDArray[Any]) -> None:
+    def act(block: int, column: int, force: Array, at: Array) -> None:
         if block >= 0:
             arm = at - centres[block]
             rows.extend((3 * block, 3 * block + 1, 3 * block + 2))

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.engines.ending import OVERTURNED
+from fecolumn.foundation._compiled import Array
 from fecolumn.motions.record import GroundMotion
 
 SAFE = "safe"
@@ -64,18 +65,18 @@ class ModelResponse:
         where the model does not tell it.
     """
 
-    time: NDArray[Any]
-    coordinates: dict[str, NDArray[Any]]
+    time: Array
+    coordinates: dict[str, Array]
     units: dict[str, str]
-    tilt: NDArray[Any]
-    u_top: NDArray[Any]
+    tilt: Array
+    u_top: Array
     overturned: bool
-    impact_times: NDArray[Any]
-    energy: dict[str, NDArray[Any]]
+    impact_times: Array
+    energy: dict[str, Array]
     notes: tuple[str, ...] = ()
     peaks: dict[str, float] = field(default_factory=dict)
-    floors: NDArray[Any] = field(default_factory=lambda: np.zeros((0, 0)))
-    base_force: NDArray[Any] = field(default_factory=lambda: np.zeros((0, 3)))
+    floors: Array = field(default_factory=lambda: np.zeros((0, 0)))
+    base_force: Array = field(default_factory=lambda: np.zeros((0, 3)))
 
     @property
     def outcome(self) -> str:
@@ -142,9 +143,7 @@ class Model(Protocol):
         """
 
 
-def moved_about_edge(
-    lean: ArrayLike, height: ArrayLike, inside: ArrayLike
-) -> tuple[NDArray[Any], NDArray[Any]]:
+def moved_about_edge(lean: ArrayLike, height: ArrayLike, inside: ArrayLike) -> tuple[Array, Array]:
     """Displacement (n,) along a lean of at least 0 [rad], and up [m], of a point at a height above
     the edge about which it turns, `inside` [m] of it.
     """
@@ -153,7 +152,7 @@ def moved_about_edge(
     return inside * down + height * np.sin(lean), inside * np.sin(lean) - height * down
 
 
-def balanced(**terms: NDArray[Any]) -> dict[str, NDArray[Any]]:
+def balanced(**terms: NDArray[Any]) -> dict[str, Array]:
     """Terms of the energy (n,) [J] as of ModelResponse, and their closure."""
     kinetic, strain, gravity = (terms[name] for name in STATE_TERMS)
     total = kinetic + strain + gravity
@@ -164,10 +163,10 @@ def balanced(**terms: NDArray[Any]) -> dict[str, NDArray[Any]]:
 def check_friction(
     what: str,
     peak: str,
-    along: NDArray[Any],
-    upward: NDArray[Any],
-    time: NDArray[Any],
-    counts: NDArray[Any],
+    along: Array,
+    upward: Array,
+    time: Array,
+    counts: Array,
     available: float,
 ) -> tuple[list[str], dict[str, float]]:
     """Note where a model that does not slide demands more friction than there is, and the peak.

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fecolumn.case.bodies import Block, Cylinder, Storeys, Tube
 from fecolumn.case.body_keys import Placed, WithMaterial
@@ -28,6 +27,7 @@ from fecolumn.engines.rocking.soft_ground import tell_of_soft_ground
 from fecolumn.engines.rocking.storeys import shear_building
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
 from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
+from fecolumn.foundation._compiled import Array
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.storeys import building_of
 
@@ -283,7 +283,7 @@ class _Reader:
                 )
         self._check_level(np.array(places)[:, :2], np.add(on[:2], beam.offset))
 
-    def _check_level(self, places: NDArray[Any], middle: NDArray[Any]) -> None:
+    def _check_level(self, places: Array, middle: Array) -> None:
         """Refuse columns at places (n, 2) [m] that do not keep what lies on them level, with its
         centre of mass at `middle` (2,) [m].
         """

@@ -8,15 +8,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import brentq
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.swing import IMPACT_COUNT, PEAK_TILT, rock_all, row_of_block
+from fecolumn.foundation._compiled import Array
 from fecolumn.motions.pulses import Pulse
 
 #: Coefficients of a_p/(g tan alpha) = 1 + beta w_p/p (Makris and Roussos 1998), and gamma of tan
@@ -51,7 +51,7 @@ def pulse_outcomes(
     amplitudes: ArrayLike,
     slenderness: float,
     restitution: float | None = None,
-) -> NDArray[Any]:
+) -> Array:
     """Impacts before the block overturns, -1 where it stays (n,), for amplitudes a_p/(g tan alpha)
     (n,) of a pulse of frequency w_p/p.
     """
@@ -68,7 +68,7 @@ def pulse_outcomes(
     return np.where(np.isinf(found[:, PEAK_TILT]), found[:, IMPACT_COUNT], -1).astype(int)
 
 
-def _unit_pulse(shape: str, frequency: float) -> tuple[NDArray[Any], float]:
+def _unit_pulse(shape: str, frequency: float) -> tuple[Array, float]:
     """Samples (n, 2) along x and z of a pulse of amplitude 1, and their step in units of 1/p."""
     pulse = Pulse(shape, 1.0, 2 * math.pi / frequency)
     count = math.ceil(_SAMPLES * (pulse.end - pulse.start) / pulse.period)
@@ -148,18 +148,18 @@ def half_sine_phase(frequency: float) -> float:
     return phase
 
 
-def linear_overturning(shape: str, frequency: ArrayLike) -> NDArray[Any]:
+def linear_overturning(shape: str, frequency: ArrayLike) -> Array:
     """a_p/(g tan alpha) = 1 + beta w_p/p, for w_p/p <= pi: a line through computed spectra, not a
     bound.
 
     At alpha = 10 degrees the one-sine pulse overturns at 6 to 9 % less. Source: Makris and Roussos
     (1998).
     """
-    least: NDArray[Any] = 1 + LINEAR[shape] * np.asarray(frequency, float)
+    least: Array = 1 + LINEAR[shape] * np.asarray(frequency, float)
     return least
 
 
-def slenderness_factor(duration: ArrayLike, pulse: str = "rectangular") -> NDArray[Any]:
+def slenderness_factor(duration: ArrayLike, pulse: str = "rectangular") -> Array:
     """Factor phi by which a block has to be slender to survive a pulse (Makris and Vassiliou 2012).
 
     A slender block on rigid ground does not overturn where tan(alpha) >= phi a_p / g. Here alpha
@@ -180,9 +180,7 @@ def slenderness_factor(duration: ArrayLike, pulse: str = "rectangular") -> NDArr
     -------
     phi [-], in the shape of `duration`.
     """
-    factor: NDArray[Any] = np.asarray(duration, float) / (
-        DESIGN[pulse] + np.asarray(duration, float)
-    )
+    factor: Array = np.asarray(duration, float) / (DESIGN[pulse] + np.asarray(duration, float))
     return factor
 
 

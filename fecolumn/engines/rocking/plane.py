@@ -6,10 +6,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.model import (
@@ -43,6 +42,7 @@ from fecolumn.engines.rocking.swing import (
     look,
     rock_one,
 )
+from fecolumn.foundation._compiled import Array
 from fecolumn.motions.record import GroundMotion
 
 
@@ -104,7 +104,7 @@ class Plane:
         return tuple(self.mass * GRAVITY * r / i for r, i in zip(self.radius, self.inertia))
 
     @property
-    def row(self) -> NDArray[Any]:
+    def row(self) -> Array:
         """(N_PARAMETERS,) for `swing.rock_all`."""
         row, inertia = np.zeros(N_PARAMETERS), np.array(self.inertia)[:, None]
         springs = np.array([one.moments for one in self.restraints]) / inertia
@@ -125,7 +125,7 @@ class Plane:
         """+1, -1 or both: where it can lean to."""
         return (self.only,) if self.only else (1, -1)
 
-    def moved(self, lean: ArrayLike, side: ArrayLike) -> NDArray[Any]:
+    def moved(self, lean: ArrayLike, side: ArrayLike) -> Array:
         """Displacement (n, 2) of the top, along the axis and up [m], at a lean >= 0 on a side; both
         arrays (n,).
         """
@@ -133,7 +133,7 @@ class Plane:
         along, up = moved_about_edge(lean, self.top, inside)
         return np.column_stack([np.where(np.asarray(side) >= 0, along, -along), up])
 
-    def pushover(self, displacement: ArrayLike, side: int = 1) -> NDArray[Any]:
+    def pushover(self, displacement: ArrayLike, side: int = 1) -> Array:
         """Horizontal force at the top [N] that holds the structure at a displacement of the top >=
         0 [m], from virtual work.
         """
@@ -143,7 +143,7 @@ class Plane:
         lean = start - np.arcsin(
             np.clip(math.sin(start) - np.asarray(displacement, float) / reach, -1, 1)
         )
-        force: NDArray[Any] = self.restoring(lean, side) / (
+        force: Array = self.restoring(lean, side) / (
             self.top * np.cos(lean) + inside * np.sin(lean)
         )
         return force
@@ -168,23 +168,23 @@ class Plane:
             found.append((tilt, moved, float(sum(self.potential(tilt, side)))))
         return min(found)
 
-    def restoring(self, tilt: ArrayLike, side: int = 1) -> NDArray[Any]:
+    def restoring(self, tilt: ArrayLike, side: int = 1) -> Array:
         """Restoring moment at lean `tilt` >= 0 on a side [N m], without ground motion."""
-        found: NDArray[Any] = self._along(tilt, side)[..., 0]
+        found: Array = self._along(tilt, side)[..., 0]
         return found
 
-    def potential(self, tilt: ArrayLike, side: int = 1) -> tuple[NDArray[Any], NDArray[Any]]:
+    def potential(self, tilt: ArrayLike, side: int = 1) -> tuple[Array, Array]:
         """Gravity energy, and that of springs, tendon and thrust, at lean `tilt` >= 0 on a side,
         from upright [J].
         """
         found = self._along(tilt, side)
         return found[..., 1], found[..., 2]
 
-    def _along(self, tilt: ArrayLike, side: int) -> NDArray[Any]:
+    def _along(self, tilt: ArrayLike, side: int) -> Array:
         """Restoring moment [N m], gravity energy and energy of the restraints [J], (..., 3)."""
         row, k, found = self.row, 0 if side > 0 else 1, np.empty((np.size(tilt), 4))
         look(row, k, np.ascontiguousarray(np.ravel(tilt), float), found)
-        along: NDArray[Any] = self.mass * row[PER_MASS + k] * found[:, :3]
+        along: Array = self.mass * row[PER_MASS + k] * found[:, :3]
         return along.reshape(*np.shape(tilt), 3)
 
     def critical(self, side: int = 1) -> float:
@@ -216,8 +216,8 @@ class PlaneResponse:
     """States (n, 6) of `swing`, impact times, and whether it fell, of one plane."""
 
     plane: Plane
-    states: NDArray[Any]
-    impacts: NDArray[Any]
+    states: Array
+    impacts: Array
     fallen: bool
 
     def cut(self, n: int) -> PlaneResponse:
@@ -237,7 +237,7 @@ class PlaneResponse:
         return PlaneResponse(self.plane, states, self.impacts, self.fallen)
 
     @property
-    def energy(self) -> dict[str, NDArray[Any]]:
+    def energy(self) -> dict[str, Array]:
         """Terms of the energy [J]."""
         plane, states = self.plane, self.states
         lean, side = np.abs(states[:, SWING_TILT]), np.where(states[:, SWING_EDGE] < 0, -1, 1)
@@ -250,7 +250,7 @@ class PlaneResponse:
             kinetic=kinetic, strain=strain, gravity=gravity, base_work=work, impact=impact
         )
 
-    def base_force(self, ground: NDArray[Any]) -> NDArray[Any]:
+    def base_force(self, ground: Array) -> Array:
         """Force of the base (n, 2) along the axis and up [N], between impacts, from the momentum of
         the whole; `ground` (n, 2) [m/s2].
         """
@@ -368,7 +368,7 @@ class PlanarModel:
         )
 
 
-def _check_forces(one: PlaneResponse, force: NDArray[Any], peaks: dict[str, float]) -> list[str]:
+def _check_forces(one: PlaneResponse, force: Array, peaks: dict[str, float]) -> list[str]:
     """Add the largest friction and tension demanded to `peaks`; notes on friction that lacks;
     force: (n, 2) of the base, along the axis and up [N].
     """

@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fecolumn.case.model_sections import CRV, PodiumSection
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.model import ModelResponse, balanced
 from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.engines.rocking.storeys import ElasticBuilding, storeys
+from fecolumn.foundation._compiled import Array
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
 
@@ -136,9 +136,7 @@ class Podium:
     def _weight(self) -> float:
         return (self.columns_mass + 2 * self.beam_mass + 2 * self.building_mass) * GRAVITY
 
-    def shake(
-        self, ground: NDArray[Any], dt: float, tilt: float = 0.0, tilt_rate: float = 0.0
-    ) -> Any:
+    def shake(self, ground: Array, dt: float, tilt: float = 0.0, tilt_rate: float = 0.0) -> Any:
         """What `podium_motion.shake` returns for accelerations (n, 2) along x and up [m/s2] at
         steps dt [s].
         """

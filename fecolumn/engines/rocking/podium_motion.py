@@ -23,7 +23,7 @@ import math
 
 import numpy as np
 
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 # Columns of the rows; all energies are per mass of the columns [J/kg]
 (
@@ -51,7 +51,9 @@ _PROGRESS = 1e-6  # of a step: the least that an impact takes, so that time goes
 
 
 @njit(alone=True, fastmath=_SUMS)
-def _rates(x, side, base, modes, n, a, az, out):
+def _rates(
+    x: Array, side: float, base: Array, modes: Array, n: int, a: float, az: float, out: Array
+) -> float:
     """Rates of the state x, and the base shear V/M; base (9,): alpha, R, I, gamma, eta, g, sin,
     cos, tan of alpha; modes (3, n): omega^2, 2 xi omega, Gamma/sqrt(M).
     """
@@ -90,7 +92,23 @@ def _rates(x, side, base, modes, n, a, az, out):
 
 
 @njit(alone=True, fastmath=_SUMS)
-def _advance(x, side, base, modes, n, a, az, slope, slope_z, h, first, second, third, fourth, out):
+def _advance(
+    x: Array,
+    side: float,
+    base: Array,
+    modes: Array,
+    n: int,
+    a: float,
+    az: float,
+    slope: float,
+    slope_z: float,
+    h: float,
+    first: Array,
+    second: Array,
+    third: Array,
+    fourth: Array,
+    out: Array,
+) -> None:
     """State after a Runge-Kutta step; `first` are the rates at x; second, third and fourth (size,)
     are scratch.
     """
@@ -109,7 +127,7 @@ def _advance(x, side, base, modes, n, a, az, slope, slope_z, h, first, second, t
 
 
 @njit(alone=True)
-def _push(base, shear, a, az):
+def _push(base: Array, shear: float, a: float, az: float) -> tuple[float, float]:
     """Moment over the edges of a standing podium, in g tan alpha, and what it is over that which
     holds it; it lifts off where this is positive.
     """
@@ -119,7 +137,7 @@ def _push(base, shear, a, az):
 
 
 @njit(alone=True)
-def _free(omega, xi, h):
+def _free(omega: float, xi: float, h: float) -> tuple[float, float, float]:
     """Of a mode in free vibration, damped less than critically, in a step h: displacement from
     displacement and velocity, velocity from velocity.
     """
@@ -130,7 +148,17 @@ def _free(omega, xi, h):
 
 
 @njit(alone=True)
-def _stand(x, modes, n, free, a, slope, h, shares, out):
+def _stand(
+    x: Array,
+    modes: Array,
+    n: int,
+    free: Array,
+    a: float,
+    slope: float,
+    h: float,
+    shares: float,
+    out: Array,
+) -> None:
     """State of a standing podium after a step in which the ground's acceleration is straight:
     exact; `shares`: gamma eta.
     """
@@ -156,7 +184,7 @@ def _stand(x, modes, n, free, a, slope, h, shares, out):
 
 
 @njit(alone=True, fastmath=_SUMS)
-def _energy(x, side, base, modes, n):
+def _energy(x: Array, side: float, base: Array, modes: Array, n: int) -> tuple[float, float, float]:
     """Kinetic, strain and gravity, per mass of the columns [J/kg]."""
     alpha, radius, inertia, gamma, eta, g = base[0], base[1], base[2], base[3], base[4], base[5]
     beta = alpha - side * x[0]
@@ -176,7 +204,19 @@ def _energy(x, side, base, modes, n):
 
 
 @njit(alone=True)
-def shake(ground, dt, base, modes, storey, floors, restitution, relative, step, tilt, rate):
+def shake(
+    ground: Array,
+    dt: float,
+    base: Array,
+    modes: Array,
+    storey: Array,
+    floors: Array,
+    restitution: float,
+    relative: bool,
+    step: float,
+    tilt: float,
+    rate: float,
+) -> tuple[Array, Array, Array, float, bool]:
     """Motion of a podium.
 
     Parameters

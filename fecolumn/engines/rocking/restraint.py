@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from fecolumn.foundation._compiled import Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +77,7 @@ class Restraint:
         force, height, inside = self.thrust
         return force * height, force * inside
 
-    def tension(self, lean: ArrayLike) -> NDArray[Any]:
+    def tension(self, lean: ArrayLike) -> Array:
         """Of all tendons together [N]."""
         return sum(
             (
@@ -86,8 +87,8 @@ class Restraint:
             0.0 * np.asarray(lean),
         )
 
-    def pull(self, lean: NDArray[Any]) -> NDArray[Any]:
+    def pull(self, lean: Array) -> Array:
         """Horizontal force of springs and thrust on the structure, against the lean [N]."""
         rising, turning = self.forces
-        pull: NDArray[Any] = rising * np.sin(lean) + turning * (1 - np.cos(lean)) - self.thrust[0]
+        pull: Array = rising * np.sin(lean) + turning * (1 - np.cos(lean)) - self.thrust[0]
         return pull

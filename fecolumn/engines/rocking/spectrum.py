@@ -8,13 +8,13 @@ diagonal, and at its plastic impact r = 1 - 3/2 sin^2 alpha.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.swing import PEAK_TILT, rock_all, row_of_block
+from fecolumn.foundation._compiled import Array
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.record import GroundMotion
 
@@ -25,7 +25,7 @@ def rocking_spectrum(
     slenderness: ArrayLike,
     restitution: float | None = None,
     angle_deg: float = 0.0,
-) -> NDArray[Any]:
+) -> Array:
     """Peak tilt over slenderness of planar rigid blocks.
 
     After the motion's end the free rocking that is left is followed by its energy. A block may pass
@@ -63,13 +63,11 @@ def rocking_spectrum(
     )
     peaks = rock_all([ground], motion.dt, np.zeros(len(blocks), int), 1.0, blocks)[:, PEAK_TILT]
     result = peaks.reshape(len(slendernesses), len(periods)) / slendernesses[:, None]
-    found: NDArray[Any] = result if np.ndim(slenderness) else result[0]
+    found: Array = result if np.ndim(slenderness) else result[0]
     return found
 
 
-def larger_rocking_spectrum(
-    motion: GroundMotion, periods: ArrayLike, slenderness: float
-) -> NDArray[Any]:
+def larger_rocking_spectrum(motion: GroundMotion, periods: ArrayLike, slenderness: float) -> Array:
     """Peak tilt over slenderness (n_periods,) of planar rectangular blocks along x or y, whichever
     tilts more; as rocking_spectrum.
     """
@@ -77,11 +75,11 @@ def larger_rocking_spectrum(
         rocking_spectrum(motion, periods, slenderness, angle_deg=90.0 * axis)
         for axis in motion.horizontal_axes or (0,)
     ]
-    larger: NDArray[Any] = np.max(along, axis=0)
+    larger: Array = np.max(along, axis=0)
     return larger
 
 
-def tilt_quantile(peaks: NDArray[Any], share: float) -> NDArray[Any]:
+def tilt_quantile(peaks: Array, share: float) -> Array:
     """Least tilt within which at least `share` of the motions stay, inf where too many overturn.
 
     An order statistic: nothing is interpolated between a tilt and an overturning.
@@ -93,11 +91,11 @@ def tilt_quantile(peaks: NDArray[Any], share: float) -> NDArray[Any]:
     share
         in (0, 1].
     """
-    tilts: NDArray[Any] = np.sort(peaks, axis=0)[math.ceil(share * len(peaks) - 1e-9) - 1]
+    tilts: Array = np.sort(peaks, axis=0)[math.ceil(share * len(peaks) - 1e-9) - 1]
     return tilts
 
 
-def _block(period: float, slenderness: float, restitution: float | None) -> NDArray[Any]:
+def _block(period: float, slenderness: float, restitution: float | None) -> Array:
     if not 0 < period < math.inf:
         raise ValueError(f"period 2 pi/p = {period:g} s must be finite and greater than 0")
     if not 0 < slenderness < math.pi / 2:

@@ -7,15 +7,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
+
+from fecolumn.foundation._compiled import Array
 
 #: First mode over the height x = i/n of floor i of n, after Thermou, Pantazopoulou and Elnashai
 #: (2012)
-PROFILES: dict[str, Callable[[NDArray[Any]], NDArray[Any]]] = {
+PROFILES: dict[str, Callable[[Array], Array]] = {
     "flexural": lambda x: 1 - np.cos(math.pi * x / 2),
     "shear": lambda x: np.sin(math.pi * x / 2),
     "triangular": lambda x: x,
@@ -40,32 +40,32 @@ class ElasticBuilding:
         modes (n, n) in columns, normalised to shapes^T M shapes = 1 [kg^-1/2].
     """
 
-    mass: NDArray[Any]
-    stiffness: NDArray[Any]
-    omega: NDArray[Any]
-    damping: NDArray[Any]
-    shapes: NDArray[Any]
+    mass: Array
+    stiffness: Array
+    omega: Array
+    damping: Array
+    shapes: Array
 
     @property
-    def participation(self) -> NDArray[Any]:
+    def participation(self) -> Array:
         """Gamma (n,) = shapes^T M 1 [kg^1/2]; its squares are the effective modal masses and add up
         to the mass.
         """
-        factors: NDArray[Any] = self.shapes.T @ self.mass
+        factors: Array = self.shapes.T @ self.mass
         return factors
 
     @property
-    def effective_mass(self) -> NDArray[Any]:
+    def effective_mass(self) -> Array:
         """Share of the mass in each mode (n,)."""
-        shares: NDArray[Any] = self.participation**2 / self.mass.sum()
+        shares: Array = self.participation**2 / self.mass.sum()
         return shares
 
     @property
-    def storey_shears(self) -> NDArray[Any]:
+    def storey_shears(self) -> Array:
         """(n, n): shear of each storey from below [N] for accelerations of the modal coordinates:
         sums of the floors' forces above.
         """
-        shears: NDArray[Any] = np.cumsum((self.mass[:, None] * self.shapes)[::-1], axis=0)[::-1]
+        shears: Array = np.cumsum((self.mass[:, None] * self.shapes)[::-1], axis=0)[::-1]
         return shears
 
 
@@ -109,7 +109,7 @@ def storeys(
 
 
 def shear_building(
-    mass: NDArray[Any], stiffness: NDArray[Any], damping: float, rayleigh: tuple[int, ...] = ()
+    mass: Array, stiffness: Array, damping: float, rayleigh: tuple[int, ...] = ()
 ) -> ElasticBuilding:
     """Building of floors (n,) [kg] on storeys (n,) [N/m], from below.
 

@@ -27,8 +27,9 @@ import os
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 _GRAVITY = 9.80665  # [m/s2], as in fecolumn.case: this file is compiled by itself
 # step over 1/p, p the fastest rate: the fourth-order error of a step is then some 1e-8
@@ -60,7 +61,7 @@ PEAK_TILT, IMPACT_COUNT, LAST_TILT, LAST_RATE, FALL_TIME, FALL_SIDE = range(6)
 SWING_TIME, SWING_TILT, SWING_RATE, SWING_EDGE, SWING_WORK, SWING_LOSS = range(6)
 
 
-def row_of_block(slenderness: float, p: float, restitution: float) -> np.ndarray:
+def row_of_block(slenderness: float, p: float, restitution: float) -> Array:
     """Parameters (N_PARAMETERS,) of a free-standing symmetric block of slenderness [rad] and p
     [rad/s].
     """
@@ -76,8 +77,14 @@ def row_of_block(slenderness: float, p: float, restitution: float) -> np.ndarray
 
 
 def rock_all(
-    grounds, steps, which, scales, parameters, *, threads: int | None = None
-) -> np.ndarray:
+    grounds: list[Array],
+    steps: ArrayLike,
+    which: ArrayLike,
+    scales: ArrayLike,
+    parameters: Array,
+    *,
+    threads: int | None = None,
+) -> Array:
     """Rock many structures in many motions, from rest, until nothing can overturn them any more;
     one row an analysis.
 
@@ -103,27 +110,23 @@ def rock_all(
     whole = np.ascontiguousarray(
         np.concatenate([np.asarray(ground, float).reshape(-1, 2) for ground in grounds])
     )
-    which, scales = (
-        np.ascontiguousarray(which, np.int64),
-        np.ascontiguousarray(np.broadcast_to(scales, np.shape(which)), float),
-    )
+    motions = np.ascontiguousarray(which, np.int64)
+    factors = np.ascontiguousarray(np.broadcast_to(scales, motions.shape), float)
     parameters = np.ascontiguousarray(
-        np.broadcast_to(parameters, (len(which), N_PARAMETERS)), float
+        np.broadcast_to(parameters, (len(motions), N_PARAMETERS)), float
     )
-    steps, out = (
-        np.ascontiguousarray(np.broadcast_to(steps, lengths.shape), float),
-        np.empty((len(which), 6)),
-    )
-    starts, nothing = np.zeros((len(which), 2)), np.zeros((len(which), 0, 6))
+    samples = np.ascontiguousarray(np.broadcast_to(steps, lengths.shape), float)
+    out = np.empty((len(motions), 6))
+    starts, nothing = np.zeros((len(motions), 2)), np.zeros((len(motions), 0, 6))
 
-    def some(part):
+    def some(part: slice) -> None:
         _rock_all(
             whole,
-            offsets[which[part]],
-            lengths[which[part]],
-            lengths[which[part]],
-            steps[which[part]],
-            scales[part],
+            offsets[motions[part]],
+            lengths[motions[part]],
+            lengths[motions[part]],
+            samples[motions[part]],
+            factors[part],
             parameters[part],
             starts[part],
             nothing[part],
@@ -133,10 +136,10 @@ def rock_all(
 
     threads = threads or int(os.environ.get("NUMBA_NUM_THREADS", 0)) or os.cpu_count() or 1
     parts = [
-        slice(begin, begin + max(1, math.ceil(len(which) / (8 * threads))))
-        for begin in range(0, len(which), max(1, math.ceil(len(which) / (8 * threads))))
+        slice(begin, begin + max(1, math.ceil(len(motions) / (8 * threads))))
+        for begin in range(0, len(motions), max(1, math.ceil(len(motions) / (8 * threads))))
     ]
-    if threads == 1 or len(which) < 64:
+    if threads == 1 or len(motions) < 64:
         some(slice(None))
     else:
         with ThreadPoolExecutor(threads) as pool:
@@ -145,14 +148,14 @@ def rock_all(
 
 
 def rock_one(
-    ground,
+    ground: Array,
     step: float,
-    parameters,
+    parameters: Array,
     *,
     free_s: float = 0.0,
     tilt: float = 0.0,
     tilt_rate: float = 0.0,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+) -> tuple[Array, Array, Array]:
     """Rock one structure and record it.
 
     Parameters
@@ -197,7 +200,7 @@ def rock_one(
 
 
 @njit(alone=True)
-def _held(par, k, phi):
+def _held(par: Array, k: int, phi: float) -> float:
     """U'(phi) over the inertia [1/s2]."""
     sine, cosine = math.sin(phi), math.cos(phi)
     a, t, h = SPRING + 3 * k, TENDON + 2 * k, TENDON_THRUST + 2 * k
@@ -216,7 +219,7 @@ def _held(par, k, phi):
 
 
 @njit(alone=True)
-def _held_potential(par, k, phi):
+def _held_potential(par: Array, k: int, phi: float) -> float:
     """U(phi) over the inertia [1/s2]."""
     sine, less = math.sin(phi), 1 - math.cos(phi)
     a, t, h = SPRING + 3 * k, TENDON + 2 * k, TENDON_THRUST + 2 * k
@@ -231,21 +234,21 @@ def _held_potential(par, k, phi):
 
 
 @njit(alone=True)
-def _restoring(par, k, phi):
+def _restoring(par: Array, k: int, phi: float) -> float:
     """Restoring moment over the inertia [1/s2]."""
     moment = par[P2 + k] * math.sin(par[SLENDERNESS + k] - phi)
     return moment + _held(par, k, phi) if par[HELD] != 0.0 else moment
 
 
 @njit(alone=True)
-def _potential(par, k, phi):
+def _potential(par: Array, k: int, phi: float) -> float:
     """Potential over the inertia, 0 upright [1/s2]."""
     energy = par[P2 + k] * (math.cos(par[SLENDERNESS + k] - phi) - math.cos(par[SLENDERNESS + k]))
     return energy + _held_potential(par, k, phi) if par[HELD] != 0.0 else energy
 
 
 @njit(alone=True)
-def _critical_lean(par, k):
+def _critical_lean(par: Array, k: int) -> float:
     """Least lean from which the restoring moment pushes over; pi/2 where none does."""
     if par[HELD] == 0.0:
         return par[SLENDERNESS + k]
@@ -267,7 +270,7 @@ def _critical_lean(par, k):
 
 
 @njit(alone=True)
-def _turn(par, k, s, phi, x, z):
+def _turn(par: Array, k: int, s: float, phi: float, x: float, z: float) -> tuple[float, float]:
     """Phi'' [1/s2], and the part of it that the ground makes; x, z: ground acceleration over g."""
     lever = par[SLENDERNESS + k] - phi
     sine, cosine = math.sin(lever), math.cos(lever)
@@ -279,7 +282,18 @@ def _turn(par, k, s, phi, x, z):
 
 
 @njit(alone=True)
-def _advance(par, k, s, phi, rate, x, z, dx, dz, step):
+def _advance(
+    par: Array,
+    k: int,
+    s: float,
+    phi: float,
+    rate: float,
+    x: float,
+    z: float,
+    dx: float,
+    dz: float,
+    step: float,
+) -> tuple[float, float, float, float]:
     """phi, phi', the work of the ground over the inertia, and phi'' at the start, after a classical
     Runge-Kutta step; dx, dz: slopes of the ground's acceleration.
     """
@@ -301,7 +315,7 @@ def _advance(par, k, s, phi, rate, x, z, dx, dz, step):
 
 
 @njit(alone=True)
-def _lift(par, k, s, x, z):
+def _lift(par: Array, k: int, s: float, x: float, z: float) -> float:
     """Phi'' at phi = 0 [1/s2]: positive where the ground lifts the structure onto this side; -1
     where it cannot lean there.
     """
@@ -311,7 +325,7 @@ def _lift(par, k, s, x, z):
 
 
 @njit(alone=True)
-def _wait(value, slope, left):
+def _wait(value: float, slope: float, left: float) -> float:
     """When a straight line becomes positive [s]; `left` or more where it does not in time."""
     if value > 0.0 or (value == 0.0 and slope > 0.0):
         return 0.0
@@ -319,7 +333,19 @@ def _wait(value, slope, left):
 
 
 @njit(alone=True)
-def _rock(ground, length, total, dt, scale, par, tilt, rate, states, impacts, out):
+def _rock(
+    ground: Array,
+    length: int,
+    total: int,
+    dt: float,
+    scale: float,
+    par: Array,
+    tilt: float,
+    rate: float,
+    states: Array,
+    impacts: Array,
+    out: Array,
+) -> None:
     fastest = par[FASTEST]
     pieces = max(1, math.ceil(fastest * dt / _STEP))
     full = dt / pieces
@@ -469,7 +495,7 @@ def _rock(ground, length, total, dt, scale, par, tilt, rate, states, impacts, ou
 
 
 @njit(alone=True)
-def _free_peak(par, k, s, phi, rate):
+def _free_peak(par: Array, k: int, s: float, phi: float, rate: float) -> tuple[float, int, float]:
     """Largest lean of the free rocking that is left, inf if it ends in a fall; impacts before that;
     side of the fall. By energy.
     """
@@ -503,7 +529,7 @@ def _free_peak(par, k, s, phi, rate):
 
 
 @njit(alone=True)
-def look(par, k, leans, out):
+def look(par: Array, k: int, leans: Array, out: Array) -> None:
     """Restoring moment, gravity and held potential over the inertia at leans (n,), and the critical
     lean; out: (n, 4).
     """
@@ -522,8 +548,18 @@ def look(par, k, leans, out):
 
 @njit(alone=True, nogil=True)
 def _rock_all(
-    grounds, offsets, lengths, totals, steps, scales, parameters, starts, states, impacts, out
-):
+    grounds: Array,
+    offsets: Array,
+    lengths: Array,
+    totals: Array,
+    steps: Array,
+    scales: Array,
+    parameters: Array,
+    starts: Array,
+    states: Array,
+    impacts: Array,
+    out: Array,
+) -> None:
     """`rock_all` and `rock_one`; states (n, n_rows, 6) and impacts (n, n_times) are filled where
     they have room.
     """

@@ -11,10 +11,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from fecolumn.case.model_sections import WobblingSection
 from fecolumn.case.sections import GRAVITY
@@ -27,7 +27,7 @@ from fecolumn.engines.rocking.model import (
     check_friction,
     moved_about_edge,
 )
-from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation._compiled import Array, interpreted
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
 
@@ -58,7 +58,7 @@ class Wobbling:
     #: Rims on which the point rolls whose displacement counts: a slab lies on the upper one, too
     RIMS: ClassVar[int] = 1
 
-    body: NDArray[Any]
+    body: Array
     columns: int = 1
     restitution: float = 1.0
     friction: float = math.inf
@@ -176,7 +176,7 @@ class Wobbling:
         moment: float = self.body[9] * rise + tendon
         return moment
 
-    def moved(self, tilt: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:
+    def moved(self, tilt: ArrayLike) -> tuple[Array, Array]:
         """Displacement towards the azimuth and up [m] of the top's centre, or of the slab."""
         return moved_about_edge(tilt, self.body[2], self.RIMS * self.body[0])
 
@@ -242,7 +242,7 @@ class Wobbling:
             base_force=self.columns * self._along_axes(base, rows, ground[: len(rows)]),
         )
 
-    def _base_force(self, foot: NDArray[Any], rows: NDArray[Any]) -> NDArray[Any]:
+    def _base_force(self, foot: Array, rows: Array) -> Array:
         """Force of the ground on a column (n, 3) as of `foot_forces` [N], with what its tendon
         presses.
         """
@@ -251,12 +251,10 @@ class Wobbling:
         tilt = rows[:, 1]
         pull = self.body[8] + self.body[7] * 2 * self.body[0] * np.sin(tilt / 2)
         along = np.column_stack([np.sin(tilt / 2), np.zeros(len(tilt)), np.cos(tilt / 2)])
-        pressed: NDArray[Any] = foot + pull[:, None] * along
+        pressed: Array = foot + pull[:, None] * along
         return pressed
 
-    def _along_axes(
-        self, foot: NDArray[Any], rows: NDArray[Any], ground: NDArray[Any]
-    ) -> NDArray[Any]:
+    def _along_axes(self, foot: Array, rows: Array, ground: Array) -> Array:
         """Forces (n, 3) towards the azimuth, across it and up as such along x, y and up [N]; where
         the column stands, by the acceleration of the ground (n, 3) [m/s2].
         """
@@ -267,12 +265,10 @@ class Wobbling:
         mass = self.body[3] + self.body[4]
         standing = mass * (ground + np.array([0.0, 0.0, GRAVITY]))
         standing[:, 2] += 0.0 if self.body[4] else self.body[8]
-        found: NDArray[Any] = np.where(rows[:, 1:2] > 0, turned, standing)
+        found: Array = np.where(rows[:, 1:2] > 0, turned, standing)
         return found
 
-    def _check_forces(
-        self, foot: NDArray[Any], rows: NDArray[Any]
-    ) -> tuple[list[str], dict[str, float]]:
+    def _check_forces(self, foot: Array, rows: Array) -> tuple[list[str], dict[str, float]]:
         """Notes and peaks of the friction demanded, while the column neither stands nor falls."""
         tilt = rows[:, 1]
         return check_friction(
@@ -308,7 +304,7 @@ def cylinder_body(
     slab: float,
     stiffness: float = 0.0,
     pull: float = 0.0,
-) -> NDArray[Any]:
+) -> Array:
     """Parameters (10,) of a tube or solid cylinder of mass [kg] with its share of a slab [kg] and a
     tendon's stiffness [N/m] and pull [N].
     """

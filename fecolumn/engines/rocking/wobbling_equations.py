@@ -25,15 +25,17 @@ Arguments of all functions, in SI units, of one column with its share of the sla
     push, across_push: that to the azimuth and across it [m/s2].
 """
 
+from __future__ import annotations
+
 import math
 
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 _RADIUS, _CENTRE, _HEIGHT, _MASS, _SLAB, _ACROSS, _ALONG, _STIFFNESS, _PULL, _GRAVITY = range(10)
 
 
 @njit(alone=True)
-def _levers(body, tilt):
+def _levers(body: Array, tilt: float) -> tuple[float, float, float, float]:
     """Mass times rise and times way to the azimuth of all masses [kg m], and their derivatives by
     the tilt. The second derivatives are -lever' and rise'.
     """
@@ -51,14 +53,14 @@ def _levers(body, tilt):
 
 
 @njit(alone=True)
-def _tilt_inertia(body):
+def _tilt_inertia(body: Array) -> float:
     """A [kg m2]."""
     column = body[_MASS] * (body[_CENTRE] ** 2 + body[_RADIUS] ** 2)
     return body[_ACROSS] + column + body[_SLAB] * (body[_HEIGHT] ** 2 + 4 * body[_RADIUS] ** 2)
 
 
 @njit(alone=True)
-def _azimuth_inertia(body, tilt):
+def _azimuth_inertia(body: Array, tilt: float) -> tuple[float, float]:
     """B [kg m2], and its derivative by the tilt."""
     upper = body[_HEIGHT] * body[_SLAB]
     across = body[_ACROSS] + body[_CENTRE] ** 2 * body[_MASS] + body[_HEIGHT] * upper
@@ -71,7 +73,9 @@ def _azimuth_inertia(body, tilt):
 
 
 @njit(alone=True)
-def _tilt_acceleration(body, tilt, spin, push, ground_z):
+def _tilt_acceleration(
+    body: Array, tilt: float, spin: float, push: float, ground_z: float
+) -> float:
     """Second derivative of the tilt [rad/s2]."""
     _, _, rise, lever = _levers(body, tilt)
     inertia, slope = _azimuth_inertia(body, tilt)
@@ -82,7 +86,16 @@ def _tilt_acceleration(body, tilt, spin, push, ground_z):
 
 
 @njit(alone=True)
-def rates(body, tilt, azimuth, tilt_rate, spin, ground_x, ground_y, ground_z):
+def rates(
+    body: Array,
+    tilt: float,
+    azimuth: float,
+    tilt_rate: float,
+    spin: float,
+    ground_x: float,
+    ground_y: float,
+    ground_z: float,
+) -> tuple[float, ...]:
     """Rates of tilt, azimuth, tilt_rate, spin, and of the work that the base does [W]."""
     c, s = math.cos(azimuth), math.sin(azimuth)
     push, across_push = ground_x * c + ground_y * s, ground_y * c - ground_x * s
@@ -98,7 +111,15 @@ def rates(body, tilt, azimuth, tilt_rate, spin, ground_x, ground_y, ground_z):
 
 
 @njit(alone=True)
-def force(body, tilt, tilt_rate, spin, push, across_push, ground_z):
+def force(
+    body: Array,
+    tilt: float,
+    tilt_rate: float,
+    spin: float,
+    push: float,
+    across_push: float,
+    ground_z: float,
+) -> tuple[float, float, float]:
     """Force of the ground on the foot [N]: towards the azimuth, across it, up. It is the rate of
     the momentum of all masses.
     """
@@ -116,13 +137,13 @@ def force(body, tilt, tilt_rate, spin, push, across_push, ground_z):
 
 
 @njit(alone=True)
-def inertia(body, tilt):
+def inertia(body: Array, tilt: float) -> tuple[float, float]:
     """Of tilt and of azimuth [kg m2]."""
     return _tilt_inertia(body), _azimuth_inertia(body, tilt)[0]
 
 
 @njit(alone=True)
-def potential(body, tilt):
+def potential(body: Array, tilt: float) -> tuple[float, float]:
     """Of gravity, 0 upright, and of the tendon [J]."""
     stretch = 2 * body[_RADIUS] * math.sin(0.5 * tilt)
     rise = _levers(body, tilt)[0]
@@ -130,7 +151,7 @@ def potential(body, tilt):
 
 
 @njit(alone=True)
-def moments(body, tilt):
+def moments(body: Array, tilt: float) -> tuple[float, float, float]:
     """Derivatives by the tilt of mass times rise and times lever of the weight [kg m], and of the
     tendon's energy [N m].
     """

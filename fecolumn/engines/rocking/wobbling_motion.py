@@ -20,7 +20,7 @@ import numpy as np
 from scipy.integrate import DOP853
 
 from fecolumn.engines.rocking.wobbling_equations import force, inertia, moments, potential, rates
-from fecolumn.foundation._compiled import njit
+from fecolumn.foundation._compiled import Array, njit
 
 # Columns of the rows
 WOBBLE_TIME, WOBBLE_TILT, WOBBLE_AZIMUTH, WOBBLE_RATE, WOBBLE_SPIN, WOBBLE_WORK, WOBBLE_LOSS = (
@@ -39,7 +39,16 @@ _LEAST, _MOST, _SAFE = 0.2, 6.0, 0.9  # change of a step's size, and the share o
 
 
 @njit(alone=("wobbling_equations.py",))
-def _step(body, y, k, h, start, slope, scale, tolerance):
+def _step(
+    body: Array,
+    y: Array,
+    k: Array,
+    h: float,
+    start: Array,
+    slope: Array,
+    scale: Array,
+    tolerance: float,
+) -> tuple[Array, float]:
     """State (5,) after a step of h [s] from y, and its error over what is tolerated; the ground
     starts from `start` and changes by `slope`.
     """
@@ -81,7 +90,7 @@ def _step(body, y, k, h, start, slope, scale, tolerance):
 
 
 @njit(alone=("wobbling_equations.py",))
-def _excess(body, acceleration):
+def _excess(body: Array, acceleration: Array) -> float:
     """Moment that overturns the standing column over the one that holds it [N m]; > 0 where it
     lifts off.
     """
@@ -94,7 +103,7 @@ def _excess(body, acceleration):
 
 
 @njit(alone=("wobbling_equations.py",))
-def _lift(body, start, slope, left):
+def _lift(body: Array, start: Array, slope: Array, left: float) -> float:
     """When the standing column lifts off within `left` [s], -1 if it does not."""
     if _excess(body, start) > 0:
         return 0.0
@@ -113,7 +122,7 @@ def _lift(body, start, slope, left):
 
 
 @njit(alone=("wobbling_equations.py",))
-def _pass(body, y, restitution):
+def _pass(body: Array, y: Array, restitution: float) -> float:
     """Let the column, tilted by CLOSEST or less and falling, pass upright; returns the energy lost
     [J].
     """
@@ -135,7 +144,7 @@ def _pass(body, y, restitution):
 
 
 @njit(alone=("wobbling_equations.py",))
-def _energy(body, y):
+def _energy(body: Array, y: Array) -> tuple[float, float, float]:
     """Kinetic, strain and gravity [J]."""
     along, across = inertia(body, y[0])
     gravity, strain = potential(body, y[0])
@@ -147,7 +156,15 @@ def _energy(body, y):
 
 
 @njit(alone=("wobbling_equations.py",))
-def wobble(body, ground, dt, start, critical, tolerance, restitution):
+def wobble(
+    body: Array,
+    ground: Array,
+    dt: float,
+    start: Array,
+    critical: float,
+    tolerance: float,
+    restitution: float,
+) -> tuple[Array, Array, bool]:
     """Motion of one column with its share of the slab.
 
     Parameters
@@ -262,7 +279,7 @@ def wobble(body, ground, dt, start, critical, tolerance, restitution):
 
 
 @njit(alone=("wobbling_equations.py",))
-def energies(body, rows):
+def energies(body: Array, rows: Array) -> Array:
     """Kinetic, strain and gravity of each row (n, 3) [J]."""
     found = np.zeros((len(rows), 3))
     for row in range(len(rows)):
@@ -273,7 +290,7 @@ def energies(body, rows):
 
 
 @njit(alone=("wobbling_equations.py",))
-def foot_forces(body, rows, ground):
+def foot_forces(body: Array, rows: Array, ground: Array) -> Array:
     """Force of the ground on the foot (n, 3) towards the azimuth, across it and up [N] at each row;
     `ground` (n, 3) at the rows; 0 where it stands.
     """

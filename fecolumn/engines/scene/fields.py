@@ -191,7 +191,7 @@ class StressField:
         self._result.interpolate(self._expression)
         owned = body.mesh.topology.index_map(3).size_local
         cells = np.asarray(body.mesh.topology.original_cell_index)[:owned]
-        pieces = body.comm.gather((cells, self._result.x.array[:owned].copy()))
+        pieces: Any = body.comm.gather((cells, self._result.x.array[:owned].copy()))
         if body.comm.rank:
             return None
         stress = np.empty(len(body.bricks.cells))

@@ -56,7 +56,9 @@ class Canvas:
         each pixel; and draw nothing anew that nobody sees move.
     """
 
-    def __init__(self, frames: Frames, camera: Camera, size: tuple[int, int], quick: bool = False):
+    def __init__(
+        self, frames: Frames, camera: Camera, size: tuple[int, int], quick: bool = False
+    ) -> None:
         pixels = [round(_FINER * side) for side in size] if quick else list(size)
         self._plotter = off_screen_plotter(pixels)
         import pyvista

@@ -20,7 +20,7 @@ class FrameSeries:
         (n,) [s], rising.
     """
 
-    def __init__(self, time: np.ndarray):
+    def __init__(self, time: np.ndarray) -> None:
         self.time = time
 
     @property
@@ -43,7 +43,7 @@ class FieldFrames(FrameSeries):
         of the frames; time: (n,) [s] of each, rising. points: (n_points, 3) [m] of all pieces.
     """
 
-    def __init__(self, folder: Path):
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.files = sorted(folder.glob("frame_*.h5"))
         super().__init__(np.array([int(file.stem.partition("_")[2]) / 1e6 for file in self.files]))

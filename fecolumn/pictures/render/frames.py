@@ -72,7 +72,7 @@ class Frames:
         colour: str = "",
         like: Frames | None = None,
         forces: bool = False,
-    ):
+    ) -> None:
         """Frames at `times` (k,) [s], each for `interval` [s]; exaggerate: elastic displacements by
         this factor, or "auto"; colour: of _COLOURS, "" for what there is; like: others whose
         exaggeration, forces and ranges of colours these have; forces: of the joints are drawn.

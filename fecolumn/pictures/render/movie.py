@@ -61,7 +61,7 @@ class Movie(_PictureFile):
         the disk is full, or the file cannot be written.
     """
 
-    def __init__(self, file: Path, size: tuple[int, int], fps: float):
+    def __init__(self, file: Path, size: tuple[int, int], fps: float) -> None:
         import av
 
         self.file, self._av = file, av
@@ -93,7 +93,9 @@ class Gif(_PictureFile):
         pictures that have the colours of all.
     """
 
-    def __init__(self, file: Path, size: tuple[int, int], fps: float, samples: list[np.ndarray]):
+    def __init__(
+        self, file: Path, size: tuple[int, int], fps: float, samples: list[np.ndarray]
+    ) -> None:
         import av
 
         self.file, self._av = file, av

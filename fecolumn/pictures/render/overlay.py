@@ -33,7 +33,9 @@ _LEGEND_IN, _DIGITS = 0.5, (1, 2, 5)
 class Overlay:
     """The parts of a `Thrust`, flat towards the viewer and before all bodies."""
 
-    def __init__(self, plotter: pyvista.Plotter, frames: Frames, camera: Camera, first: Thrust):
+    def __init__(
+        self, plotter: pyvista.Plotter, frames: Frames, camera: Camera, first: Thrust
+    ) -> None:
         import pyvista
 
         self._camera, self._nearer, self._meshes = camera, 2 * frames.result.height, []

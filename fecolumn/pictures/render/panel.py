@@ -61,7 +61,7 @@ class Panel:
         seconds of motion in a second of the movie.
     """
 
-    def __init__(self, frames: Frames, size: tuple[int, int], speed: float = 1.0):
+    def __init__(self, frames: Frames, size: tuple[int, int], speed: float = 1.0) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
 
         self.frames, self.size = frames, size

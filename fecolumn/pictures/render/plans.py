@@ -43,7 +43,7 @@ class Plans:
         (axes, artist) that are drawn anew for each frame.
     """
 
-    def __init__(self, frames: Frames, figure: Figure):
+    def __init__(self, frames: Frames, figure: Figure) -> None:
         from matplotlib.collections import PolyCollection
 
         self._frames, self._contacts = frames, frames.scene.contacts

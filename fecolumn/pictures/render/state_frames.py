@@ -46,7 +46,7 @@ class StateFrames(FrameSeries):
         the file is damaged, or of other bodies than those of the scene.
     """
 
-    def __init__(self, file: Path, scene: Scene):
+    def __init__(self, file: Path, scene: Scene) -> None:
         check_owner(file)
         try:
             self._arrays = read_states(file)

@@ -59,7 +59,7 @@ class JointForces:
         of slave from master [rad] from which on a joint is a hinge wherever its thrust is.
     """
 
-    def __init__(self, result: Result, interval: float):
+    def __init__(self, result: Result, interval: float) -> None:
         """Forces in the mean over `interval` [s], so that those of impacts are their impulse over
         it.
 

@@ -52,7 +52,7 @@ class RockingCalibration:
         ranges: dict[str, tuple[float, float]],
         test: RockingTest,
         folder: Path,
-    ):
+    ) -> None:
         self.file, self.ranges, self.test, self.folder = file, ranges, test, folder
         tables = {key: table for key, table in tables.items() if key != "motion"}
         end = float(test.time[-1])

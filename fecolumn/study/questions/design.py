@@ -67,7 +67,7 @@ class DesignQuestion:
         the limit state.
     """
 
-    def __init__(self, plan: Plan, key: str, limit: ShareLimit):
+    def __init__(self, plan: Plan, key: str, limit: ShareLimit) -> None:
         self.plan, self.key, self.limit = plan, key, limit
         self.grid = list(plan.axes[key])
         self.looked: dict[int, LookedAt] = {}

@@ -32,7 +32,7 @@ class Answer:
         the sentences of the answer.
     """
 
-    def __init__(self, folder: Path, table: str, figure: str, text: str):
+    def __init__(self, folder: Path, table: str, figure: str, text: str) -> None:
         self.folder, self.text = folder, text
         self._table, self._figure = table, figure
 

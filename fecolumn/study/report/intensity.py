@@ -58,7 +58,7 @@ class Intensities:
         of the study.
     """
 
-    def __init__(self, folder: Path):
+    def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._known: dict[Motion, tuple[float, float]] = {}
 

@@ -46,7 +46,7 @@ class AnalysisResult:
         Path.
     """
 
-    def __init__(self, folder: str | Path):
+    def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
 
     @functools.cached_property
@@ -230,7 +230,7 @@ class AnalysisResult:
 class AnalysisPlots:
     """Figures of an analysis, each a Picture."""
 
-    def __init__(self, folder: Path):
+    def __init__(self, folder: Path) -> None:
         self.folder = folder
 
     def top(self) -> Picture:

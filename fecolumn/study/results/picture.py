@@ -25,7 +25,7 @@ class Picture:
         of matplotlib.
     """
 
-    def __init__(self, draw: Callable[[Path], list[Path]]):
+    def __init__(self, draw: Callable[[Path], list[Path]]) -> None:
         """draw: function that writes the figure to the files of a path without suffix, and returns
         them.
         """

@@ -54,7 +54,7 @@ class StudyResult:
         Path.
     """
 
-    def __init__(self, folder: str | Path):
+    def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
 
     @functools.cached_property
@@ -189,7 +189,7 @@ class StudyResult:
 class StudyPlots:
     """Figures of a study, each a Picture."""
 
-    def __init__(self, result: StudyResult):
+    def __init__(self, result: StudyResult) -> None:
         self.result = result
 
     def cdf(self) -> Picture:

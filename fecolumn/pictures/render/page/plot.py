@@ -73,7 +73,7 @@ class MotionPlot:
         of the scene [m], to which rods and arrows fit.
     """
 
-    def __init__(self, result: Result, times: np.ndarray, field_of_view: float):
+    def __init__(self, result: Result, times: np.ndarray, field_of_view: float) -> None:
         """The empty plot of a motion at `times` (t,) [s]; field_of_view: vertical angle [deg]."""
         import k3d
 
