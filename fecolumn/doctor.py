@@ -118,7 +118,7 @@ def look_at_machine() -> list[LibraryFinding]:
 # ---------------------------------------
 
 
-def look_at_numpy() -> Any:
+def look_at_numpy() -> tuple[str, str, str]:
     """Version and origin; advice where it is not Debian's, for which petsc4py was built."""
     import numpy
 
@@ -130,7 +130,7 @@ def look_at_numpy() -> Any:
     )
 
 
-def look_at_scipy() -> Any:
+def look_at_scipy() -> tuple[str, str, str]:
     """Version and origin, and whether it has stats.ecdf (scipy 1.11)."""
     import scipy.stats
 
@@ -141,7 +141,7 @@ def look_at_scipy() -> Any:
     )
 
 
-def look_at_mpi() -> Any:
+def look_at_mpi() -> tuple[str, str, str]:
     """The MPI library and mpi4py's version."""
     import mpi4py
     from mpi4py import MPI
@@ -154,7 +154,7 @@ def look_at_mpi() -> Any:
     )
 
 
-def look_at_petsc() -> Any:
+def look_at_petsc() -> tuple[str, str, str]:
     """Versions of PETSc and petsc4py; complex scalars are an error."""
     import petsc4py
     from petsc4py import PETSc
@@ -171,7 +171,7 @@ def look_at_petsc() -> Any:
     )
 
 
-def look_at_mumps() -> Any:
+def look_at_mumps() -> tuple[str, str, str]:
     """Factor a matrix by MUMPS and name the library that did it."""
     from petsc4py import PETSc
 
@@ -179,7 +179,7 @@ def look_at_mumps() -> Any:
     return "yes", ", ".join(loaded_libraries("libdmumps")), ""
 
 
-def look_at_cholmod() -> Any:
+def look_at_cholmod() -> tuple[str, str, str]:
     """Factor a matrix by CHOLMOD, which PETSc may lack."""
     from petsc4py import PETSc
 
@@ -204,7 +204,7 @@ def _factor(PETSc: Any, kind: str, package: str) -> None:
     solver.setUp()
 
 
-def look_at_blas() -> Any:
+def look_at_blas() -> tuple[str, str, str]:
     """Which BLAS is loaded; advice where it is the slow reference implementation."""
     import numpy.linalg  # noqa: F401  loads BLAS
     from petsc4py import PETSc  # noqa: F401  loads BLAS
@@ -216,7 +216,7 @@ def look_at_blas() -> Any:
     return library.parent.name, str(library), slow if library.parent.name == "blas" else ""
 
 
-def look_at_dolfinx() -> Any:
+def look_at_dolfinx() -> tuple[str, str, str]:
     """Version, and whether it writes fields by VTX or by XDMF."""
     import dolfinx.io
 
@@ -227,7 +227,7 @@ def look_at_dolfinx() -> Any:
     )
 
 
-def look_at_h5py() -> Any:
+def look_at_h5py() -> tuple[str, str, str]:
     """Version and its HDF5 library; a wheel of h5py is an error."""
     if origin("h5py") != "Debian":  # not imported: it may take the process down
         raise RuntimeError(
@@ -243,7 +243,7 @@ def look_at_h5py() -> Any:
     )
 
 
-def look_at_gmsh() -> Any:
+def look_at_gmsh() -> tuple[str, str, str]:
     """Version and origin of Gmsh."""
     import gmsh
 
@@ -251,7 +251,7 @@ def look_at_gmsh() -> Any:
     return gmsh.option.getString("General.Version"), origin("gmsh"), ""
 
 
-def look_at_pyvista() -> Any:
+def look_at_pyvista() -> tuple[str, str, str]:
     """Draw a sphere off screen; a blank picture is an error."""
     import pyvista
 
@@ -269,7 +269,7 @@ def look_at_pyvista() -> Any:
     )
 
 
-def look_at_other(name: str) -> Any:
+def look_at_other(name: str) -> tuple[str, str, str]:
     """Version and origin of a library that needs no trial."""
     return importlib.import_module(name).__version__, origin(name), ""
 

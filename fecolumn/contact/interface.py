@@ -10,6 +10,7 @@ from fecolumn.contact.record import record
 from fecolumn.foundation._compiled import Array
 
 if TYPE_CHECKING:
+    from fecolumn.contact.pad import Pad
     from fecolumn.contact.rim import Rim
 
 #: An interface: slave, master and ground as of POINT; width of the foot [m], to which tolerances of
@@ -74,7 +75,7 @@ def interface_of(
     rim: Rim | None = None,
     restitution: float = 0.0,
     rolling: float = 0.0,
-    pad: None = None,
+    pad: Pad | None = None,
     slave: int = 0,
     master: int = -1,
 ) -> Array:

@@ -33,7 +33,7 @@ class Joints(NamedTuple):
     overlaps: Overlaps = no_overlaps()
 
 
-def left_faces(names: Any, points: Array) -> tuple[str, ...]:
+def left_faces(names: Sequence[str], points: Array) -> tuple[str, ...]:
     """Of `names` of interfaces those of which some of the points (P,) of POINT have left the face
     that is prepared for them.
     """

@@ -4,11 +4,16 @@ to the next.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import OPEN
 from fecolumn.foundation._compiled import Array
+
+if TYPE_CHECKING:
+    from fecolumn.contact.pad import Pad
 
 #: What a point carries from step to step: force of the master on the slave [N]; anchor: horizontal
 #: position at which it sticks [m]; relative: its position on the slave relative to the master's
@@ -82,7 +87,7 @@ def node_points(
     arms: Array,
     friction: float,
     law: Array | None = None,
-    pad: None = None,
+    pad: Pad | None = None,
     slave: int = 0,
     master: int = GROUND,
     first: int = 0,
