@@ -44,6 +44,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         with contextlib.suppress(AttributeError):
             cast(io.TextIOWrapper, stream).reconfigure(errors="backslashreplace")
     warnings.showwarning = _show_warning
+    _TOLD.clear()
     # Python hides what is told of older names, which is for those who write files
     warnings.filterwarnings("default", f".*{TOLD}", DeprecationWarning)
     try:

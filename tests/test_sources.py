@@ -19,6 +19,7 @@ _DECIDE_NOTHING = {
     "foundation/_compiled.py",
     "foundation/_form_compiler.py",
     "foundation/_kernel.py",
+    "foundation/arrays.py",
     "foundation/atomic.py",
     "foundation/deprecated.py",
     "foundation/digests.py",

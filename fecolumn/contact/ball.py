@@ -16,7 +16,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 
 @njit

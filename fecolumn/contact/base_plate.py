@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.unbounded_base import shear_frequency
 from fecolumn.fem.effective import effective_factor, unit_loads
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.fem.body import Body

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 
 class BaseTop:

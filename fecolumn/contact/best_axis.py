@@ -27,7 +27,8 @@ from fecolumn.contact.separation import (
     perpendicular,
 )
 from fecolumn.contact.tolerances import NEARLY_PARALLEL, OTHER_AXIS
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.convex import Hulls

@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 # Unknowns up to which plain loops solve equations as one: a call of LAPACK costs more, and so does
 # dividing them into blocks

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.record import record
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 #: A body: mass [kg], inertia about its centre of mass [kg m2] and their inverses, which are zero
 #: where the mobility of rigid motion is part of the nodal one; first, count: its rows among the

@@ -12,7 +12,8 @@ from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import MASTER, SLAVE, turns
 from fecolumn.contact.tolerances import FEW_SIDES
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.bodies import Bodies

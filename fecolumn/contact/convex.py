@@ -15,7 +15,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, QhullError
 
 from fecolumn.contact.tolerances import SAME_FACE, SAME_HULL
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 #: Files beside each other from which the compiled functions of any of them take code
 TOGETHER = (

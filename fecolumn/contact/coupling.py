@@ -15,7 +15,8 @@ from fecolumn.contact.arrays import flat, put_points
 from fecolumn.contact.blocks import Blocks, find_blocks, least_filling
 from fecolumn.contact.points import FLAT_GROUND, GROUND
 from fecolumn.contact.pose import turns
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.bodies import Bodies

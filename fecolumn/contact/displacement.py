@@ -13,7 +13,8 @@ from fecolumn.contact.gathered import gather
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import turns
 from fecolumn.contact.tolerances import FEW_SIDES
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.bodies import Bodies

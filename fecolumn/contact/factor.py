@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.blocks import find_blocks
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 
 class Blocked(NamedTuple):

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from fecolumn.contact.tolerances import SAME_PLACE
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 
 def footprint(

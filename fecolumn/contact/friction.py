@@ -23,7 +23,8 @@ from fecolumn.contact.coupling import (
 from fecolumn.contact.frozen_slips import follow_slips, halve_way, solve_frozen
 from fecolumn.contact.interior_point import approach, in_cones
 from fecolumn.contact.newton import NewtonLimits, newton_steps, solve_in_place
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.coupling import Coupling

@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fecolumn.contact.points import GROUND
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 
 class Gathered(NamedTuple):

@@ -27,7 +27,8 @@ from fecolumn.contact.tolerances import (
     POINTS_A_LEVER,
     SLIDE,
 )
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.bodies import Bodies

@@ -32,7 +32,8 @@ from fecolumn.contact.tolerances import (
     SHARP,
     SWEEPS_MOST,
 )
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.coupling import Coupling

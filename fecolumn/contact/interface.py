@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fecolumn.contact.record import record
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.pad import Pad

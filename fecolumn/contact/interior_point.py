@@ -21,7 +21,8 @@ from fecolumn.contact.tolerances import (
     INSIDE_SMOOTH,
     INSIDE_WAY,
 )
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 
 @njit

@@ -16,7 +16,7 @@ from fecolumn.contact.overlap import Overlaps, no_overlaps
 from fecolumn.contact.points import GROUND, POINT, UNPREPARED, node_points
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import SAME_PLACE
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 
 class Joints(NamedTuple):

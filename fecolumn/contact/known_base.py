@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fecolumn.contact.base_top import BaseTop
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.lock import alone
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 
 def interface_compliance(contact: Any, youngs_modulus: float, size: float, areas: Array) -> Array:

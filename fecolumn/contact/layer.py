@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 # Images of the force in a periodic layer are so many thicknesses away: what they do there is below
 # 1e-6 of the force's own

@@ -20,7 +20,8 @@ from fecolumn.contact.convex import TOGETHER, Hulls
 from fecolumn.contact.record import record
 from fecolumn.contact.separation import perpendicular
 from fecolumn.contact.tolerances import SAME_OUTLINE
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.separation import Relation

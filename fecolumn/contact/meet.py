@@ -29,7 +29,8 @@ from fecolumn.contact.separation import (
 )
 from fecolumn.contact.slots import is_idle, settle_places
 from fecolumn.contact.tolerances import OTHER_AXIS
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.meetings import Meetings

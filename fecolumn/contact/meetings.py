@@ -36,7 +36,8 @@ import numpy as np
 from fecolumn.contact.convex import TOGETHER
 from fecolumn.contact.record import record
 from fecolumn.contact.separation import NO_AXIS
-from fecolumn.foundation._compiled import Array, Record, interpreted, njit
+from fecolumn.foundation._compiled import interpreted, njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.convex import Hulls

@@ -10,7 +10,8 @@ import numpy as np
 
 from fecolumn.contact.rim import on_circle
 from fecolumn.contact.tolerances import SAME_CORNER
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.overlap import Overlaps

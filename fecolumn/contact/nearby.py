@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from fecolumn.contact.convex import TOGETHER
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.convex import Hulls

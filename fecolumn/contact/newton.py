@@ -11,7 +11,8 @@ from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate, solve_columns
 from fecolumn.contact.coulomb import violation
 from fecolumn.contact.coupling import slips_under
 from fecolumn.contact.tolerances import SINGULAR
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.coupling import Coupling

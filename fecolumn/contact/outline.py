@@ -21,7 +21,8 @@ from fecolumn.contact.bodies import GOES_ON
 from fecolumn.contact.displacement import static_displacement
 from fecolumn.contact.points import SUNK
 from fecolumn.contact.tolerances import EDGE_REACH, GIVES_MORE, OPEN, STAYS_DEEP
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.bodies import Bodies

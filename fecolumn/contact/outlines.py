@@ -11,7 +11,7 @@ import numpy as np
 from fecolumn.contact.overlap import OVERLAP, OWN, SIDE, SIDE_NODE, SLOT, Overlaps
 from fecolumn.contact.points import POINT
 from fecolumn.contact.tolerances import CROSSES_FROM, SAME_OUTLINE
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 # Over the size of a face: a node is on a side of its outline
 _ON_SIDE = 1e-7

@@ -15,7 +15,8 @@ import numpy as np
 
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import CROSSES_FROM, ONE_CORNER, OUTLINE_BAND, SAME_OUTLINE
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 OWN, OTHER = range(2)
 

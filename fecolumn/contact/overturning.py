@@ -47,7 +47,8 @@ from fecolumn.contact.points import GROUND
 from fecolumn.contact.record import record
 from fecolumn.contact.rim import Rim
 from fecolumn.contact.tolerances import ROUND_CORNERS, STICKS
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 # Answers of `fallen`, and what one of many bodies is that is below the ground, on which it has no
 # face to stand

@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fecolumn.contact.tolerances import YIELDED_GIVES
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 # Stiffness along over that across the pad: circular footing on an elastic half-space of Poisson's
 # ratio 1/3, 2 (1 - nu) / (2 - nu) (Mindlin 1949; Gazetas 1991)

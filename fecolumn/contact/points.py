@@ -10,7 +10,7 @@ import numpy as np
 
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import OPEN
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.pad import Pad

@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 from fecolumn.contact.arrays import put_matrix
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.record import record
-from fecolumn.foundation._compiled import Array, Record, interpreted, njit
+from fecolumn.foundation._compiled import interpreted, njit
+from fecolumn.foundation.arrays import Array, Record
 
 #: The frame of an interface, of its master's surface: frame: (3, 3) its axes in the table frame,
 #: two tangents and the normal; origin: (3,) in the table frame [m]; turned: (2, 3, 3) of slave and

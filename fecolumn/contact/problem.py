@@ -43,7 +43,8 @@ from fecolumn.contact.tolerances import (
     SWEEPS_MOST,
     USABLE,
 )
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.bodies import Bodies

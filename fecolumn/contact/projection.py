@@ -20,7 +20,8 @@ from fecolumn.contact.points import (
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.record import record
 from fecolumn.contact.tolerances import CLOSE, EDGE_REACH
-from fecolumn.foundation._compiled import Array, Record, interpreted, njit
+from fecolumn.foundation._compiled import interpreted, njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.base_top import BaseTop

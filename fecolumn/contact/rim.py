@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.contact.tolerances import ROUND, ROUND_NODES
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 
 class Rim:

@@ -24,7 +24,8 @@ import numpy as np
 
 from fecolumn.contact.rim import lowest, on_circle
 from fecolumn.contact.tolerances import FLAT, PARTS, REACH, ROLL, ROLL_STEP
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 
 @njit

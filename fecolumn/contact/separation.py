@@ -17,7 +17,8 @@ import numpy as np
 
 from fecolumn.contact.convex import TOGETHER, Hulls
 from fecolumn.contact.tolerances import PARALLEL
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 #: What an axis is: none, the normal of a face of the first body or of the second, which then points
 #: against the axis, or the perpendicular of an edge of each

@@ -8,7 +8,8 @@ import numpy as np
 
 from fecolumn.contact.convex import TOGETHER
 from fecolumn.contact.tolerances import OTHER_AXIS, SAME_POINT_BY_PLACE
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 
 @njit(alone=TOGETHER)

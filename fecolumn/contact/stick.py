@@ -31,7 +31,8 @@ from fecolumn.contact.factor import Blocked, divide, factorize, no_blocks, solve
 from fecolumn.contact.newton import solve_in_place
 from fecolumn.contact.pose import POSE, SLAVE
 from fecolumn.contact.tolerances import PAD_TURN, STICK_STAYS, STICK_TURN, STICK_WAY
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.bodies import Bodies

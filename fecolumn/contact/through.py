@@ -9,7 +9,8 @@ from fecolumn.contact.convex import TOGETHER, Hulls
 from fecolumn.contact.nearby import Boxes, boxes_for, find_boxes, find_pairs
 from fecolumn.contact.separation import Relation, relate, relation_for
 from fecolumn.contact.tolerances import THROUGH
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 
 class ThroughCheck:

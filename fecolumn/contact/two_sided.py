@@ -42,7 +42,8 @@ from fecolumn.contact.tolerances import (
     SAME_OUTLINE,
     SAME_POINT,
 )
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.overlap import Overlaps

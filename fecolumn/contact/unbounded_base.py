@@ -10,7 +10,7 @@ import numpy as np
 
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.layer import layer_response
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 # Rows of nodes around the foot of which the compliance is known from the start: a cell, and the
 # foot's place within one

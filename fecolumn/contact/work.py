@@ -10,7 +10,8 @@ import numpy as np
 
 from fecolumn.contact.pad import any_pad, dashpot_work
 from fecolumn.contact.tolerances import STUCK
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.pad import Springs

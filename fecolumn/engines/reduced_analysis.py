@@ -33,7 +33,8 @@ from fecolumn.engines.reduced.states import States, state_of
 from fecolumn.engines.reduced_engine import begins_unstrained, engine_of, upright
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure, columns_of
-from fecolumn.foundation._compiled import Array, compiled, interpreted
+from fecolumn.foundation._compiled import compiled, interpreted
+from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.atomic import write_bytes
 from fecolumn.structures.model import BodyModel, Joint
 from fecolumn.structures.pads import warn_of_grounds

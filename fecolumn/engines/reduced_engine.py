@@ -19,7 +19,7 @@ from fecolumn.engines.reduced.model import Structure
 from fecolumn.engines.reduced.motion import MotionState
 from fecolumn.engines.reduced.start import of_parts
 from fecolumn.engines.reduced.structure import structure_of, view_of
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import StructureModel

@@ -17,7 +17,7 @@ from scipy.spatial import cKDTree
 from fecolumn.fem.material.elasticity import isotropic_stress
 from fecolumn.fem.material.kinematics import linear_strain
 from fecolumn.foundation import _dolfinx
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.mesh.bricks import BrickMesh

@@ -15,7 +15,7 @@ import numpy as np
 from fecolumn.fem.damping import ModalDamping
 from fecolumn.fem.effective import effective_factor
 from fecolumn.fem.foot import FilteredFoot, PlainFoot, Response
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.fem.body import Body

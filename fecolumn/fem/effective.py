@@ -10,7 +10,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from fecolumn.foundation import _dolfinx
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.fem.body import Body

@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.fem.effective import effective_factor
 from fecolumn.fem.rayleigh import spectral_shift
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.fem.body import Body

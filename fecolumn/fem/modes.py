@@ -11,7 +11,7 @@ from scipy.linalg import eigh
 
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rayleigh import spectral_shift
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.fem.body import Body

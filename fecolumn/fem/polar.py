@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 #: Change of an iterate [-] at which the next one is exact to rounding: Newton's iteration squares
 #: it

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fecolumn.fem.polar import polar_of
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 
 def rotation_matrix(vector: ArrayLike) -> Array:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fecolumn.fem.body import Body
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import BrickMesh, boundary_faces
 from fecolumn.mesh.surface import face_basis, face_points

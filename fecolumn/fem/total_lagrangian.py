@@ -14,7 +14,7 @@ from fecolumn.fem.corotated import mean_rotation
 from fecolumn.fem.material.elasticity import isotropic_stress
 from fecolumn.fem.material.kinematics import green_lagrange_strain
 from fecolumn.foundation import _dolfinx
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.fem.body import Body

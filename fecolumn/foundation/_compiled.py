@@ -5,19 +5,13 @@ from __future__ import annotations
 import functools
 import os
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import numba
 from llvmlite.binding import get_host_cpu_name
-from numpy.typing import NDArray
 
 from fecolumn.foundation._kernel import Kernel, is_kept, is_tested
 from fecolumn.foundation.sources import digest_of
-
-#: What compiled functions take: an array, of whose shape and type their docstrings tell, and one
-#: element of an array of records, whose fields are its attributes
-Array: TypeAlias = NDArray[Any]
-Record: TypeAlias = Any
 
 # Folders of which compiled functions take code or constants, and the files that say how they are
 # compiled

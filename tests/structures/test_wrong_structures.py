@@ -144,7 +144,7 @@ WRONG = [
         "links.tie.damping_n_s_m",
         "greater than 0",
     ),
-    (stack(joints=dict(joint=dict(on="lwoer"))), "joints.joint", "did you mean lower"),
+    (stack(joints=dict(joint=dict(on="lwoer"))), "joints.joint.between", "did you mean lower"),
     (stack(initial=dict(middle=dict(tilt_rad=0.1))), "initial.middle", "no such body"),
     (stack(bodies=dict(upper=dict(kind="ball"))), "bodies.upper.kind", "must be one of tube"),
     (

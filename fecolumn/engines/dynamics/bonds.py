@@ -13,7 +13,7 @@ import numpy as np
 
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.dynamics.links import LINK
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.structures.model import Joint, StructureModel, Surface

@@ -10,7 +10,7 @@ import numpy as np
 from fecolumn.contact.work import losses
 from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.system import State
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.energy import Ledger

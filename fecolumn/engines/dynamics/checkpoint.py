@@ -13,7 +13,7 @@ from fecolumn.contact.points import CONTACT
 from fecolumn.contact.pose import GROUND_STATE
 from fecolumn.engines.dynamics.links import TIE
 from fecolumn.engines.dynamics.system import State
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.atomic import write_bytes
 from fecolumn.foundation.files import read_bytes
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fecolumn.engines.dynamics.hht import HHT
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 #: Places of "rolling" and "impacts" among SUBSTEPS, for compiled code.
 ROLLING_PARTS, IMPACT_PARTS = range(2)

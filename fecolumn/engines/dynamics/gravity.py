@@ -22,7 +22,7 @@ from fecolumn.engines.dynamics.stage import Stage, equilibrate
 from fecolumn.engines.dynamics.system import State
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.case.sections import Initial

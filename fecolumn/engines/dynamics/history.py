@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from fecolumn.engines.dynamics.energy import TERMS
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.atomic import write_hdf5
 
 UNITS = {

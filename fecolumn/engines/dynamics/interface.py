@@ -36,7 +36,8 @@ from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.engines.dynamics.cuts import StepFailed, Stop
 from fecolumn.engines.dynamics.places import Nodal, Places
 from fecolumn.engines.dynamics.stay import StickOperatorCache
-from fecolumn.foundation._compiled import Array, Record, compile_for, compiled, interpreted
+from fecolumn.foundation._compiled import compile_for, compiled, interpreted
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.base_plate import BasePlate

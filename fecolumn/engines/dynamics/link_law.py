@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.foundation._compiled import Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Record
 
 # Part of a step of the curve at most, over its exponent: it closes in on yielding as fast as that
 _CURVE_STEP = 0.1

@@ -11,7 +11,7 @@ from fecolumn.contact.pose import frames_at
 from fecolumn.engines.dynamics.links import TIE, Held, Linked, end_links, pull_links
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import out_of_frames
-from fecolumn.foundation._compiled import Array, Record
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.stage import Stage

@@ -17,7 +17,8 @@ from fecolumn.engines.dynamics.link_law import (
     strain_of,
     stretch_of,
 )
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 #: A link from body a to body b, -1 for a ground; ground: which one then; arm_a, arm_b: (3,) of its
 #: ends from the centres of mass in the bodies' frames, of a ground where it is in the table frame

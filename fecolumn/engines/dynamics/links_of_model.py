@@ -10,7 +10,7 @@ from scipy.optimize import bisect
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.dynamics.bonds import bond_links, bonded
 from fecolumn.engines.dynamics.links import LINK, Linked
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.hht import HHT

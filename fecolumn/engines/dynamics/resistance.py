@@ -13,7 +13,7 @@ from fecolumn.contact.pose import MASTER, SLAVE
 from fecolumn.contact.rolling import rolling_moment
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rotation import into_frames, out_of_frames
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 
 class Resistance:

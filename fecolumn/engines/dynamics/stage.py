@@ -11,7 +11,7 @@ import numpy as np
 
 from fecolumn.engines.dynamics.cuts import Stop
 from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.interface import ContactInterface

@@ -10,7 +10,7 @@ import numpy as np
 
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.rotation import into_frames
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.system import System

@@ -12,7 +12,8 @@ from fecolumn.contact.pose import SLAVE
 from fecolumn.contact.problem import STICKS_STILL, begin_problem
 from fecolumn.contact.stick import holds, is_worth, no_stick
 from fecolumn.contact.tolerances import LEVEL
-from fecolumn.foundation._compiled import Array, interpreted
+from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.problem import Problem

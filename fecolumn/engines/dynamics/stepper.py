@@ -28,7 +28,8 @@ from fecolumn.engines.dynamics.record import Record
 from fecolumn.engines.dynamics.stage import Stage, carried, equilibrate
 from fecolumn.engines.dynamics.system import State
 from fecolumn.fem.rotation import into_frames, out_of_frames
-from fecolumn.foundation._compiled import Array, interpreted
+from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.energy import Ledger

@@ -26,7 +26,7 @@ from fecolumn.fem.composite import (
     CompositeKinematics,
     CompositeResponse,
 )
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.links import Linked

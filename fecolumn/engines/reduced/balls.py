@@ -9,7 +9,8 @@ import numpy as np
 from fecolumn.contact.ball import from_center, roll_on
 from fecolumn.contact.pose import SLAVE
 from fecolumn.engines.reduced.elastic import END, START, find_elastic
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.reduced.equilibrium import Work

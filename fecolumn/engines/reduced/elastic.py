@@ -11,7 +11,8 @@ import numpy as np
 from fecolumn.contact.points import GROUND, OVER
 from fecolumn.contact.pose import into_frame
 from fecolumn.contact.projection import find_seat, side_of_outline, take_surface
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 # What is asked for at each point is put in place of its call: a call would hand on two hundred
 # addresses of arrays, which takes as long as what is done there

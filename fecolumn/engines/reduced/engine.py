@@ -41,7 +41,8 @@ from fecolumn.engines.reduced.ledger import N_PLACES
 from fecolumn.engines.reduced.model import scheme
 from fecolumn.engines.reduced.observe import ENERGY, outcome_of_row
 from fecolumn.engines.reduced.run import LENGTHS, StepBatch, StepState, advance
-from fecolumn.foundation._compiled import Array, compile_for, interpreted
+from fecolumn.foundation._compiled import compile_for, interpreted
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.reduced.model import Scheme, Structure

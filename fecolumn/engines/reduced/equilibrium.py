@@ -51,7 +51,8 @@ from fecolumn.engines.reduced.elastic import (
 from fecolumn.engines.reduced.motion import Action, begin_frames, follow, no_action
 from fecolumn.engines.reduced.positions import Positions, find_positions, no_positions
 from fecolumn.engines.reduced.secant import Secant, no_secant, predict_slips, update_secant
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.projection import GroundTops

@@ -8,7 +8,7 @@ from fecolumn.contact.tolerances import LINKS_FIRM
 from fecolumn.engines.dynamics.gravity import pseudo_inertia
 from fecolumn.engines.dynamics.links_of_model import fastest_of_each
 from fecolumn.engines.reduced.model import Structure
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 # Times that the inertia of iterations is found anew from what modes give in one of that inertia
 _PASSES = 5

@@ -24,7 +24,8 @@ from fecolumn.contact.problem import NO_ROOM, OK, list_present
 from fecolumn.contact.separation import FACE_OF_FIRST, TWO_EDGES
 from fecolumn.contact.tolerances import FOUND_NEAR, OPEN, SAME_PLACE, STAYS_DEEP
 from fecolumn.engines.reduced.motion import copy_meetings
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.meetings import Meetings

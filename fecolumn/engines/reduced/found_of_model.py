@@ -14,7 +14,7 @@ from fecolumn.contact.nearby import boxes_for, pair_keys
 from fecolumn.contact.points import FLAT_GROUND, GROUND, POINT
 from fecolumn.contact.tolerances import FOUND_SLOTS
 from fecolumn.engines.reduced.found import Found
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.structures.hulls import HULL
 
 if TYPE_CHECKING:

@@ -9,7 +9,8 @@ from fecolumn.contact.problem import near_points
 from fecolumn.contact.work import losses
 from fecolumn.engines.dynamics.links import end_links
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, RATE
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.reduced.equilibrium import Work

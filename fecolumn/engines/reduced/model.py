@@ -12,7 +12,7 @@ from fecolumn.contact.bodies import Bodies
 from fecolumn.contact.overlap import Overlaps
 from fecolumn.contact.pad import Springs, springs_of
 from fecolumn.engines.reduced.found import Found
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.hht import HHT

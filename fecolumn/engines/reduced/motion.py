@@ -16,7 +16,8 @@ from fecolumn.contact.tolerances import FOUND_SLOTS
 from fecolumn.engines.dynamics.links import TIE, pull_links
 from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START
 from fecolumn.engines.reduced.rotation import Turning, turn_by, turning
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.engines.reduced.elastic import Elastic

@@ -21,7 +21,8 @@ from fecolumn.contact.record import record
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.engines.reduced.elastic import COORDINATE
 from fecolumn.engines.reduced.ledger import N_TERMS, kinetic, strain, weight_energy
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.reduced.model import Structure

@@ -20,7 +20,8 @@ from fecolumn.engines.reduced.elastic import (
     find_position,
     locate_start,
 )
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.engines.reduced.model import Structure

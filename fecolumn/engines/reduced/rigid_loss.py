@@ -37,7 +37,8 @@ from fecolumn.engines.reduced.ledger import (
     rigid_kinetic,
     weight_energy,
 )
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.coupling import Coupling

@@ -35,7 +35,8 @@ from fecolumn.engines.reduced.found import has_pairs, lay_found
 from fecolumn.engines.reduced.observe import ENERGY, observe, outcome_of_row
 from fecolumn.engines.reduced.step import lay_points, step
 from fecolumn.foundation._borrowed import borrowed
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.projection import GroundTops

@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.contact.tolerances import FULL_FRICTION
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 
 class Secant(NamedTuple):

@@ -29,7 +29,8 @@ from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.model import resting_scheme
 from fecolumn.engines.reduced.tangent import coordinates_of, displacements_of, masses_of, tangent_of
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.foundation._compiled import Array, interpreted
+from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.reduced.engine import Engine

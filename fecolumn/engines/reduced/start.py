@@ -17,7 +17,8 @@ from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE
 from fecolumn.engines.reduced.firmness import firmness_of
 from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.settling import Diverged, Settling
-from fecolumn.foundation._compiled import Array, interpreted
+from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.reduced.engine import Engine

@@ -13,7 +13,7 @@ import numpy as np
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import poses_of
 from fecolumn.engines.reduced.elastic import COORDINATE
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.atomic import write_hdf5
 
 if TYPE_CHECKING:

@@ -61,7 +61,8 @@ from fecolumn.engines.reduced.ledger import (
 from fecolumn.engines.reduced.motion import push_bodies
 from fecolumn.engines.reduced.rigid_loss import begin_impact, follow_impact
 from fecolumn.engines.reduced.rotation import orthonormal, turn_by
-from fecolumn.foundation._compiled import Array, Record, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array, Record
 
 if TYPE_CHECKING:
     from fecolumn.contact.projection import GroundTops

@@ -20,7 +20,7 @@ from fecolumn.engines.dynamics.links_of_model import links_of
 from fecolumn.engines.reduced.found_of_model import found_interfaces, found_of, found_points
 from fecolumn.engines.reduced.model import Structure, modal_sum
 from fecolumn.engines.reduced.observe import MARK, View
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.hht import HHT

@@ -10,7 +10,7 @@ from fecolumn.contact.problem import near_points
 from fecolumn.contact.tolerances import LEAST_COMPLIANCE, STICKS
 from fecolumn.engines.dynamics.links_of_model import rows_of_links
 from fecolumn.engines.reduced.elastic import END
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.contact.pad import Springs

@@ -19,7 +19,7 @@ from fecolumn.engines.ending import AT_REST, OVERTURNED, STILL_ROCKING, Ending
 from fecolumn.engines.rocking.body_motion import body_motion
 from fecolumn.engines.rocking.model import STATE_TERMS, ModelResponse
 from fecolumn.engines.rocking.of_bodies import ALONG_X, model_of, start_of
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.motions.record import GroundMotion
 
 if TYPE_CHECKING:

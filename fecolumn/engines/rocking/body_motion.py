@@ -13,7 +13,7 @@ from fecolumn.case.case import Case
 from fecolumn.engines.rocking.column import RigidColumn, rigid_body
 from fecolumn.engines.rocking.model import ModelResponse, moved_about_edge
 from fecolumn.engines.rocking.of_bodies import rocking_bodies
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.structures.storeys import building_of
 
 

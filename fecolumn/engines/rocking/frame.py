@@ -22,7 +22,7 @@ from fecolumn.engines.rocking.block import described
 from fecolumn.engines.rocking.impact import frame_restitution
 from fecolumn.engines.rocking.plane import PlanarModel, Plane
 from fecolumn.engines.rocking.restraint import Restraint
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -18,7 +18,7 @@ from typing import SupportsFloat
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.motions.record import GroundMotion
 
 #: Delta_1/Delta_u and Delta_2/Delta_u by the state of the mortar joints, of Doherty, Griffith, Lam

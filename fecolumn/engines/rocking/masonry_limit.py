@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linprog
 from scipy.sparse import coo_matrix, vstack
 
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 #: Two faces touch where they are this close, over the smallest side of a block [-]
 _CLOSE = 1e-6

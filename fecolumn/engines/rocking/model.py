@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.engines.ending import OVERTURNED
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.motions.record import GroundMotion
 
 SAFE = "safe"

@@ -27,7 +27,7 @@ from fecolumn.engines.rocking.soft_ground import tell_of_soft_ground
 from fecolumn.engines.rocking.storeys import shear_building
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
 from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.storeys import building_of
 

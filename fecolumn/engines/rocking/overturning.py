@@ -16,7 +16,7 @@ from scipy.optimize import brentq
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.swing import IMPACT_COUNT, PEAK_TILT, rock_all, row_of_block
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.motions.pulses import Pulse
 
 #: Coefficients of a_p/(g tan alpha) = 1 + beta w_p/p (Makris and Roussos 1998), and gamma of tan

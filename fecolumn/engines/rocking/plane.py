@@ -42,7 +42,7 @@ from fecolumn.engines.rocking.swing import (
     look,
     rock_one,
 )
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.motions.record import GroundMotion
 
 

@@ -16,7 +16,7 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.model import ModelResponse, balanced
 from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.engines.rocking.storeys import ElasticBuilding, storeys
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
 

@@ -23,7 +23,8 @@ import math
 
 import numpy as np
 
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 # Columns of the rows; all energies are per mass of the columns [J/kg]
 (

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from fecolumn.engines.rocking.column import RigidColumn
 
 #: What the weight takes of the stiffness against rocking of the ground below a foot, W h / (k I),
 #: from which on it is told: so much less than on rigid ground tips the body over.
-SOFT = 0.01
+SOFT_GROUND = 0.01
 
 
 def tell_of_soft_ground(case: Case, body: RigidColumn, mass: float, file: Path | str) -> None:
@@ -36,7 +36,7 @@ def tell_of_soft_ground(case: Case, body: RigidColumn, mass: float, file: Path |
         thickness = a / 2 if ground.thickness_m is None else ground.thickness_m
         stiffness = ground.youngs_modulus_pa / thickness * second
         taken = mass * GRAVITY * body.height / stiffness
-        if taken > SOFT:
+        if taken > SOFT_GROUND:
             warnings.warn(
                 f"{file}: grounds.{name}: integration.engine = {case.integration.engine!r} takes "
                 f"it as rigid, and it gives: the weight takes {100 * taken:.2g} % of its "

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.swing import PEAK_TILT, rock_all, row_of_block
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.record import GroundMotion
 

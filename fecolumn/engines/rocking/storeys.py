@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import eigh
 
-from fecolumn.foundation._compiled import Array
+from fecolumn.foundation.arrays import Array
 
 #: First mode over the height x = i/n of floor i of n, after Thermou, Pantazopoulou and Elnashai
 #: (2012)

@@ -29,7 +29,8 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 _GRAVITY = 9.80665  # [m/s2], as in fecolumn.case: this file is compiled by itself
 # step over 1/p, p the fastest rate: the fourth-order error of a step is then some 1e-8

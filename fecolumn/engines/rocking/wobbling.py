@@ -27,7 +27,8 @@ from fecolumn.engines.rocking.model import (
     check_friction,
     moved_about_edge,
 )
-from fecolumn.foundation._compiled import Array, interpreted
+from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.record import GroundMotion
 

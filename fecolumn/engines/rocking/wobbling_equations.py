@@ -29,7 +29,8 @@ from __future__ import annotations
 
 import math
 
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 _RADIUS, _CENTRE, _HEIGHT, _MASS, _SLAB, _ACROSS, _ALONG, _STIFFNESS, _PULL, _GRAVITY = range(10)
 

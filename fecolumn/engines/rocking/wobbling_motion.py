@@ -20,7 +20,8 @@ import numpy as np
 from scipy.integrate import DOP853
 
 from fecolumn.engines.rocking.wobbling_equations import force, inertia, moments, potential, rates
-from fecolumn.foundation._compiled import Array, njit
+from fecolumn.foundation._compiled import njit
+from fecolumn.foundation.arrays import Array
 
 # Columns of the rows
 WOBBLE_TIME, WOBBLE_TILT, WOBBLE_AZIMUTH, WOBBLE_RATE, WOBBLE_SPIN, WOBBLE_WORK, WOBBLE_LOSS = (
