@@ -58,6 +58,9 @@ def check(case: CheckedCase, file: Path | str) -> None:
     for name, interface in case.joints.items():
         _check_name(case, f"joints.{name}.between", interface.slave, refuse, ground=False)
         _check_name(case, f"joints.{name}.between", interface.on, refuse)
+        if interface.slave == interface.on and len(case.copies_of(interface.on)) == 1:
+            told = "must be two bodies, or a body and a ground: of this one there is no other copy"
+            refuse(f"joints.{name}.between", interface.on, told)
         if all(case.is_held(one) for one in (interface.slave, interface.on)):
             told = f'"{interface.slave}" and "{interface.on}" are both fixed'
             refuse(f"joints.{name}", None, f"must name a body that moves: {told}")

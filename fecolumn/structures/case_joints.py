@@ -12,7 +12,7 @@ from fecolumn.case.body_keys import WithMaterial
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.joint import Interface
-from fecolumn.case.sections import Contact
+from fecolumn.case.sections import GRAVITY, Contact
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.rim import Rim
@@ -128,6 +128,8 @@ def with_hertz(
                     for body in bodies
                     if isinstance(body, WithMaterial)
                 ]
+                # of one that begins above what it will stand on, by its own weight
+                load = load or standing[joint.slave].model.mass * GRAVITY
                 joint = dataclasses.replace(
                     joint, law=joint.law + hertz(joint.ball.radius, load, *materials)
                 )

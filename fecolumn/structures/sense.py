@@ -4,6 +4,7 @@ computed.
 
 from __future__ import annotations
 
+import math
 import warnings
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,7 @@ from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.model import BodyModel, HullOutline, StructureModel
+from fecolumn.structures.model import BodyModel, HullOutline, Joint, StructureModel
 from fecolumn.structures.place import Standing, loads
 from fecolumn.structures.size import LARGE, largest_side
 
@@ -78,6 +79,41 @@ def tell_of_lengths(case: Case, file: Path | str) -> None:
             "millimetres: lengths are in metres",
             stacklevel=2,
         )
+
+
+def tell_of_restitution(
+    case: Case, joints: list[Joint], standing: list[Standing], file: Path | str
+) -> None:
+    """Warn of restitution where more than it decides how a body rebounds: on ground that gives, and
+    of elastic bodies in steps that are shorter than their slowest vibration.
+    """
+    dt, engine = case.integration.dt_s, case.integration.engine
+    for joint in joints:
+        if not joint.restitution:
+            continue
+        places = [place for place in (joint.slave, joint.master) if place != GROUND]
+        slowest = min(standing[place].model.frequencies.min(initial=math.inf) for place in places)
+        period = 2 * math.pi / slowest
+        ground = list(case.grounds.values())[joint.ground] if joint.master == GROUND else None
+        if engine != "rigid" and (dt == "auto" or float(dt) < period) and period > 0:
+            told = (
+                f"elastic bodies vibrate for up to {period:.2g} s, and steps that are shorter "
+                "follow that: how high a body rebounds then depends on integration.dt_s"
+            )
+        elif ground is not None and ground.kind in ("plate", "unbounded"):
+            told = (
+                "ground that gives takes and returns energy of its own: how high a body rebounds "
+                "depends on integration.dt_s"
+            )
+        else:
+            continue
+        name = joint.name.partition(":")[0]
+        warnings.warn(
+            f"{file}: joints.{name}: restitution = {joint.restitution:g} is that of rigid bodies "
+            f"on rigid ground; {told}",
+            stacklevel=3,
+        )
+        return
 
 
 def tell_of_densities(

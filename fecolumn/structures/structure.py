@@ -32,7 +32,12 @@ from fecolumn.structures.made_layout import layout_on_disk
 from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
 from fecolumn.structures.pads import with_pads
 from fecolumn.structures.place import Standing, placed
-from fecolumn.structures.sense import check_sense, tell_of_densities, tell_of_lengths
+from fecolumn.structures.sense import (
+    check_sense,
+    tell_of_densities,
+    tell_of_lengths,
+    tell_of_restitution,
+)
 from fecolumn.structures.store import KeptLayout, kept_body
 
 
@@ -142,6 +147,7 @@ def assembled(
     met = [one for n, one in enumerate(joints) if n not in replaced]
     tell_of_gaps(met, standing, list(case.grounds), file)
     tell_of_lengths(case, file)
+    tell_of_restitution(case, met, standing, file)
     tell_of_densities(case, bodies, layout["outlines"], file)
     check_sense(case, structure, standing, extents, file)
     check_rest(case, structure, standing, file)

@@ -8,6 +8,7 @@ from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY, Initial
 from fecolumn.engines.dynamics.gravity import begin
 from fecolumn.fem.rotation import rotation_matrix
+from fecolumn.structures.structure import structure_model
 from fecolumn.verification.structures_feet import BLOCK, columns_and_rows
 from fecolumn.verification.trial import afloat
 
@@ -101,3 +102,30 @@ def test_a_dropped_block_lies_still_after_the_time_of_all_its_bounces(engine, e)
     speed = np.abs(np.diff(rows["body/block/displacement"][:, 2])) / dt
     still = rows["time"][np.flatnonzero(speed > 1e-5)[-1] + 1]
     assert still == pytest.approx(np.sqrt(2 * fall / GRAVITY) * (1 + e) / (1 - e), abs=15 * dt)
+
+
+@pytest.mark.parametrize(
+    "height, dt, engine, ground, told",
+    [
+        (6.0, 1e-3, "reduced", {}, "depends on integration.dt_s"),
+        (1.2, 1e-4, "reduced", {}, "vibrate for up to"),
+        (1.2, 5e-3, "reduced", {}, ""),
+        (6.0, 1e-3, "rigid", {}, ""),
+        (1.2, 1e-3, "rigid", dict(kind="plate", thickness_m=0.1), "ground that gives"),
+    ],
+)
+def test_restitution_that_depends_on_the_step_is_told(height, dt, engine, ground, told, recwarn):
+    case = case_from_tables(
+        dict(
+            bodies=dict(block=BLOCK | dict(height_m=height)),
+            grounds=dict(ground=ground) if ground else {},
+            joints=dict(foot=dict(slave="block", on="ground", restitution=0.5)),
+            contact=dict(friction_coefficient=0.4, interior_points=4),
+            integration=dict(dt_s=dt, duration_s=1.0, engine=engine),
+        ),
+        "case.toml",
+    )
+    structure_model(case, "case.toml")
+    found = [str(one.message) for one in recwarn if "restitution" in str(one.message)]
+    assert len(found) == bool(told)
+    assert all(told in one and "joints.foot: restitution = 0.5" in one for one in found)

@@ -25,10 +25,12 @@ from fecolumn.verification.structures_feet import BLOCK as WIDE
 from fecolumn.verification.structures_feet import (
     CLOSED,
     DRUM,
+    MARBLE,
     PLATE,
     TUBE,
     Rolling,
     alone_on_ground,
+    case_of,
     closure_over_kinetic,
     columns_and_rows,
     falls,
@@ -534,3 +536,47 @@ def test_a_rounded_edge_stands_and_rolls_on_ground_that_gives(ground):
     )
     assert closure_over_kinetic(columns) < 1e-10
     assert 0 < np.abs(rows["body/body/tilt"][-200:]).max() < 0.1
+
+
+PLINTH = dict(kind="block", length_m=1.2, width_m=1.0, height_m=0.4, element_size_m=0.2) | MARBLE
+
+
+def on_plinth(engine: str, at: tuple[float, float] = (0.0, 0.0), joint=None, **initial):
+    """Case of a block on a dome on a block on the ground."""
+    return case_of(
+        dict(plinth=PLINTH, body=DOMED | dict(at_m=[*at, PLINTH["height_m"]])),
+        dict(
+            base=dict(slave="plinth", on="ground"),
+            foot=dict(slave="body", on="plinth") | (joint or {}),
+        ),
+        engine,
+        1e-3,
+        dict(body=initial) if initial else None,
+    )
+
+
+@pytest.mark.parametrize("joint", [{}, dict(stiffness_n_m3=1e9)])
+def test_a_dome_swings_on_another_body_and_on_a_pad_between_them(joint):
+    still = structure_model(on_plinth("rigid", joint=joint))
+    rolling = Rolling(still.parts[1].model, RADIUS)
+    spin = [0.0, rolling.spin(rolling.potential(0.05)), 0.0]
+    rows, columns = columns_and_rows(on_plinth("rigid", joint=joint, spin_rad_s=spin), 3.5)
+    found = passages(rows)
+    assert 2 * (found[1] - found[0]) == pytest.approx(4 * rolling.quarter(0.05), rel=5e-4)
+    assert closure_over_kinetic(columns) < CLOSED
+
+
+@pytest.mark.parametrize("joint", [{}, dict(stiffness_n_m3=1e9)])
+def test_a_dome_away_from_the_middle_of_an_elastic_body_rests(joint):
+    """What it stands on leans by a millionth: it has to roll a little, which only its own weight
+    resists.
+    """
+    rows, _ = columns_and_rows(on_plinth("reduced", (0.3, 0.2), joint), 0.05)
+    assert rows["body/body/tilt"].max() < 1e-4
+
+
+def test_a_dome_that_begins_above_the_ground_falls_and_lands():
+    case = alone_on_ground(DOMED | dict(at_m=[0.0, 0.0, 0.02]), "reduced", 1e-3)
+    rows, columns = columns_and_rows(case, 0.3)
+    assert rows["body/body/displacement"][-1, 2] == pytest.approx(-0.02, abs=1e-4)
+    assert closure_over_kinetic(columns) < CLOSED

@@ -145,6 +145,7 @@ WRONG = [
         "greater than 0",
     ),
     (stack(joints=dict(joint=dict(on="lwoer"))), "joints.joint.between", "did you mean lower"),
+    (stack(joints=dict(joint=dict(on="upper"))), "joints.joint.between", "no other copy"),
     (stack(initial=dict(middle=dict(tilt_rad=0.1))), "initial.middle", "no such body"),
     (stack(bodies=dict(upper=dict(kind="ball"))), "bodies.upper.kind", "must be one of tube"),
     (

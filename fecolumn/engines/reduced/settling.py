@@ -226,7 +226,13 @@ class Settling:
         held = np.union1d(pulls["a"], pulls["b"])
         held = held[held >= 0]
         tied = np.isin(points["slave"], held) | np.isin(points["master"], held)
-        return bool((slides & ~tied).any())
+        loose = slides & ~tied
+        if (self.structure.interfaces["edge"][:, 0] > 0).any():
+            # a dome rolls to its place by Newton's steps alone: what sticks elsewhere in a joint
+            # holds points that slide as faces spread
+            sticks = points["interface"][(force[:, 2] > 0) & ~slides]
+            loose &= ~np.isin(points["interface"], sticks)
+        return bool(loose.any())
 
     def _is_used_up(self) -> bool:
         """Whether the last step breaks or settles anything, which stays, or yields otherwise than

@@ -72,8 +72,8 @@ def tangent_of(
 
     Points that carry hold in all directions, those that slide along the normal alone; so do points
     that carry nothing but are less than `touches` [m] above what they stand on. Links that are
-    `yielding` (nl,) hold by what they harden. The base's compliance and the turning of forces are
-    left out.
+    `yielding` (nl,) hold by what they harden. The base's compliance is left out, and that forces
+    turn bodies otherwise once these have turned, but for bodies on domes: only that holds them.
     """
     count, modes = len(masses.mass), structure.squares.shape[1]
     links = structure.links
@@ -96,9 +96,39 @@ def tangent_of(
     tangent = stacked.T @ stacked
     own = np.arange(6 * count, (6 + modes) * count)
     tangent[own, own] += structure.squares.ravel()
+    for b in np.unique(structure.interfaces["slave"][structure.interfaces["edge"][:, 0] > 0]):
+        turns = slice(6 * b + 3, 6 * b + 6)
+        tangent[turns, turns] += _rolling_stiffness(structure, work, masses, motion, int(b))
     held = np.repeat(~masses.free, 6)
     tangent[: 6 * count][held] = tangent[:, : 6 * count][:, held] = 0.0
     return tangent
+
+
+def _rolling_stiffness(
+    structure: Structure, work: Work, masses: Masses, motion: MotionState, b: int
+) -> Array:
+    """Stiffness (3, 3) against turning of body b, in the coordinates of `coordinates_of`, by which
+    the contact forces on it keep their direction.
+
+    A force f at the arm a, which turns with the body, gets the moment (t x a) x f by a turn t. The
+    arm of a ball is that of its centre: it touches below that, however the body has turned.
+    """
+    stiffness, points = np.zeros((3, 3)), work.points
+    for i in np.flatnonzero(motion.contact["force"][:, 2] > 0):
+        point, interface = points[i], structure.interfaces[points["interface"][i]]
+        axes = work.poses[END]["frame"][point["interface"]].T @ motion.rotation[b]
+        force = motion.contact["force"][i] @ axes
+        if point["slave"] == b:
+            arm = point["arm"] + work.elastic.point[END, i] + interface["ball"] * axes[2]
+        elif point["master"] == b:
+            arm, force = work.elastic.seat[END, i], -force
+        else:
+            continue
+        both = np.outer(arm, force)
+        stiffness += arm @ force * np.eye(3) - (both + both.T) / 2
+    half = np.linalg.solve(masses.factor[b], stiffness)
+    whole: Array = np.linalg.solve(masses.factor[b], half.T)
+    return whole
 
 
 def _contact_rows(

@@ -47,6 +47,8 @@ class Seat:
     drawn
         (m,) [m2] of the drawn elements, tributary to these points; none on the other side of a
         joint.
+    domed
+        whether it is a dome, which touches at one point.
     """
 
     nodes: NDArray[Any]
@@ -54,6 +56,7 @@ class Seat:
     plan: NDArray[Any]
     shares: csr_array
     drawn: NDArray[Any]
+    domed: bool = False
 
     def shown(self, pressure: NDArray[Any]) -> NDArray[Any]:
         """Pressure (m,) [Pa] at the points of the face by that (k,) at the nodes. Its integral over
@@ -61,6 +64,9 @@ class Seat:
         for many points.
         """
         at_points: NDArray[Any] = self.shares @ pressure
+        if self.domed:
+            # what presses at one point has no pressure that could be shown
+            return np.zeros_like(at_points)
         if self.drawn.any() and (integral := at_points @ self.drawn) > 0:
             at_points *= (pressure @ self.areas) / integral
         return at_points
@@ -78,17 +84,30 @@ def seats_of(structure: StructureModel, scene: Scene) -> list[Seat]:
         around, points = contact.pair < 0, contact.plan(scene.points[contact.points])
         shares = _shares_of_nearest(plan, points, around)
         drawn = _tributary(contact, scene) if around else np.zeros(len(points))
-        seats.append(Seat(first[joint.slave] + surface.nodes, surface.areas, plan, shares, drawn))
+        nodes = first[joint.slave] + surface.nodes
+        seats.append(Seat(nodes, surface.areas, plan, shares, drawn, contact.domed))
     return seats
 
 
 def _tributary(contact: JointFace, scene: Scene) -> NDArray[Any]:
-    """Area (m,) [m2] of a contact's drawn faces that belongs to each of its points."""
+    """Weights (m,) [m2] by which the pressures at a contact's points add up to their integral over
+    the drawn faces: flat on triangles, bilinear on quadrilaterals.
+    """
     corners = contact.plan(scene.points[contact.faces])
-    x, y = corners[..., 0], corners[..., 1]
-    areas = np.abs((x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y).sum(axis=1)) / 2
-    count = contact.faces.shape[1]
-    of_all = np.bincount(contact.faces.ravel(), np.repeat(areas / count, count), len(scene.points))
+    count = corners.shape[1]
+    if count == 3:
+        sides = corners[:, 1:] - corners[:, :1]
+        whole = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]) / 2
+        weights = np.repeat(whole[:, None] / 3, 3, axis=1)
+    else:
+        weights = np.zeros((len(corners), 4))
+        signs = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+        for place in signs / np.sqrt(3):  # Gauss' points
+            own = (1 + signs * place) / 2
+            slopes = signs / 2 * own[:, ::-1]
+            ways = np.einsum("qa,fqb->fab", slopes, corners)
+            weights += np.abs(np.linalg.det(ways))[:, None] * own.prod(axis=1)
+    of_all = np.bincount(contact.faces.ravel(), weights.ravel(), len(scene.points))
     tributary: NDArray[Any] = of_all[contact.points]
     return tributary
 
