@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, TextIO, cast
 if TYPE_CHECKING:
     from fecolumn.case.case import Case
 
-# Warnings that were told
-_TOLD: set[str] = set()
+# Warnings that this command has told
+_WARNED: set[str] = set()
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -44,7 +44,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         with contextlib.suppress(AttributeError):
             cast(io.TextIOWrapper, stream).reconfigure(errors="backslashreplace")
     warnings.showwarning = _show_warning
-    _TOLD.clear()
+    _WARNED.clear()
     # Python hides what is told of older names, which is for those who write files
     warnings.filterwarnings("default", f".*{TOLD}", DeprecationWarning)
     try:
@@ -97,8 +97,8 @@ def _show_warning(
     line: str | None = None,
 ) -> None:
     """One line, from one rank; what was told once is not told again."""
-    if str(message) not in _TOLD:
-        _TOLD.add(str(message))
+    if str(message) not in _WARNED:
+        _WARNED.add(str(message))
         _refuse(f"warning: {message}", 0)
 
 

@@ -121,6 +121,13 @@ def _base(
     return _plate(case, name, ground, sized, feet, file, say)
 
 
+def thickness_of(ground: Ground, shorter: float) -> float:
+    """Thickness [m] of a plate or layer, where it is left open by the smaller side [m] of the
+    smallest foot on it.
+    """
+    return shorter / 4 if ground.thickness_m is None else ground.thickness_m
+
+
 def sized_ground(name: str, ground: Ground, feet: list[NDArray[Any]], file: Path | str) -> Sized:
     """A ground with the sizes that it leaves open, from the feet (n, 3) [m] on it.
 
@@ -163,8 +170,8 @@ def sized_ground(name: str, ground: Ground, feet: list[NDArray[Any]], file: Path
             fine,
         )
         lines.append(plate_line(spans, middle - length / 2, middle + length / 2, fine, largest))
-    thickness = stated("thickness_m", shorter / 4)
-    return Sized(lines[0], lines[1], depths(thickness, fine, largest), fine, allowance)
+    levels = depths(thickness_of(ground, shorter), fine, largest)
+    return Sized(lines[0], lines[1], levels, fine, allowance)
 
 
 def _joined(spans: Iterable[tuple[float, float]], fine: float) -> list[tuple[float, float]]:

@@ -9,6 +9,7 @@ from pathlib import Path
 from fecolumn.case.case import Case
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.column import RigidColumn
+from fecolumn.structures.ground import thickness_of
 
 #: What the weight takes of the stiffness against rocking of the ground below a foot, W h / (k I),
 #: from which on it is told: so much less than on rigid ground tips the body over.
@@ -32,9 +33,7 @@ def tell_of_soft_ground(case: Case, body: RigidColumn, mass: float, file: Path |
     for name, ground in case.grounds.items():
         if ground.kind not in ("plate", "unbounded"):
             continue
-        # as `structures.ground.sized_ground` chooses it
-        thickness = a / 2 if ground.thickness_m is None else ground.thickness_m
-        stiffness = ground.youngs_modulus_pa / thickness * second
+        stiffness = ground.youngs_modulus_pa / thickness_of(ground, 2 * a) * second
         taken = mass * GRAVITY * body.height / stiffness
         if taken > SOFT_GROUND:
             warnings.warn(
