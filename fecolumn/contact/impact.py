@@ -313,21 +313,22 @@ def find_impact(
         for j in range(3 * k):
             velocity[j] += jump[j]
         restitution = _restitutions(interfaces, points, union, landing, velocity, start, free)
-        landing_impulses, solved = all_impulses(
-            mobility, velocity, friction, second, speed, pressed, counts
-        )
-        if not solved:
-            return IMPACT_FAILED, False, impulses
-        for j in range(3 * k):
-            landing_impulses[j] *= restitution[j // 3]
-        returned, jump = _jump(mobility, landing_impulses), _jump(mobility, changed)
-        arrived = square = 0.0
-        for j in range(3 * k):
-            arrived += landing_impulses[j] * (end[j] + jump[j])
-            square += landing_impulses[j] * returned[j]
-        given_back = returned_share(taken, arrived, square)
-        for j in range(3 * k):
-            changed[j] += given_back * landing_impulses[j]
+        if restitution.any():
+            landing_impulses, solved = all_impulses(
+                mobility, velocity, friction, second, speed, pressed, counts
+            )
+            if not solved:
+                return IMPACT_FAILED, False, impulses
+            for j in range(3 * k):
+                landing_impulses[j] *= restitution[j // 3]
+            returned, jump = _jump(mobility, landing_impulses), _jump(mobility, changed)
+            arrived = square = 0.0
+            for j in range(3 * k):
+                arrived += landing_impulses[j] * (end[j] + jump[j])
+                square += landing_impulses[j] * returned[j]
+            given_back = returned_share(taken, arrived, square)
+            for j in range(3 * k):
+                changed[j] += given_back * landing_impulses[j]
     for j in range(k):
         for a in range(3):
             impulses[union[j], a] = changed[3 * j + a]

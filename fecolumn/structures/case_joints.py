@@ -12,14 +12,14 @@ from fecolumn.case.body_keys import WithMaterial
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.joint import Interface
-from fecolumn.case.sections import GRAVITY, Contact
+from fecolumn.case.sections import Contact
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.rim import Rim
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.model import BodyModel, Joint
-from fecolumn.structures.place import Standing, loads
+from fecolumn.structures.place import Standing, dome_load, loads
 
 # Keys of [contact] that a joint may have of its own, in their place
 _OWN = {field.name for field in dataclasses.fields(Contact)} & {
@@ -128,10 +128,9 @@ def with_hertz(
                     for body in bodies
                     if isinstance(body, WithMaterial)
                 ]
-                # of one that begins above what it will stand on, by its own weight
-                load = load or standing[joint.slave].model.mass * GRAVITY
+                carried = dome_load(standing, joint, load)
                 joint = dataclasses.replace(
-                    joint, law=joint.law + hertz(joint.ball.radius, load, *materials)
+                    joint, law=joint.law + hertz(joint.ball.radius, carried, *materials)
                 )
         found.append(joint)
     return found

@@ -19,7 +19,7 @@ from fecolumn.contact.pad import pad_below
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import Joint, StructureModel
-from fecolumn.structures.place import Standing, loads
+from fecolumn.structures.place import Standing, dome_load, loads
 from fecolumn.structures.spring_areas import spring_areas, stiffer_in_rocking
 
 # Steps in a period of the vertical vibration on a pad: needed, and for 3 % in frequency (period
@@ -125,7 +125,7 @@ def _areas_below(
             "which it touches grows",
         )
     stiffness, radius = keys.stiffness_n_m3, joint.ball.radius
-    load = load or standing[joint.slave].model.mass * GRAVITY
+    load = dome_load(standing, joint, load)
     area = 2 * math.sqrt(math.pi * radius * load / stiffness)
     edge = min(side for side in joint.ball.edge if side)
     if area > math.pi * edge**2:

@@ -169,6 +169,13 @@ def loads(standing: Sequence[Standing], joints: Sequence[Joint]) -> list[float]:
     return [found[id(joint)] for joint in joints]
 
 
+def dome_load(standing: Sequence[Standing], joint: Joint, load: float) -> float:
+    """Force [N] about which the compliance of a dome is taken: `load`, what the joint carries at
+    rest, or the weight of its own body where that begins above what it will stand on.
+    """
+    return load or standing[joint.slave].model.mass * GRAVITY
+
+
 def _from_below(supports: list[Supports]) -> list[int]:
     """Places of the parts, each after all that it stands on; those in a circle come last, as they
     are.
