@@ -153,12 +153,13 @@ class DaskTeam:
 
     def _outcomes(self, future: Any, batch: list[Task]) -> list[TaskOutcome]:
         from distributed import CancelledError
+        from distributed.comm import CommClosedError
         from distributed.scheduler import KilledWorker
 
         try:
             found: list[TaskOutcome] = future.result()
             return found
-        except CancelledError:
+        except (CancelledError, CommClosedError):
             raise self._lost() from None
         except KilledWorker as error:
             return list(
