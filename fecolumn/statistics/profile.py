@@ -11,7 +11,8 @@ samples count as n (1 - r) / (1 + r).
 
 S may have many minima: after an impact on a pad the tilt depends on the phase of its bounces. The
 descents therefore start at every minimum of a Sobol sequence of trials, which is doubled until it
-leads to no better fit. Other minima that fit as well as the best belong to the interval.
+leads to no better fit, then at those of trials close to the best one. Other minima that fit as well
+as the best belong to the interval.
 """
 
 from __future__ import annotations
@@ -33,6 +34,9 @@ THRESHOLD = float(chi2.ppf(0.95, 1))
 # descents start at the best of their minima, until so many have led to worse fits, or so many all
 # in all
 _TRIALS, _DOUBLINGS, _STARTS, _MOST_STARTS = 32, 3, 3, 12
+# Way from the best fit, over the range, within which others are looked for in the same way: bounces
+# on a pad have minima a thousandth of two decades apart
+_BESIDE = 5e-3
 _DESCENT = 40  # runs of a descent for each parameter
 _INNER = 15  # the same, of the others along a profile
 _REACH = 11  # steps of a profile, each twice the one before, the last to the end of the range
@@ -145,7 +149,7 @@ def most_runs(d: int) -> int:
     a fit of many minima takes more.
     """
     inner = _INNER * (d - 1) if d > 1 else 1
-    return 2 * _first(d) + _STARTS * _DESCENT * d + 2 * d * (_REACH + _BISECTIONS) * inner
+    return 3 * _first(d) + _STARTS * _DESCENT * d + 2 * d * (_REACH + _BISECTIONS) * inner
 
 
 def profiled_fit(residuals: Residuals, d: int) -> ProfiledFit:
@@ -187,19 +191,40 @@ def _minima(squares: _Squares, residuals: Residuals, d: int) -> list[NDArray[Any
             trials = np.vstack([trials, sequence.random(len(trials))])
         spacing = len(trials) ** (-1 / d)
         before = minima[0] if minima else None
-        worse = 0
-        for start in _starts(squares, trials, minima, spacing)[:_MOST_STARTS]:
-            minima.append(_descent(squares, start, _DESCENT * d, spacing / 4))
-            best = min(minima, key=squares)
-            number = effective_number(residuals(best))
-            worse += squares.deviance(minima[-1], best, number) > THRESHOLD
-            if worse == _STARTS:
-                break
+        _descend(squares, residuals, trials, minima, spacing)
         minima.sort(key=squares)
         number = effective_number(residuals(minima[0]))
         if before is not None and squares.deviance(minima[0], before, number) > -_BETTER:
             break
+    for stage in range(_DOUBLINGS):
+        best = minima[0]
+        beside = qmc.Sobol(d, scramble=True, seed=stage).random(_first(d))
+        trials = np.clip(best + _BESIDE * (2 * beside - 1), 0, 1)
+        _descend(squares, residuals, trials, minima, 2 * _BESIDE * len(trials) ** (-1 / d))
+        minima.sort(key=squares)
+        if minima[0] is best:
+            break
     return minima
+
+
+def _descend(
+    squares: _Squares,
+    residuals: Residuals,
+    trials: NDArray[Any],
+    minima: list[NDArray[Any]],
+    spacing: float,
+) -> None:
+    """Add to the minima what descents from the best of the trials (n, d) lead to, until _STARTS of
+    them have led to worse fits; spacing: of the trials.
+    """
+    worse = 0
+    for start in _starts(squares, trials, minima, spacing)[:_MOST_STARTS]:
+        minima.append(_descent(squares, start, _DESCENT * start.size, spacing / 4))
+        best = min(minima, key=squares)
+        number = effective_number(residuals(best))
+        worse += squares.deviance(minima[-1], best, number) > THRESHOLD
+        if worse == _STARTS:
+            break
 
 
 def _starts(

@@ -174,15 +174,17 @@ def test_a_known_value_is_found_in_the_record_of_a_run_with_it(tmp_path, capsys,
 
 
 @pytest.mark.slow
-def test_the_stiffness_of_a_pad_is_found_among_many_minima(tmp_path):
-    """After impacts on a pad the tilt depends on the phase of its bounces: in 0.6 s 2.5e8 N/m3 fits
-    the scattered record better than the true 4e8, in 1.2 s a value 0.6 % off does. The interval is
-    of that minimum alone, and narrower than this; the manual says so.
+def test_the_stiffness_of_a_pad_is_found_among_many_minima(tmp_path, capsys):
+    """After impacts on a pad the tilt depends on the phase of its bounces. In 0.6 s of this record
+    2.5e8 N/m3 fits better than the true value; in 1.2 s the true one fits best, and 4.02e8 N/m3
+    fits nearly as well (deviance below 3.8), which the answer says.
     """
     known = ("grounds.ground.stiffness_n_m3", 4e8, "1e7:1e9", 0.1)
     block = dict(size=0.3, height=0.9, body="rigid = true", more=PAD)
     low, value, high = recovered(tmp_path, known, block, 1.2)
-    assert value == pytest.approx(4e8, rel=0.01) and low < value < high < 4.1e8
+    assert value == pytest.approx(4e8, rel=0.01) and 2.7e8 < low < 4e8 < high < 4.1e8
+    said = capsys.readouterr().out
+    assert "The interval has gaps: values near 4.02" in said and "a longer test" in said
 
 
 def test_a_range_of_decades_is_searched_in_logarithm(test_of_block):
