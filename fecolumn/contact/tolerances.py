@@ -163,9 +163,13 @@ FROZEN_SHARE, FROZEN_SLOPE = 0.1, 0.2
 #: 60 impacts of shaken elastic drums two are left to the slower ways, and seven without. One part
 #: of it at least: chosen.
 FROZEN_FARTHEST = 10.0
-#: Points, over the ways in which a body moves, rigid motion and modes, from which an impact of
-#: elastic bodies is solved by levers and not by the whole matrix: both cost the same there.
-POINTS_A_LEVER = 1.5
+#: Share of the largest of a body's mobilities at its contact nodes below which columns of the
+#: factor of the mobility are left out: rounding. Of 100 modes of a column 21 to 25 are left.
+MOBILITY_LEFT = 1e-14
+#: Points, over the columns of their levers, rigid motion and modes of one body or two, from which
+#: an impact of elastic bodies is solved by levers and not by the whole matrix: both cost the same
+#: there.
+POINTS_A_LEVER = 0.75
 #: For the energy that impacts take over that of rigid bodies (`reduced.rigid_loss`). Approach, over
 #: the largest before the impact, below which points no longer approach. Duration of an impact over
 #: the time until then: elastic faces give back for longer than they store. Least rigid loss that
