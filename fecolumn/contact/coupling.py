@@ -200,15 +200,15 @@ def times(coupling: Coupling, forces: Array) -> Array:
         W = coupling.whole
         if n > 8:
             # W is symmetric; of many points few carry
-            total = np.zeros(3 * n)
+            moved = np.zeros(3 * n)
             for i in range(n):
                 for a in range(3):
                     force = forces[i, a]
                     if force != 0.0:
                         row = W[3 * i + a]
                         for j in range(3 * n):
-                            total[j] += force * row[j]
-            put_points(total, result)
+                            moved[j] += force * row[j]
+            put_points(moved, result)
             return result
         # so small, a call of BLAS costs more than the product
         for i in range(n):
