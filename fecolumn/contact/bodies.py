@@ -46,7 +46,8 @@ class Bodies(NamedTuple):
     velocity per impulse beside that of rigid motion. Both have rows by node and columns by node of
     the same body, in its frame. facets: of FACET, of the surfaces on which others stand. pushes:
     (N, 3, m) [1/sqrt(kg)] shapes of m modes a body at its nodes, scaled so that pushes pushes^T is
-    the mobility; (0, 3, 0) where the mobility is not of modes.
+    the mobility; (0, 3, 0) where the mobility is not of modes. mobility_factor: (N, 3, r), in as
+    few columns a body as give the same product.
     """
 
     body: Array
@@ -55,6 +56,7 @@ class Bodies(NamedTuple):
     mobility: Array
     facets: Array = np.zeros(0, FACET)
     pushes: Array = np.zeros((0, 3, 0))
+    mobility_factor: Array = np.zeros((0, 3, 0))
 
 
 def one_body(
@@ -96,3 +98,16 @@ def node_matrix(blocks: Array) -> Array:
     """Node blocks (n, n, 3, 3) as a matrix (3 n, 3 n)."""
     n = len(blocks)
     return np.ascontiguousarray(blocks.transpose(0, 2, 1, 3)).reshape(3 * n, 3 * n)
+
+
+def fewest_columns(shapes: Array, share: float) -> Array:
+    """Columns (n, 3, r) whose products with one another are those of the shapes (n, 3, m), up to a
+    share of the largest: what many modes do to a few nodes beside each other is done by few.
+    """
+    if not shapes.any():
+        return shapes[..., :0]
+    whole = shapes.reshape(3 * len(shapes), shapes.shape[2])
+    left, sizes, _ = np.linalg.svd(whole, full_matrices=False)
+    taken = sizes**2 > share * sizes[0] ** 2
+    found: Array = (left * sizes)[:, taken].reshape(*shapes.shape[:2], -1)
+    return found if found.shape[2] < shapes.shape[2] else shapes

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from fecolumn.contact.arrays import flat, put_points
+from fecolumn.contact.arrays import put_points
 from fecolumn.contact.blocks import Blocks, find_blocks, least_filling
 from fecolumn.contact.points import FLAT_GROUND, GROUND
 from fecolumn.contact.pose import turns
@@ -118,7 +118,7 @@ def couple(
     modes: int,
 ) -> Coupling:
     """Coupling of the listed points (k,) of bodies that do not deform, or whose compliance is the
-    mobility of their first `modes` modes; other arguments as of `compliance.assemble`.
+    mobility of `modes` columns of their factor; other arguments as of `compliance.assemble`.
     """
     k, nb, width = len(listed), len(bodies.body), 6 + modes
     alone, levers, sides = np.empty((k, 3)), np.zeros((k, 3, 2 * width)), np.full((k, 2), -1)
@@ -156,16 +156,16 @@ def couple(
                         u * C[0, c] + v * C[1, c] + w * C[2, c]
                     )
             if modes > 0 and not bodies.body[b].stiff:
-                _add_modes(bodies.pushes, points[i], side, T, levers[j])
+                _add_modes(bodies.mobility_factor, points[i], side, T, levers[j])
     return coupling_by_levers(alone, levers, sides)
 
 
 @njit
-def _add_modes(pushes: Array, point: Record, side: int, turn: Array, levers: Array) -> None:
-    """Put what the modes move the point by into its levers (3, 2 w): turn (3, 3) pushes, negative
-    on the master.
+def _add_modes(factors: Array, point: Record, side: int, turn: Array, levers: Array) -> None:
+    """Put what the modes move the point by into its levers (3, 2 w): turn (3, 3) times the factor
+    of the mobility (N, 3, r), negative on the master.
     """
-    modes, width = pushes.shape[2], levers.shape[1] // 2
+    modes, width = factors.shape[2], levers.shape[1] // 2
     first = width * side + width - modes
     for q in range(4):
         node = point.below[q] if side else point.carriers[q]
@@ -174,7 +174,7 @@ def _add_modes(pushes: Array, point: Record, side: int, turn: Array, levers: Arr
             continue
         for a in range(3):
             for c in range(3):
-                factor, row, target = share * turn[a, c], pushes[node, c], levers[a]
+                factor, row, target = share * turn[a, c], factors[node, c], levers[a]
                 for m in range(modes):
                     target[first + m] += factor * row[m]
 
@@ -192,14 +192,23 @@ def put_root(matrix: Array, root: Array) -> None:
             root[i, j] = np.sqrt(rest) if i == j else rest / root[j, j]
 
 
-@njit
+@njit(fastmath={"reassoc", "contract"})
 def times(coupling: Coupling, forces: Array) -> Array:
     """W times forces (n, 3), as (n, 3)."""
     n, result = len(forces), np.empty((len(forces), 3))
     if len(coupling.whole):
         W = coupling.whole
         if n > 8:
-            put_points(W @ flat(forces), result)
+            # W is symmetric; of many points few carry
+            moved = np.zeros(3 * n)
+            for i in range(n):
+                for a in range(3):
+                    force = forces[i, a]
+                    if force != 0.0:
+                        row = W[3 * i + a]
+                        for j in range(3 * n):
+                            moved[j] += force * row[j]
+            put_points(moved, result)
             return result
         # so small, a call of BLAS costs more than the product
         for i in range(n):
@@ -290,6 +299,17 @@ def whole_of(coupling: Coupling) -> Array:
         for j in range(i + 1, 3 * n):
             W[j, i] = W[i, j]
     return W
+
+
+@njit
+def columns_used(coupling: Coupling) -> int:
+    """Columns of the levers (n, 3, 2 w) that are not all zero: w where no point has a master that
+    moves.
+    """
+    for i in range(len(coupling.bodies)):
+        if coupling.bodies[i, 1] >= 0:
+            return coupling.levers.shape[2]
+    return coupling.levers.shape[2] // 2
 
 
 @njit

@@ -21,7 +21,7 @@ import numpy as np
 
 from fecolumn.contact.arrays import largest
 from fecolumn.contact.blocks import eliminate
-from fecolumn.contact.coupling import motion_by, moved_by, slips_under
+from fecolumn.contact.coupling import columns_used, motion_by, moved_by, slips_under
 from fecolumn.contact.tolerances import (
     FROZEN_FARTHEST,
     FROZEN_MORE,
@@ -340,8 +340,8 @@ def _nearest(
 def _curvature(coupling: Coupling, impulses: Array, slopes: Array) -> Array:
     """Second derivatives (m, m): 1 + V^T slopes V, bodies in their order of elimination."""
     bodies, blocks, levers = coupling.bodies, coupling.blocks, coupling.levers
-    rows, columns, n, begin = blocks.first[-1], levers.shape[2], len(levers), 0
-    width, matrix = columns // 2, np.zeros((rows, rows))
+    rows, columns, n, begin = blocks.first[-1], columns_used(coupling), len(levers), 0
+    width, matrix = levers.shape[2] // 2, np.zeros((rows, rows))
     left, right = np.empty((3 * n, columns)), np.empty((3 * n, columns))
     for j in range(rows):
         matrix[j, j] = 1.0
@@ -351,7 +351,7 @@ def _curvature(coupling: Coupling, impulses: Array, slopes: Array) -> Array:
         while end < n and bodies[end, 0] == one[0] and bodies[end, 1] == one[1]:
             if impulses[end, 2] > 0:
                 _times_slope(levers[end], slopes[end], left[count : count + 3])
-                right[count : count + 3] = levers[end]
+                right[count : count + 3] = levers[end, :, :columns]
                 count += 3
             end += 1
         begin = end
@@ -372,8 +372,8 @@ def _curvature(coupling: Coupling, impulses: Array, slopes: Array) -> Array:
 
 @njit
 def _times_slope(levers: Array, slope: Array, target: Array) -> None:
-    """Target (3, 2 w): slope (3, 3) times levers (3, 2 w)."""
+    """Target (3, c): slope (3, 3) times the first c columns of levers (3, 2 w)."""
     for a in range(3):
         x, y, z = slope[a, 0], slope[a, 1], slope[a, 2]
-        for c in range(levers.shape[1]):
+        for c in range(target.shape[1]):
             target[a, c] = x * levers[0, c] + y * levers[1, c] + z * levers[2, c]

@@ -17,6 +17,7 @@ from fecolumn.contact.arrays import flat, marked, put_points
 from fecolumn.contact.compliance import assemble
 from fecolumn.contact.coupling import are_stiff, couple, coupling_of, times
 from fecolumn.contact.impulses import all_impulses, held_impulses, rough_impulses
+from fecolumn.contact.points import GROUND
 from fecolumn.contact.problem import IMPACT_FAILED, OK
 from fecolumn.contact.restitution import returned_share
 from fecolumn.contact.tolerances import (
@@ -340,9 +341,12 @@ def _mobility(touching: TouchingBodies, collision: Collision) -> Coupling:
     """Coupling by mobility [1/kg] of the points `union` (k,) of a Collision."""
     bodies, points, springs = touching.bodies, touching.points, touching.springs
     union, arms, poses = collision.union, collision.arms, collision.poses
-    modes = bodies.pushes.shape[2]
+    modes, sides = bodies.mobility_factor.shape[2], 1
+    for i in union:
+        if points[i].master != GROUND:
+            sides = 2
     stiff = are_stiff(bodies, touching.base, points, union)
-    if stiff or modes > 0 and len(union) > POINTS_A_LEVER * (6 + modes):
+    if stiff or modes > 0 and len(union) > POINTS_A_LEVER * sides * (6 + modes):
         modes = 0 if stiff else modes
         return couple(bodies, points, arms, union, poses, 1.0, 0.0, springs.own, modes)
     W = np.empty((3 * len(union), 3 * len(union)))

@@ -9,7 +9,7 @@ import numpy as np
 from fecolumn.contact.arrays import put
 from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate, solve_columns
 from fecolumn.contact.coulomb import violation
-from fecolumn.contact.coupling import slips_under
+from fecolumn.contact.coupling import columns_used, slips_under
 from fecolumn.contact.tolerances import SINGULAR
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
@@ -174,23 +174,25 @@ def _by_whole(
     for u in range(count - 2, -1, -1):
         if point[u] == point[u + 1]:
             unknowns[u] += unknowns[u + 1]
-    line, matrix, right = np.empty(3 * len(q)), np.empty((count, count)), np.empty(count)
+    mixed, matrix, right = np.empty(3 * len(q)), np.empty((count, count)), np.empty(count)
     for u in range(count):
         row, x, y, z = 3 * point[u], test[u, 0], test[u, 1], test[u, 2]
         right[u] = 0.0
         for a in range(3):
             right[u] -= test[u, a] * (q[point[u], a] - give * forces[point[u], a])
         first, second, third = W[row], W[row + 1], W[row + 2]
+        # most equations are along an axis
+        along = 0 if x == 1.0 else 1 if y == 1.0 else 2 if z == 1.0 else -1
+        line = mixed if along < 0 else W[row + along]
         for k in range(g):
             if begin[k] == begin[k + 1] or not blocks.coupled[blocks.of[point[u]], k]:
                 continue
-            # the points of a block are beside each other
-            near = 3 * blocks.order[blocks.first[k]]
-            for j in range(near, near + 3 * (blocks.first[k + 1] - blocks.first[k])):
-                line[j] = x * first[j] + y * second[j] + z * third[j]
             v = begin[k]
             while v < begin[k + 1]:
                 column = 3 * point[v]
+                if along < 0:
+                    for j in range(column, column + 3):
+                        mixed[j] = x * first[j] + y * second[j] + z * third[j]
                 if unknowns[v] == 3:  # it sticks: along the axes
                     for a in range(3):
                         matrix[u, v + a] = line[column + a]
@@ -244,7 +246,7 @@ def _by_levers(
             same &= start[i, a] == forces[i, a]
     if not same:
         relative = slips_under(coupling, q, start)
-    width, columns = coupling.levers.shape[2] // 2, coupling.levers.shape[2]
+    width, columns = coupling.levers.shape[2] // 2, columns_used(coupling)
     solved, left, across = np.empty(count), np.empty((count, columns)), np.empty((count, columns))
     for u in range(count):
         i = point[u]
@@ -293,7 +295,7 @@ def _by_levers(
 
 @njit
 def _along(levers: Array, direction: Array, target: Array) -> None:
-    """Target (2 w,): levers (3, 2 w) along a direction (3,)."""
+    """Target (c,): the first c columns of levers (3, 2 w) along a direction (3,)."""
     x, y, z = direction[0], direction[1], direction[2]
     for c in range(len(target)):
         target[c] = x * levers[0, c] + y * levers[1, c] + z * levers[2, c]

@@ -37,7 +37,6 @@ from fecolumn.contact.tolerances import (
     EXACT,
     FORCE_SHARE,
     NEAR,
-    PENETRATION,
     SHARP,
     SOLVED,
     SWEEPS_MOST,
@@ -273,11 +272,7 @@ def find_residual(
         for a in range(3):
             after[i].relative[a] = positions[i, a] + problem.displaced[i, a]
         width = interfaces[points[i].interface].width
-        new = (
-            positions[i, 2] < NEAR * width
-            or after[i].force[2] > 0
-            or after[i].relative[2] < -PENETRATION * width
-        )
+        new = after[i].relative[2] < NEAR * width or after[i].force[2] > 0
         changed |= new != problem.active[i]
         problem.active[i] = new
         active += new

@@ -6,12 +6,12 @@ Lengths are over the width of the foot, so that a larger structure gives the sam
 
 # --- Contact problem of a step
 # --------------------------------------------------------------------------------------------------
-#: Height over the base below which a point takes part in the contact problem. All that a point
-#: costs grows with it; one that is missed shows below the base and is taken in by the next
-#: iteration.
-NEAR = 2e-5
-#: Height over the base up to which a point's static displacement is found: twice NEAR, so that a
-#: point is known before it takes part.
+#: Gap under the present forces below which a point takes part in the contact problem: some times
+#: what a change of force in a step moves a stiff foot by. All that a point costs grows with it; one
+#: that is missed shows below the base and is taken in by the next iteration.
+NEAR = 3e-6
+#: Height over the base up to which a point's static displacement, and with it its gap, is found:
+#: above what the base dips beside a point that carries.
 CLOSE = 4e-5
 #: Residual of the contact laws at which a step is solved: a thousandth of the elastic indentation
 #: of a standing steel column.
@@ -27,8 +27,6 @@ EXACT = 1e-13
 SHARP = 0.1
 #: Residual of a contact problem that may still be used to go on from; above it the step has failed.
 USABLE = 1e-9
-#: Depth to which points outside the contact problem may sink below the base: a tenth of USABLE.
-PENETRATION = 1e-10
 #: Height of a face over another, over its larger side, from which on a joint of two sides has no
 #: points, beside twice the way that its bodies make in the step: ten times what a body of any shape
 #: falls in a step of 1e-3 s over its size, were it 5 mm small.
@@ -116,7 +114,7 @@ RIGID_GIVE = 1e-3
 # --- Impact and end of slip
 # --------------------------------------------------------------------------------------------------
 #: Height at the start of a step above which a point that touches at its end has landed: far above
-#: PENETRATION, far below any flight.
+#: that to which laws are obeyed, far below any flight.
 OPEN = 1e-8
 #: Way by which a point comes down in a step to the surface, just at its end, that lands in the next
 #: one: far above what points of a standing foot open and close by.
@@ -163,15 +161,22 @@ FROZEN_SHARE, FROZEN_SLOPE = 0.1, 0.2
 #: 60 impacts of shaken elastic drums two are left to the slower ways, and seven without. One part
 #: of it at least: chosen.
 FROZEN_FARTHEST = 10.0
-#: Points, over the ways in which a body moves, rigid motion and modes, from which an impact of
-#: elastic bodies is solved by levers and not by the whole matrix: both cost the same there.
-POINTS_A_LEVER = 1.5
+#: Share of the largest of a body's mobilities at its contact nodes below which columns of the
+#: factor of the mobility are left out: rounding. Of 100 modes of a column 21 to 25 are left.
+MOBILITY_LEFT = 1e-14
+#: Points, over the columns of their levers, rigid motion and modes of one body or two, from which
+#: an impact of elastic bodies is solved by levers and not by the whole matrix: both cost the same
+#: there.
+POINTS_A_LEVER = 0.75
 #: For the energy that impacts take over that of rigid bodies (`reduced.rigid_loss`). Approach, over
 #: the largest before the impact, below which points no longer approach. Duration of an impact over
 #: the time until then: elastic faces give back for longer than they store. Least rigid loss that
 #: counts, over the least weight of a body and width of a foot: that of a column which rocks at a
 #: thousandth of its critical tilt.
 APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS = 0.1, 4.0, 1e-5
+#: Height above those that carry up to which a point counts as landing with them in the loss of
+#: rigid bodies: a thousand times what a standing steel column sinks in, far below any flight.
+LANDS_TOO = 2e-5
 #: What the impulses of the rigid loss may miss the laws by, over the largest velocity: they move
 #: nothing, and energy is off by less.
 IMPACT_TOLD = 1e-3

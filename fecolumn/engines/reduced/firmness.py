@@ -77,5 +77,6 @@ def with_masses(structure: Structure, shares: Array) -> Structure:
         body=body,
         mobility=structure.bodies.mobility / np.repeat(of_nodes, 3)[:, None] ** 2,
         pushes=structure.bodies.pushes / of_nodes[:, None, None],
+        mobility_factor=structure.bodies.mobility_factor / of_nodes[:, None, None],
     )
     return structure._replace(bodies=bodies, squares=structure.squares / shares[:, None], ends=ends)

@@ -20,7 +20,7 @@ from fecolumn.contact.impact import plastic_impact
 from fecolumn.contact.points import GROUND, OVER
 from fecolumn.contact.pose import find_poses
 from fecolumn.contact.problem import present_points
-from fecolumn.contact.tolerances import APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS, NEAR
+from fecolumn.contact.tolerances import APPROACH_LEFT, IMPACT_LASTS, LANDS_TOO, LOSS_COUNTS
 from fecolumn.engines.dynamics.links import strain_of_links
 from fecolumn.engines.reduced.elastic import END
 from fecolumn.engines.reduced.ledger import (
@@ -97,7 +97,7 @@ def find_together(structure: Structure, work: Work, end: MotionState) -> Array:
         near = (
             points[i].beyond == OVER
             and not structure.interfaces[points[i].interface].on_pad
-            and height[j] <= NEAR * structure.interfaces[points[i].interface].width + give
+            and height[j] <= LANDS_TOO * structure.interfaces[points[i].interface].width + give
         )
         touches = before[i].force[2] > 0 or end.contact[i].force[2] > 0
         if near or touches and not structure.interfaces[points[i].interface].on_pad:

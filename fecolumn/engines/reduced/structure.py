@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.contact.bodies import Bodies, joined, node_matrix, one_body
+from fecolumn.contact.bodies import Bodies, fewest_columns, joined, node_matrix, one_body
 from fecolumn.contact.interface import INTERFACE
 from fecolumn.contact.joints import joints_of
 from fecolumn.contact.overturning import Limits, cap_only_stance
 from fecolumn.contact.points import GROUND, POINT
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
-from fecolumn.contact.tolerances import FOUND_ROWS, RIGID_GIVE
+from fecolumn.contact.tolerances import FOUND_ROWS, MOBILITY_LEFT, RIGID_GIVE
 from fecolumn.engines.dynamics.bonds import bonded
 from fecolumn.engines.dynamics.links_of_model import links_of
 from fecolumn.engines.reduced.found_of_model import found_interfaces, found_of, found_points
@@ -53,7 +53,7 @@ def structure_of(
     """
     parts, modes = model.parts, max(len(part.model.frequencies) for part in model.parts)
     squares, damping, filters = np.zeros((3, len(parts), modes))
-    pushes, bodies = [], []
+    pushes, factors, bodies = [], [], []
     for b, part in enumerate(parts):
         body, m = part.model, len(part.model.frequencies)
         squares[b, :m], ratio = (
@@ -74,7 +74,8 @@ def structure_of(
             one.body["stiff"] = m == 0
             one.body["gives"] = _least_give(body, hht.dt / parts_of_step, part.held)
         bodies.append(one)
-        pushes.append(np.pad(own, ((0, 0), (0, 0), (0, modes - m))))
+        pushes.append(own)
+        factors.append(fewest_columns(own, MOBILITY_LEFT))
         filters[b, :m] = 2 * shrink - shrink**2
     whole, first = joined(bodies), np.cumsum([0] + [len(part.model.arms) for part in parts])
     reach = np.concatenate(
@@ -100,7 +101,7 @@ def structure_of(
         interfaces = np.concatenate([interfaces, more[0]]).astype(INTERFACE)
         points = np.concatenate([points, more[1]]).astype(POINT)
     structure = Structure(
-        Bodies(*whole[:4], joints.facets, np.ascontiguousarray(np.concatenate(pushes))),
+        Bodies(*whole[:4], joints.facets, _one_width(pushes), _one_width(factors)),
         squares,
         damping,
         reach,
@@ -112,6 +113,14 @@ def structure_of(
         found,
     )
     return structure, points
+
+
+def _one_width(columns: list[Array]) -> Array:
+    """Columns (n, 3, m) of each body, one after the other, with zeros where others have more."""
+    width = max(own.shape[2] for own in columns)
+    return np.concatenate(
+        [np.pad(own, ((0, 0), (0, 0), (0, width - own.shape[2]))) for own in columns]
+    )
 
 
 def _least_give(body: BodyModel, dt: float, held: int) -> float:
