@@ -5,7 +5,7 @@ step, engine, modes, tilt, slenderness, bricks, damping.
     ./containers/run python -m benchmarks.impact map --help
 
 Each impact is one line of DIR/impact.csv (results/impact unless given); those there are not made
-again. Ends with two tables, and DIR/impact.png. All of it takes an hour and more on one core;
+again. Ends with two tables, and DIR/impact.png. All of it takes twenty minutes on one core;
 SERIES are names of `SERIES`, all unless named. benchmarks/impact/impact.csv is the table behind the
 manual's figure, which `python -m benchmarks.gallery impact` draws; copy a new one there.
 """
@@ -160,7 +160,7 @@ def means(rows) -> str:
 
 def extremes(rows) -> str:
     found = [float(row["rocking"]) for row in rows]
-    return " to ".join(f"{loss:.1f}" for loss in sorted(found)[:: len(found) - 1 or 1])
+    return " to ".join(f"{loss:.2f}" for loss in sorted(found)[:: len(found) - 1 or 1])
 
 
 if __name__ == "__main__":
