@@ -5,9 +5,10 @@ step, engine, modes, tilt, slenderness, bricks, damping.
     ./containers/run python -m benchmarks.impact map --help
 
 Each impact is one line of DIR/impact.csv (results/impact unless given); those there are not made
-again. Ends with two tables, and DIR/impact.png. All of it takes twenty minutes on one core;
-SERIES are names of `SERIES`, all unless named. benchmarks/impact/impact.csv is the table behind the
-manual's figure, which `python -m benchmarks.gallery impact` draws; copy a new one there.
+again. Ends with two tables, and DIR/impact.png. SERIES are names of `SERIES`, all unless named. All
+but bricks-2.5 take half an hour on one core, and bricks-2.5 longer. benchmarks/impact/impact.csv is
+the table behind the manual's figure, which `python -m benchmarks.gallery impact` draws; copy a new
+one there. It has no bricks-2.5.
 """
 
 from __future__ import annotations

@@ -345,6 +345,7 @@ def _mobility(touching: TouchingBodies, collision: Collision) -> Coupling:
     for i in union:
         if points[i].master != GROUND:
             sides = 2
+            break
     stiff = are_stiff(bodies, touching.base, points, union)
     if stiff or modes > 0 and len(union) > POINTS_A_LEVER * sides * (6 + modes):
         modes = 0 if stiff else modes

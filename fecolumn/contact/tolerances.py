@@ -175,7 +175,7 @@ POINTS_A_LEVER = 0.75
 #: thousandth of its critical tilt.
 APPROACH_LEFT, IMPACT_LASTS, LOSS_COUNTS = 0.1, 4.0, 1e-5
 #: Height above those that carry up to which a point counts as landing with them in the loss of
-#: rigid bodies: a thousand times what a standing steel column sinks in, far below any flight.
+#: rigid bodies: two thousand times what a standing steel column sinks in, far below any flight.
 LANDS_TOO = 2e-5
 #: What the impulses of the rigid loss may miss the laws by, over the largest velocity: they move
 #: nothing, and energy is off by less.
