@@ -158,22 +158,14 @@ class Analysis:
         warnings.warn(cut_text(file, self.steps * dt, (self.motion_steps - 1) * dt), stacklevel=2)
         return self.steps * dt
 
-    def ground(self, step: int) -> NDArray[Any]:
-        """Ground acceleration (3,) [m/s2] at a step."""
-        if self.motion is None or step >= len(self.motion.acceleration):
-            return np.zeros(3)
-        acceleration: NDArray[Any] = self.motion.acceleration[step]
-        return acceleration
-
-    def grounds(self, step: int) -> NDArray[Any]:
-        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
-        return self.ground(step)
-
-    def steepest(self, step: int) -> float:
-        """Tangent of the steepest inclination of apparent gravity from a step on; see
-        `contact.overturning`.
+    def steepest(self, steps: range) -> NDArray[Any]:
+        """Tangents (k,) of the steepest inclination of apparent gravity from each of k successive
+        steps on; see `contact.overturning`.
         """
-        return float(self._steepest[step]) if step < len(self._steepest) else 0.0
+        found = np.zeros(len(steps))
+        known = self._steepest[steps.start : steps.stop]
+        found[: len(known)] = known
+        return found
 
     @property
     def barrier_j(self) -> float:

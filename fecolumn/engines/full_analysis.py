@@ -67,7 +67,7 @@ class FullAnalysis(OfStructure):
             self.say(f"resuming at t = {self.state.time:.4f} s")
         else:
             self.state = self._released(self._standing())
-            self.state.ground = self.grounds(0)
+            self.state.ground = self.grounds(range(1))[0]
             self.state.grounds["acceleration"] = self.state.ground.reshape(-1, 3)
             self.ledger.open(self.state)
             self._note(0)
@@ -189,11 +189,12 @@ class FullAnalysis(OfStructure):
         try:
             while self.step < self.steps and not over:
                 began, before = time.perf_counter(), self.stepper.record.iterations
-                state = self.stepper.step(self.state, self.grounds(self.step + 1))
+                (ground,) = self.grounds(range(self.step + 1, self.step + 2))
+                state = self.stepper.step(self.state, ground)
                 self.state, self.step = state, self.step + 1
                 self.stepping_s += time.perf_counter() - began
                 measures = self._note(self.stepper.record.iterations - before)
-                fallen = self.observer.fallen(self.state, measures, self.steepest(self.step))
+                fallen = self.observer.fallen(self.state, measures, self.steepest_at(self.step))
                 over = fallen != STANDS or self.energy_left() <= self.rest_j
                 progress.show(self.step, measures, self.stepper.record)
                 pace.look(self.stepper.record)

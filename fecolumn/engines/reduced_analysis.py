@@ -77,7 +77,7 @@ class ReducedAnalysis(OfStructure):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
             self.standing_j = self._standing_energy(file) - self.energy_to_fall()
-            self.engine.begin_shaking(self.grounds(0))
+            self.engine.begin_shaking(self.grounds(range(1))[0])
             self._note(self.engine.row()[None])
             self._keep()
 
@@ -162,7 +162,7 @@ class ReducedAnalysis(OfStructure):
         finally:
             progress.end()
             pace.end()
-        fallen = engine.fallen(self.steepest(self.step)) if over else STANDS
+        fallen = engine.fallen(self.steepest_at(self.step)) if over else STANDS
         if self.states:
             self.states.add(engine, last=True)
             self.states.write(self.folder, {"case_id": self.case.id, **self.code})
@@ -211,7 +211,7 @@ class ReducedAnalysis(OfStructure):
         """Whether what is lost or at rest stays so: bodies whose contact is found are at rest once
         they have been still for a while.
         """
-        if not self.collapse or self.engine.fallen(self.steepest(self.step)) != STANDS:
+        if not self.collapse or self.engine.fallen(self.steepest_at(self.step)) != STANDS:
             return True
         steps = math.ceil(self.collapse.turn_s / self.dt_s)
         if self._advance(min(steps, self.steps - self.step), goes_on=True):
@@ -245,10 +245,7 @@ class ReducedAnalysis(OfStructure):
             time.perf_counter(),
             self._made(),
         )
-        grounds, steepest = (
-            np.array([self.grounds(k) for k in steps]),
-            np.array([self.steepest(k) for k in steps]),
-        )
+        grounds, steepest = self.grounds(steps), self.steepest(steps)
         failure, over = None, False
         try:
             standing = np.inf if self.collapse else self.standing_j

@@ -153,13 +153,13 @@ class OfStructure(Analysis):
         )
         return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
 
-    def ground(self, step: int) -> NDArray[Any]:
-        """Acceleration (3,) of the first ground [m/s2] at a step."""
-        return self.grounds(step)[:3]
+    def grounds(self, steps: range) -> NDArray[Any]:
+        """Accelerations (k, 3 G) of all grounds at k successive steps [m/s2]."""
+        return accelerations(self.motions, steps)
 
-    def grounds(self, step: int) -> NDArray[Any]:
-        """Accelerations (3 G,) of all grounds [m/s2] at a step."""
-        return accelerations(self.motions, step)
+    def steepest_at(self, step: int) -> float:
+        """As `steepest`, of one step."""
+        return float(self.steepest(range(step, step + 1))[0])
 
     def progress(self) -> Progress:
         """The line that shows how far the analysis is, of one rank alone."""

@@ -52,13 +52,14 @@ def _own_motion(key: str, motion: Motion, dt: float, file: Path | str) -> Ground
         raise InputError(error.file, own, error.value, error.allowed) from None
 
 
-def accelerations(motions: Sequence[GroundMotion | None], step: int) -> NDArray[Any]:
-    """Accelerations (3 G,) of grounds at a step [m/s2]."""
-    found = np.zeros((len(motions), 3))
-    for own, motion in zip(found, motions):
-        if motion is not None and step < len(motion.acceleration):
-            own[:] = motion.acceleration[step]
-    return found.ravel()
+def accelerations(motions: Sequence[GroundMotion | None], steps: range) -> NDArray[Any]:
+    """Accelerations (k, 3 G) of grounds at k successive steps [m/s2]."""
+    found = np.zeros((len(steps), len(motions), 3))
+    for number, motion in enumerate(motions):
+        if motion is not None:
+            recorded = motion.acceleration[steps.start : steps.stop]
+            found[: len(recorded), number] = recorded
+    return found.reshape(len(steps), -1)
 
 
 def _warn_of_drift(

@@ -63,15 +63,14 @@ MEANING = {
 
 
 class History:
-    """Rows of measures and energy terms."""
+    """Rows of measures and energy terms, kept by column in the pieces in which they came."""
 
     def __init__(self, rows: dict[str, Array] | None = None) -> None:
-        self._columns: dict[str, list] = {
-            name: list(values) for name, values in (rows or {}).items()
-        }
+        self._pieces: dict[str, list[Array]] = {}
+        self.extend(rows or {})
 
     def __len__(self) -> int:
-        return len(self._columns.get("time", ()))
+        return sum(len(piece) for piece in self._pieces.get("time", ()))
 
     def add(self, measures: dict, energy: Array, iterations: int) -> None:
         """Append a row; `energy` in the order of energy.TERMS [J]."""
@@ -80,21 +79,24 @@ class History:
             iterations=iterations,
             **{f"energy/{name}": value for name, value in zip(TERMS, energy)},
         )
-        for name, value in row.items():
-            self._columns.setdefault(name, []).append(value)
+        self.extend({name: np.asarray(value)[None] for name, value in row.items()})
 
     def extend(self, columns: dict[str, Array]) -> None:
-        """Append many rows, by column."""
+        """Append many rows, by column; the arrays are kept, not copied."""
         for name, values in columns.items():
-            self._columns.setdefault(name, []).extend(values)
+            if len(values):
+                self._pieces.setdefault(name, []).append(np.asarray(values))
 
     def arrays(self) -> dict[str, Array]:
         """Columns by name, first axis time."""
-        return {name: np.asarray(values) for name, values in self._columns.items()}
+        for pieces in self._pieces.values():
+            if len(pieces) > 1:
+                pieces[:] = [np.concatenate(pieces)]
+        return {name: pieces[0] for name, pieces in self._pieces.items()}
 
     def last(self) -> dict:
         """The last row by column."""
-        return {name: values[-1] for name, values in self._columns.items()}
+        return {name: pieces[-1][-1] for name, pieces in self._pieces.items()}
 
     def write(self, path: Path, attributes: dict, every: int = 1) -> None:
         """Write one row in `every`, and the last; a reader sees the old file or the new one, never
@@ -110,9 +112,8 @@ class History:
                     else slice(None)
                 )
                 values = values[rows]
-                dataset = file.create_dataset(
-                    name, data=values, compression="gzip" if values.size > 1000 else None
-                )
+                packed = {"compression": "gzip", "shuffle": True} if values.size > 1000 else {}
+                dataset = file.create_dataset(name, data=values, **packed)
                 dataset.attrs["unit"] = UNITS.get(name) or UNITS_OF_PARTS.get(
                     name.rpartition("/")[2], "J"
                 )

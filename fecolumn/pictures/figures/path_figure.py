@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 # A path smaller than this share of the foot gets a panel of its own
 _SMALL = 0.45
+# Way along the path, over its reach, drawn as one straight line: a third of a point on paper
+_STRAIGHT = 1 / 400
 
 
 def path_figure(
@@ -107,12 +109,21 @@ def _circle(axes: Axes, radius: float) -> None:
     )
 
 
+def _drawn(u: NDArray[Any]) -> NDArray[Any]:
+    """Numbers of the points of a path (n, 2) that are drawn: few enough for a small file."""
+    way = np.append(0.0, np.linalg.norm(np.diff(u, axis=0), axis=1).cumsum())
+    line = max(_STRAIGHT * float(np.abs(u).max()), np.finfo(float).tiny)
+    first: NDArray[Any] = np.unique(np.floor(way / line), return_index=True)[1]
+    return np.append(first, len(u) - 1) if first[-1] < len(u) - 1 else first
+
+
 def _path(axes: Axes, u: NDArray[Any], time: NDArray[Any], ending: EndingMark) -> LineCollection:
     from matplotlib.collections import LineCollection
 
+    drawn = _drawn(u)
     lines = LineCollection(
-        np.stack([u[:-1], u[1:]], axis=1),
-        array=time[1:],
+        np.stack([u[drawn[:-1]], u[drawn[1:]]], axis=1),
+        array=time[drawn[1:]],
         cmap="viridis",
         linewidths=0.9,
         capstyle="round",
