@@ -193,36 +193,41 @@ def put_root(matrix: Array, root: Array) -> None:
 
 
 @njit(fastmath={"reassoc", "contract"})
-def times(coupling: Coupling, forces: Array) -> Array:
-    """W times forces (n, 3), as (n, 3)."""
+def times_whole(W: Array, forces: Array) -> Array:
+    """A matrix (3 n, 3 n) times forces (n, 3), as (n, 3)."""
     n, result = len(forces), np.empty((len(forces), 3))
-    if len(coupling.whole):
-        W = coupling.whole
-        if n > 8:
-            # W is symmetric; of many points few carry
-            moved = np.zeros(3 * n)
-            for i in range(n):
-                for a in range(3):
-                    force = forces[i, a]
-                    if force != 0.0:
-                        row = W[3 * i + a]
-                        for j in range(3 * n):
-                            moved[j] += force * row[j]
-            put_points(moved, result)
-            return result
-        # so small, a call of BLAS costs more than the product
+    if n > 8:
+        # W is symmetric; of many points few carry
+        moved = np.zeros(3 * n)
         for i in range(n):
             for a in range(3):
-                line, total = W[3 * i + a], 0.0
-                for j in range(n):
-                    total += (
-                        line[3 * j] * forces[j, 0]
-                        + line[3 * j + 1] * forces[j, 1]
-                        + line[3 * j + 2] * forces[j, 2]
-                    )
-                result[i, a] = total
+                force = forces[i, a]
+                if force != 0.0:
+                    row = W[3 * i + a]
+                    for j in range(3 * n):
+                        moved[j] += force * row[j]
+        put_points(moved, result)
         return result
-    result = moved_by(coupling, motion_by(coupling, forces))
+    # so small, a call of BLAS costs more than the product
+    for i in range(n):
+        for a in range(3):
+            line, total = W[3 * i + a], 0.0
+            for j in range(n):
+                total += (
+                    line[3 * j] * forces[j, 0]
+                    + line[3 * j + 1] * forces[j, 1]
+                    + line[3 * j + 2] * forces[j, 2]
+                )
+            result[i, a] = total
+    return result
+
+
+@njit(fastmath={"reassoc", "contract"})
+def times(coupling: Coupling, forces: Array) -> Array:
+    """W times forces (n, 3), as (n, 3)."""
+    if len(coupling.whole):
+        return times_whole(coupling.whole, forces)
+    n, result = len(forces), moved_by(coupling, motion_by(coupling, forces))
     for i in range(n):
         for a in range(3):
             result[i, a] += coupling.own[i, a] * forces[i, a]
@@ -265,7 +270,21 @@ def moved_by(coupling: Coupling, motion: Array) -> Array:
 @njit
 def slips_under(coupling: Coupling, q: Array, forces: Array) -> Array:
     """Slips and gaps (n, 3): W r + q."""
+    if len(coupling.whole):
+        return slips_by_whole(coupling.whole, q, forces)
     result = times(coupling, forces)
+    for i in range(len(q)):
+        for a in range(3):
+            result[i, a] += q[i, a]
+    return result
+
+
+@njit
+def slips_by_whole(W: Array, q: Array, forces: Array) -> Array:
+    """As `slips_under`, of a whole matrix (3 n, 3 n): a Coupling is many arrays, whose hand over
+    costs more than the product of a few points.
+    """
+    result = times_whole(W, forces)
     for i in range(len(q)):
         for a in range(3):
             result[i, a] += q[i, a]
@@ -347,16 +366,24 @@ def softened(coupling: Coupling, give: Array) -> Coupling:
 
 
 @njit
+def stiffnesses_by_whole(W: Array, together: bool) -> Array:
+    """As `stiffnesses`, of a whole matrix (3 n, 3 n)."""
+    n = len(W) // 3
+    found = np.empty(n)
+    for i in range(n):
+        found[i] = stiffness_together(W, i) if together else stiffness_alone(W, i)
+    return found
+
+
+@njit
 def stiffnesses(coupling: Coupling, together: bool) -> Array:
     """Stiffness (n,) [N/m] of each point when it moves alone, or when all move `together`, which is
     less: with the stiffness alone, points would change their direction of slip at each iteration.
     """
-    W, n = coupling.whole, max(len(coupling.whole) // 3, len(coupling.own))
+    if len(coupling.whole):
+        return stiffnesses_by_whole(coupling.whole, together)
+    n = len(coupling.own)
     found = np.empty(n)
-    if len(W):
-        for i in range(n):
-            found[i] = stiffness_together(W, i) if together else stiffness_alone(W, i)
-        return found
     levers, bodies = coupling.levers, coupling.bodies
     # lengths of the rows of V, whose products are no larger than those of the lengths
     length, total = np.empty((n, 2, 3)), np.zeros(len(coupling.blocks.of))

@@ -18,6 +18,7 @@ from fecolumn.contact.coupling import (
     part_of,
     slips_under,
     stiffnesses,
+    stiffnesses_by_whole,
     whole_of,
 )
 from fecolumn.contact.frozen_slips import follow_slips, halve_way, solve_frozen
@@ -144,9 +145,11 @@ def iterate(
     n, best, least, iterations, others = len(q), start.copy(), np.inf, 0, 0
     if n == 0:
         return best, 0.0, 0, 0
-    rho = stiffnesses(coupling, False)
+    by_levers, W = len(coupling.whole) == 0, coupling.whole
+    rho = stiffnesses(coupling, False) if by_levers else stiffnesses_by_whole(W, False)
     if near:
-        together, softest = stiffnesses(coupling, True), 1 / rho.min()
+        together = stiffnesses(coupling, True) if by_levers else stiffnesses_by_whole(W, True)
+        softest = 1 / rho.min()
         for give in (0.0, tolerances.NEAR_GIVE * softest):
             if least > tolerance:
                 forces, residual, made = newton_steps(
@@ -166,7 +169,8 @@ def iterate(
                 iterations += made
                 if residual < least:
                     best, least = forces, residual
-    by_levers = len(coupling.whole) == 0
+        if least <= tolerance:
+            return best, least, iterations, others
     many = by_levers and n > tolerances.MANY_POINTS
     # cheap by levers: many small steps, each held by a compliance against change
     held = NewtonLimits(

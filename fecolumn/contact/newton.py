@@ -9,12 +9,13 @@ import numpy as np
 from fecolumn.contact.arrays import put
 from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate, solve_columns
 from fecolumn.contact.coulomb import violation
-from fecolumn.contact.coupling import columns_used, slips_under
+from fecolumn.contact.coupling import columns_used, slips_by_whole, slips_under
 from fecolumn.contact.tolerances import SINGULAR
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
+    from fecolumn.contact.blocks import Blocks
     from fecolumn.contact.coupling import Coupling
 
 
@@ -42,9 +43,9 @@ def newton_steps(
     proves singular: best forces, residual, steps made.
     """
     forces, least, stalled, made = start, np.inf, 0, 0
-    best = start
+    best, W = start, coupling.whole
     while True:
-        relative = slips_under(coupling, q, forces)
+        relative = slips_by_whole(W, q, forces) if len(W) else slips_under(coupling, q, forces)
         residual = violation(relative, forces, friction, limits.rho_alone)
         stalled += 1
         if residual < least:
@@ -140,7 +141,9 @@ def newton_step(
     solved, regular = (
         _by_levers(coupling, q, forces, relative, give, point, basis, test, stiffening, guess)
         if by_levers
-        else _by_whole(coupling, q, forces, give, point, basis, test, stiffening)
+        else _by_whole(
+            coupling.whole, coupling.blocks, q, forces, give, point, basis, test, stiffening
+        )
     )
     if regular:
         for u in range(count):
@@ -151,7 +154,8 @@ def newton_step(
 
 @njit
 def _by_whole(
-    coupling: Coupling,
+    W: Array,
+    blocks: Blocks,
     q: Array,
     forces: Array,
     give: float,
@@ -161,8 +165,7 @@ def _by_whole(
     stiffening: Array,
 ) -> tuple[Array, bool]:
     """Unknowns (count,) of a Newton step by the whole matrix, and whether it is regular."""
-    W, blocks, count = coupling.whole, coupling.blocks, len(point)
-    g = len(blocks.coupled)
+    g, count = len(blocks.coupled), len(point)
     # rows and columns of the blocks
     begin = np.zeros(g + 1, np.int64)
     for u in range(count):

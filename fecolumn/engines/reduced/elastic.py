@@ -51,6 +51,15 @@ def no_elastic(nodes: int, points: int) -> Elastic:
 
 
 @njit(fastmath={"reassoc", "contract"})
+def modal_strain(squares: Array, coordinates: Array) -> float:
+    """Strain energy [J] of modes by their squared frequencies (m,) and coordinates (m,)."""
+    total = 0.0
+    for k in range(len(coordinates)):
+        total += squares[k] * coordinates[k] ** 2
+    return total / 2
+
+
+@njit(fastmath={"reassoc", "contract"})
 def _node_displacement(pushes: Array, coordinates: Array, node: int, target: Array) -> None:
     """Target (3,): filtered displacement of a node by modal coordinates (m,)."""
     x = y = z = 0.0

@@ -8,7 +8,7 @@ from fecolumn.contact.points import GROUND
 from fecolumn.contact.problem import near_points
 from fecolumn.contact.work import losses
 from fecolumn.engines.dynamics.links import end_links
-from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, RATE
+from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, RATE, modal_strain
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
 
@@ -52,7 +52,7 @@ def rigid_kinetic(structure: Structure, motion: MotionState) -> float:
     return total / 2
 
 
-@njit
+@njit(fastmath={"reassoc", "contract"})
 def kinetic(structure: Structure, motion: MotionState) -> float:
     """Kinetic energy [J]."""
     total = 0.0
@@ -65,11 +65,10 @@ def kinetic(structure: Structure, motion: MotionState) -> float:
 @njit
 def strain(structure: Structure, motion: MotionState) -> float:
     """Strain energy of the modes, and of what responds statically [J]."""
-    total = 0.0
+    total = motion.whole[0].static
     for b in range(len(motion.frames)):
-        for k in range(motion.modal.shape[2]):
-            total += structure.squares[b, k] * motion.modal[b, COORDINATE, k] ** 2
-    return total / 2 + motion.whole[0].static
+        total += modal_strain(structure.squares[b], motion.modal[b, COORDINATE])
+    return total
 
 
 @njit

@@ -147,7 +147,7 @@ class View(NamedTuple):
         )
 
 
-@njit
+@njit(fastmath={"reassoc", "contract"})
 def _displace(
     b: int,
     arm: Array,
@@ -190,16 +190,18 @@ def observe(
     row[_TILT] = np.arctan2(np.hypot(R[0, 2], R[1, 2]), R[2, 2])
     row[_TWIST] = np.arctan2(R[1, 0] - R[0, 1], R[0, 0] + R[1, 1])
     _displace(view.body, view.foot_arm, view.foot_shape, view.center, motion, 2, row, _SLIDE)
+    depth = 0.0
     for i in range(len(contact)):
         if contact[i].force[2] > 0:
             row[_ACTIVE] += 1
             if structure.interfaces[points[i].interface].master == GROUND:
                 for a in range(3):
                     row[_FORCE + a] += contact[i].force[a]
-        depth = contact[i].raised
         if contact[i].located:
-            depth -= contact[i].relative[2]
-        row[_DEPTH] = max(row[_DEPTH], depth)
+            depth = max(depth, contact[i].raised - contact[i].relative[2])
+        elif contact[i].raised > depth:
+            depth = contact[i].raised
+    row[_DEPTH] = depth
     for a in range(3):
         row[_GROUND + a] = motion.whole[0].ground[a]
     row[_SPENT] = iterations

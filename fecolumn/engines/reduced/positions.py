@@ -19,6 +19,7 @@ from fecolumn.engines.reduced.elastic import (
     find_on_master,
     find_position,
     locate_start,
+    modal_strain,
 )
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array, Record
@@ -95,11 +96,8 @@ def find_positions(
     reach, frames = positions.reach[when], positions.frames[when]
     find_poses(interfaces, end.grounds, end.frames, end.rotation, poses, end.rims)
     for b in range(len(end.frames)):
-        reach[b] = 0.0
-        for k in range(end.modal.shape[2]):
-            reach[b] += structure.squares[b, k] * end.modal[b, COORDINATE, k] ** 2
         # no node moves farther than the modes' energy allows
-        reach[b] = np.sqrt(reach[b])
+        reach[b] = np.sqrt(2 * modal_strain(structure.squares[b], end.modal[b, COORDINATE]))
         if most and end.modal.shape[2] > 0:
             find_all_elastic(structure, b, end, elastic, END)
     for k in range(len(interfaces)):
