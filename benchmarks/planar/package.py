@@ -76,8 +76,8 @@ def respond(case: Shaken, ground: np.ndarray, dt: float) -> Response:
     from fecolumn.case.case import case_from_tables
     from fecolumn.contact.overturning import steepest_to_come
     from fecolumn.engines.dynamics.cuts import StepFailed
+    from fecolumn.engines.history_columns import columns_of
     from fecolumn.engines.reduced_engine import engine_of
-    from fecolumn.engines.structure_analysis import columns_of
     from fecolumn.structures.structure import structure_model
 
     whole = case_from_tables(tables(case.structure, dt), "benchmarks.planar")

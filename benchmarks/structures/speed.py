@@ -20,9 +20,9 @@ from benchmarks.peers.install import mujoco_python
 from benchmarks.structures import frames_and_stacks as cases
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.history_columns import columns_of
 from fecolumn.engines.reduced.observe import column_index
 from fecolumn.engines.reduced_engine import engine_of
-from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.structures.structure import structure_model
 
 KINDS, NUMBERS, FACTORS = ("frame", "drums"), (1, 2, 4, 8, 16), (0.1, 0.5, 1.5, 0.0)

@@ -6,15 +6,12 @@ its error messages, for half a second.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
-
-if TYPE_CHECKING:
-    pass
 
 
 def arrays_of(whole: Any) -> dict[str, Array]:

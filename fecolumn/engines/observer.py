@@ -20,7 +20,7 @@ from fecolumn.contact.overturning import (
 )
 from fecolumn.contact.points import GROUND, OVER
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
-from fecolumn.engines.structure_analysis import of_both_sides
+from fecolumn.engines.history_columns import of_both_sides
 from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.foundation._compiled import interpreted
 

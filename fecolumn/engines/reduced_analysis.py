@@ -24,6 +24,7 @@ from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
+from fecolumn.engines.history_columns import columns_of
 from fecolumn.engines.pace import LOOK_S, Pace
 from fecolumn.engines.passing import Passing
 from fecolumn.engines.reduced.observe import ENERGY, column_index
@@ -32,7 +33,7 @@ from fecolumn.engines.reduced.run import advance
 from fecolumn.engines.reduced.states import States, state_of
 from fecolumn.engines.reduced_engine import begins_unstrained, engine_of, upright
 from fecolumn.engines.step_times import StepTimes
-from fecolumn.engines.structure_analysis import OfStructure, columns_of
+from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.foundation._compiled import compiled, interpreted
 from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.atomic import write_bytes

@@ -13,24 +13,15 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import FELL, critical_displacement, critical_tilt_along
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
-from fecolumn.engines.dynamics.bonds import bonded
 from fecolumn.engines.ending import AT_REST, OVERTURNED, REST_SHARE, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.engines.fallen_bodies import FallenBodies
 from fecolumn.engines.left_part import way_out
-from fecolumn.engines.peak_acceleration import peak_acceleration
-from fecolumn.engines.reduced.observe import (
-    COLUMNS,
-    OF_BODY,
-    OF_BOND,
-    OF_INTERFACE,
-    OF_LINK,
-    OF_MARK,
-)
+from fecolumn.engines.peaks import peaks
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import feet_on_springs, least_barrier, stances
 from fecolumn.structures.lost import limits_of
-from fecolumn.structures.model import BodyModel, Joint, Link, StructureModel
+from fecolumn.structures.model import BodyModel, Joint, StructureModel
 from fecolumn.structures.shaking import accelerations, motions_of
 from fecolumn.structures.structure import standing_of
 
@@ -42,19 +33,9 @@ if TYPE_CHECKING:
     from fecolumn.engines.scene.scene import Scene
     from fecolumn.motions.record import GroundMotion
 
-_WHOLE = (
-    "active_nodes",
-    "iterations",
-    "broken",
-)  # columns of whole numbers, by the last word of their names
-
-# Rounding of the sum of areas that have failed, over all
-_ALL = 1e-9
 # Height by which a body is lifted that stands nowhere by itself, over its size (root of the sum of
 # its principal inertias over its mass): what lifts a block five times as high as wide onto its edge
 _LIFTED = 0.02
-# Share of its yield force at which a link is said to yield that comes to it along a curve
-_YIELDED = 0.9
 
 
 class OfStructure(Analysis):
@@ -295,199 +276,3 @@ class OfStructure(Analysis):
             way = self.history.last()[f"body/{self._off or self._lowest()}/displacement"]
             found["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
         return found
-
-
-def columns_of(rows: NDArray[Any], structure: StructureModel) -> dict[str, NDArray[Any]]:
-    """Rows (k, width) of the engine as columns by name: those of any analysis, and of the
-    structure's parts.
-
-    "body/NAME/displacement" of the centre of mass [m], "body/NAME/tilt" [rad] and
-    "body/NAME/rotation", the rotation vector [rad] from where the body stood upright;
-    "interface/NAME/tilt" of the slave from the master [rad], "rise" of the middle of its foot [m],
-    "slide" along two tangents [m], normal "force" [N], "resultant" of the forces on the slave [N]
-    and "center" of pressure [m] in the table frame, 0 where nothing carries;
-    "mark/NAME.MARK/displacement" [m]; "link/NAME/tension" [N], "elongation" from its unstressed
-    length and the part of it that has "yielded" [m], "work" that it has taken [J], whether it is
-    "broken"; "bond/NAME/stress" and "shear_stress" [Pa], the largest of the points of a glued
-    joint, the share of its area that has "failed" and "work" that it has taken [J];
-    "storey/NAME N/drift" [m] along x and y of the table, "shear" [N], its elastic part.
-    """
-    names = [(name, count) for name, count in COLUMNS]
-    names += [
-        (f"body/{part.name}/{name}", count) for part in structure.parts for name, count in OF_BODY
-    ]
-    names += [
-        (f"interface/{joint.name}/{name}", count)
-        for joint in structure.joints
-        for name, count in OF_INTERFACE
-    ]
-    names += [
-        (f"mark/{part.name}.{mark}/{name}", count)
-        for part in structure.parts
-        for mark in part.model.marks
-        for name, count in OF_MARK
-    ]
-    names += [
-        (f"link/{link.name}/{name}", count) for link in structure.links for name, count in OF_LINK
-    ]
-    names += [
-        (f"bond/{one}/{name}", count) for one in glued_names(structure) for name, count in OF_BOND
-    ]
-    columns, place = {}, 0
-    for name, count in names:
-        values = rows[:, place] if count == 1 else rows[:, place : place + count]
-        columns[name] = values.astype(int) if name.rpartition("/")[2] in _WHOLE else values.copy()
-        place += count
-    columns = of_both_sides(columns, structure)
-    for part in structure.parts:
-        if part.model.storeys is None:
-            continue
-        for number, stiffness in enumerate(part.model.storeys.stiffness, 1):
-            drift = (
-                columns.pop(f"mark/{part.name}.storey {number}/displacement")
-                - columns[f"body/{part.name}/displacement"]
-            )[:, :2]
-            columns |= {
-                f"storey/{part.name} {number}/drift": drift,
-                f"storey/{part.name} {number}/shear": stiffness * drift,
-            }
-    return columns
-
-
-def glued_names(structure: StructureModel) -> list[str]:
-    """Names of the glued joints; one with two sides has that of its first."""
-    return [
-        structure.joints[joint.pair].name if joint.pair >= 0 else joint.name
-        for joint in bonded(structure)
-    ]
-
-
-def of_both_sides(columns: dict[str, Any], structure: StructureModel) -> dict[str, Any]:
-    """Columns by name with one interface for each joint with two sides: its force is that of
-    both, and so are its resultant and its centre of pressure.
-    """
-    for joint in structure.joints:
-        if joint.pair >= 0:
-            own = f"interface/{structure.joints[joint.pair].name}/"
-            other = f"interface/{joint.name}/"
-            forces = [np.asarray(columns[f"{one}force"]) for one in (own, other)]
-            total = forces[0] + forces[1]
-            weighed = sum(
-                force[..., None] * columns[f"{one}center"]
-                for force, one in zip(forces, (own, other))
-            )
-            columns[f"{own}force"] = total if total.ndim else float(total)
-            columns[f"{own}resultant"] = columns[f"{own}resultant"] - columns[f"{other}resultant"]
-            columns[f"{own}center"] = weighed / np.where(total > 0, total, 1.0)[..., None]
-            for name, _ in OF_INTERFACE:
-                del columns[f"interface/{joint.name}/{name}"]
-    return columns
-
-
-def peaks(rows: dict[str, NDArray[Any]], structure: StructureModel) -> dict[str, Any]:
-    """Of the summary: largest values of bodies, interfaces, storeys, links and glued joints by
-    name, from the columns of a history.
-    """
-
-    def largest(name: str) -> float:
-        values = rows[name]
-        return float(
-            np.abs(values).max() if values.ndim == 1 else np.linalg.norm(values, axis=1).max()
-        )
-
-    bodies = {
-        part.name: dict(
-            tilt_max_rad=largest(f"body/{part.name}/tilt"),
-            acceleration_max_m_s2=peak_acceleration(
-                rows["time"], rows[f"body/{part.name}/displacement"], rows["ground"]
-            ),
-        )
-        for part in structure.parts
-    }
-    interfaces = {
-        joint.name: dict(
-            tilt_max_rad=largest(f"interface/{joint.name}/tilt"),
-            rise_max_m=largest(f"interface/{joint.name}/rise"),
-            slide_max_m=largest(f"interface/{joint.name}/slide"),
-            residual_slide_m=float(np.hypot(*rows[f"interface/{joint.name}/slide"][-1])),
-            force_max_n=largest(f"interface/{joint.name}/force"),
-        )
-        for joint in structure.joints
-        if joint.pair < 0
-    }
-    storeys = {
-        name[7:-6]: dict(drift_max_m=largest(name), shear_max_n=largest(f"{name[:-5]}shear"))
-        for name in rows
-        if name.startswith("storey/") and name.endswith("/drift")
-    }
-    links = {
-        link.name: _peaks_of_link(
-            rows["time"], {name: rows[f"link/{link.name}/{name}"] for name, _ in OF_LINK}, link
-        )
-        for link in structure.links
-    }
-    bonds = {
-        name: _peaks_of_bond(rows["time"], {one: rows[f"bond/{name}/{one}"] for one, _ in OF_BOND})
-        for name in glued_names(structure)
-    }
-    return dict(bodies=bodies, interfaces=interfaces, storeys=storeys, links=links) | (
-        dict(bonds=bonds) if bonds else {}
-    )
-
-
-def _peaks_of_bond(time: NDArray[Any], rows: dict[str, NDArray[Any]]) -> dict[str, Any]:
-    """Largest stresses of a glued joint, the share of its area that has failed, when the first and
-    the last of it did, and what it has taken; from its columns.
-    """
-    begun, done = rows["failed"] > 0, rows["failed"] > 1 - _ALL
-    return dict(
-        tension_max_pa=float(rows["stress"].max()),
-        shear_max_pa=float(rows["shear_stress"].max()),
-        failed_share=float(rows["failed"][-1]) if not done[-1] else 1.0,
-        work_j=float(rows["work"][-1]),
-        first_failed_at_s=float(time[np.argmax(begun)]) if begun.any() else None,
-        all_failed_at_s=float(time[np.argmax(done)]) if done.any() else None,
-    )
-
-
-def _peaks_of_link(time: NDArray[Any], rows: dict[str, NDArray[Any]], link: Link) -> dict[str, Any]:
-    """Extremes of a Link's tension and of its elongation until it breaks, what it has taken, and
-    when it first yielded, broke, and was slack after it had been tight; from its columns.
-    """
-
-    def first(mask: NDArray[Any]) -> float | None:
-        return float(time[np.argmax(mask)]) if mask.any() else None
-
-    tension, broken, over = (
-        rows["tension"],
-        rows["broken"] > 0,
-        rows["elongation"] - rows["yielded"],
-    )
-    yielded = rows["yielded"] != 0
-    if link.bends < np.inf:
-        # along a curve some of it yields from the start
-        stretch = np.sign(over) * np.maximum(np.abs(over) - link.slack, 0.0)
-        stretch = np.where(over > 0, stretch * link.pulls, stretch * link.pushes)
-        hardens = link.hardening / (1 - link.hardening) * rows["yielded"]
-        yielded &= link.stiffness * np.abs(stretch - hardens) >= _YIELDED * link.yield_n
-    whole = rows["elongation"][: max(1, int((~broken).sum()))]
-    tight = (link.pulls & (over > link.slack)) | (link.pushes & (over < -link.slack))
-    slackens = (
-        ~tight
-        & ~broken
-        & np.logical_or.accumulate(tight)
-        & (link.slack > 0 or not (link.pulls and link.pushes))
-    )
-    return dict(
-        tension_max_n=float(tension.max()),
-        tension_min_n=float(tension.min()),
-        compression_max_n=max(0.0, -float(tension.min())),
-        elongation_max_m=float(whole.max()),
-        elongation_min_m=float(whole.min()),
-        shortening_max_m=max(0.0, -float(whole.min())),
-        yielded_m=float(rows["yielded"][-1]),
-        work_j=float(rows["work"][-1]),
-        yielded_at_s=first(yielded),
-        broke_at_s=first(broken),
-        slack_at_s=first(slackens),
-    )

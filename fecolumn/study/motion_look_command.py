@@ -6,10 +6,7 @@ import argparse
 import math
 import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    pass
+from typing import Any
 
 from fecolumn.study.motion_files import (
     add_unit_and_step,

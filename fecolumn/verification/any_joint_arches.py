@@ -19,9 +19,9 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
+from fecolumn.engines.history_columns import columns_of
 from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced_engine import engine_of
-from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import StructureModel
 from fecolumn.structures.structure import structure_model

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.history_columns import columns_of
 from fecolumn.engines.reduced.engine import Engine
-from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.verification.joint_bodies import engines
 from fecolumn.verification.result import Row
 

@@ -13,8 +13,8 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.convex import hulls_of
 from fecolumn.contact.nearby import pair_keys
 from fecolumn.contact.through import ThroughCheck
+from fecolumn.engines.history_columns import columns_of
 from fecolumn.engines.reduced.engine import Engine
-from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.structures.hulls import hulls_of_parts
 from fecolumn.verification.joint_bodies import engines
 from fecolumn.verification.result import Row

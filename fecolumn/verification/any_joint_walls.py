@@ -11,8 +11,8 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
+from fecolumn.engines.history_columns import columns_of
 from fecolumn.engines.reduced.engine import Engine
-from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.verification.boxes import sine_pulse
 from fecolumn.verification.joint_bodies import engines
 from fecolumn.verification.result import Row

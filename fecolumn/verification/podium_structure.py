@@ -10,8 +10,8 @@ import math
 import numpy as np
 
 from fecolumn.case.case import Case, case_from_tables
+from fecolumn.engines.history_columns import columns_of
 from fecolumn.engines.reduced_engine import engine_of
-from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.structures.structure import structure_model
 
 #: Half diagonal of a column [m], its slenderness [rad], mass of the slab over that of a column [-]

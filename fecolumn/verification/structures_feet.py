@@ -34,9 +34,9 @@ from scipy.integrate import quad
 
 from fecolumn.case.case import Case, case_from_tables
 from fecolumn.case.sections import GRAVITY
+from fecolumn.engines.history_columns import columns_of
 from fecolumn.engines.reduced.observe import ENERGY, WIDTH
 from fecolumn.engines.reduced_engine import engine_of
-from fecolumn.engines.structure_analysis import columns_of
 from fecolumn.structures.model import BodyModel
 from fecolumn.structures.structure import structure_model
 from fecolumn.verification.result import CaseRows, Row

@@ -19,7 +19,7 @@ from fecolumn.contact.coupling import (
     stiffnesses,
     times,
 )
-from fecolumn.contact.friction import by_frozen_slips
+from fecolumn.contact.fallbacks import by_frozen_slips
 from fecolumn.contact.frozen_slips import find_impulses, follow_slips, solve_frozen
 from fecolumn.contact.impulses import all_impulses, rough_impulses
 from fecolumn.contact.problem import N_COUNTS

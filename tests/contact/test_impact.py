@@ -7,14 +7,8 @@ from two_blocks import NO_BASE
 
 from fecolumn.contact.bodies import joined, one_body
 from fecolumn.contact.compliance import assemble
-from fecolumn.contact.impact import (
-    Collision,
-    TouchingBodies,
-    find_impact,
-    landing_moment,
-    mark_landing,
-    touched,
-)
+from fecolumn.contact.impact import Collision, TouchingBodies, find_impact
+from fecolumn.contact.impact_event import landing_moment, mark_landing, touched
 from fecolumn.contact.interface import interface_of
 from fecolumn.contact.points import CONTACT, GROUND, node_points
 from fecolumn.contact.problem import N_COUNTS, OK

@@ -7,7 +7,7 @@ import pytest
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
-from fecolumn.engines.structure_analysis import columns_of
+from fecolumn.engines.history_columns import columns_of
 from fecolumn.verification.any_joint_walls import sunk_depth, wall, wall_shaking
 
 

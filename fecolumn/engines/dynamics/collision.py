@@ -6,12 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.contact.impact import (
+from fecolumn.contact.impact import Collision, TouchingBodies, find_impact
+from fecolumn.contact.impact_event import (
     LANDS,
     NOTHING,
-    Collision,
-    TouchingBodies,
-    find_impact,
     impact_event,
     landing_moment,
     mark_landing,

@@ -48,7 +48,8 @@ from fecolumn.engines.reduced.elastic import (
     find_position,
     no_elastic,
 )
-from fecolumn.engines.reduced.motion import Action, begin_frames, follow, no_action
+from fecolumn.engines.reduced.follow import begin_frames, follow
+from fecolumn.engines.reduced.motion import Action, no_action
 from fecolumn.engines.reduced.positions import Positions, find_positions, no_positions
 from fecolumn.engines.reduced.secant import Secant, no_secant, predict_slips, update_secant
 from fecolumn.foundation._compiled import njit
