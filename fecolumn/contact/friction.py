@@ -12,12 +12,7 @@ import numpy as np
 from fecolumn.contact import tolerances
 from fecolumn.contact.arrays import marked
 from fecolumn.contact.coulomb import law_error, violation
-from fecolumn.contact.coupling import (
-    coupling_of,
-    slips_under,
-    stiffnesses,
-    stiffnesses_by_whole,
-)
+from fecolumn.contact.coupling import coupling_of, slips_under, stiffnesses, stiffnesses_by_whole
 from fecolumn.contact.fallbacks import by_frozen_slips, find_some
 from fecolumn.contact.newton import NewtonLimits, newton_steps, solve_in_place
 from fecolumn.foundation._compiled import njit

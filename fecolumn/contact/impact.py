@@ -21,10 +21,7 @@ from fecolumn.contact.impulses import all_impulses, held_impulses, rough_impulse
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.problem import IMPACT_FAILED, OK
 from fecolumn.contact.restitution import returned_share
-from fecolumn.contact.tolerances import (
-    IMPACT_LEAST,
-    POINTS_A_LEVER,
-)
+from fecolumn.contact.tolerances import IMPACT_LEAST, POINTS_A_LEVER
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
 

@@ -4,12 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from fecolumn.contact.tolerances import (
-    ARRIVES,
-    FULL_FRICTION,
-    OPEN,
-    SLIDE,
-)
+from fecolumn.contact.tolerances import ARRIVES, FULL_FRICTION, OPEN, SLIDE
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
 

@@ -9,10 +9,7 @@ from numpy.typing import NDArray
 
 from fecolumn.engines.history_columns import glued_names
 from fecolumn.engines.peak_acceleration import peak_acceleration
-from fecolumn.engines.reduced.observe import (
-    OF_BOND,
-    OF_LINK,
-)
+from fecolumn.engines.reduced.observe import OF_BOND, OF_LINK
 from fecolumn.structures.model import Link, StructureModel
 
 # Rounding of the sum of areas that have failed, over all

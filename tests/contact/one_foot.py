@@ -8,18 +8,10 @@ from two_blocks import Blocks, compliance
 
 from fecolumn.contact.bodies import one_body
 from fecolumn.contact.compliance import assemble
+from fecolumn.contact.forces import find_forces, find_residual, solve_linear
 from fecolumn.contact.interface import interface_of, rims_at_rest
 from fecolumn.contact.points import CONTACT, node_points
-from fecolumn.contact.problem import (
-    N_COUNTS,
-    OK,
-    begin_problem,
-    find_forces,
-    find_residual,
-    list_near_points,
-    room,
-    solve_linear,
-)
+from fecolumn.contact.problem import N_COUNTS, OK, begin_problem, list_near_points, room
 from fecolumn.contact.projection import base_of
 from fecolumn.contact.stick import no_stick
 from fecolumn.contact.tolerances import ITERATIONS

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fecolumn.contact.compliance import assemble
+from fecolumn.contact.forces import solve_linear, stored_energy
 from fecolumn.contact.impact import Collision, TouchingBodies, find_impact
 from fecolumn.contact.joints import Joints, left_faces
 from fecolumn.contact.outline import lower_raised, raise_or_leave, was_beyond
@@ -26,8 +27,6 @@ from fecolumn.contact.problem import (
     list_present,
     near_points,
     room,
-    solve_linear,
-    stored_energy,
 )
 from fecolumn.contact.projection import grounds_for_steps, place_on_masters, project
 from fecolumn.contact.rolling import plan_roll, roll_points, stay

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from fecolumn.contact.arrays import put, put_matrix
+from fecolumn.contact.forces import find_forces, find_residual, stored_energy
 from fecolumn.contact.outline import lower_raised, raise_or_leave, was_beyond
 from fecolumn.contact.pad import begin_yielding, find_yielding
 from fecolumn.contact.points import CONTACT, GROUND, OVER
@@ -23,13 +24,10 @@ from fecolumn.contact.problem import (
     WORTH_STICK,
     Problem,
     begin_problem,
-    find_forces,
-    find_residual,
     list_near_points,
     near_points,
     present_points,
     room,
-    stored_energy,
 )
 from fecolumn.contact.stick import Stick, holds, is_worth, no_stick, same_points
 from fecolumn.contact.tolerances import (

@@ -20,12 +20,7 @@ from fecolumn.contact.pad import without_pads
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.problem import N_IMPACTS, OK, near_points
 from fecolumn.contact.work import book_impulses
-from fecolumn.engines.reduced.elastic import (
-    END,
-    START,
-    find_elastic,
-    find_velocity,
-)
+from fecolumn.engines.reduced.elastic import END, START, find_elastic, find_velocity
 from fecolumn.engines.reduced.follow import push_bodies
 from fecolumn.engines.reduced.ledger import (
     BASE_WORK,

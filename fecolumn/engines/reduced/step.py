@@ -25,20 +25,11 @@ from fecolumn.contact.tolerances import CREATED
 from fecolumn.contact.two_sided import mark_unused, place_overlaps
 from fecolumn.contact.work import move_anchors
 from fecolumn.engines.reduced.balls import roll_balls
-from fecolumn.engines.reduced.elastic import (
-    ACCELERATION,
-    COORDINATE,
-    END,
-    RATE,
-    START,
-    find_places,
-)
+from fecolumn.engines.reduced.elastic import ACCELERATION, COORDINATE, END, RATE, START, find_places
 from fecolumn.engines.reduced.equilibrium import find_equilibrium
 from fecolumn.engines.reduced.found import lay_found
 from fecolumn.engines.reduced.impact_of_step import take_impact
-from fecolumn.engines.reduced.ledger import (
-    book,
-)
+from fecolumn.engines.reduced.ledger import book
 from fecolumn.engines.reduced.rigid_loss import follow_impact
 from fecolumn.engines.reduced.rotation import orthonormal, turn_by
 from fecolumn.foundation._compiled import njit
