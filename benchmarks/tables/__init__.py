@@ -112,13 +112,18 @@ def from_markdown(text: str) -> list[list[list[str]]]:
 
 
 def commit() -> str:
-    """Of this checkout."""
-    command = ["git", "-C", str(FOLDER), "describe", "--always", "--dirty", "--exclude", "*"]
+    """Of this checkout; "-dirty" where anything but the tables differs from it."""
+    git = ["git", "-C", str(FOLDER)]
     try:
-        return subprocess.run(command, capture_output=True, text=True).stdout.strip() or "unknown"
+        found = subprocess.run(
+            [*git, "rev-parse", "--short", "HEAD"], capture_output=True, text=True
+        )
+        others = [":/", f":(exclude,top)benchmarks/{FOLDER.name}", ":(exclude,top)*.md"]
+        changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", *others]).returncode
     except FileNotFoundError:
         # without git
         return "unknown"
+    return found.stdout.strip() + "-dirty" * bool(changed) if found.stdout else "unknown"
 
 
 def _machine() -> str:

@@ -9,6 +9,7 @@ import pytest
 from benchmarks import tables
 from benchmarks.results import RESULTS, filled, results
 from benchmarks.tables.__main__ import main as keep
+from benchmarks.tables.again import measure_again, printed_as
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", RESULTS, *sorted((ROOT / "fecolumn/case/manual").glob("*.md"))]
@@ -78,3 +79,24 @@ def test_a_printed_table_is_kept_and_quoted(tmp_path, monkeypatch):
 def test_a_number_is_found_whole(text, there):
     assert holds("24", text) == bool(there)
     assert holds("<0.001", "p < 0.001)")
+
+
+def test_a_table_is_measured_again_by_its_command(tmp_path, monkeypatch):
+    """The rows are those of today's code; where another table is printed, it says so."""
+    kept = tables.read("design_slenderness")
+    monkeypatch.setattr(tables, "FOLDER", tmp_path)
+    measure_again(kept.about["command"], [kept])
+    again = tables.read("design_slenderness")
+    assert again.current and (again.columns, again.rows) == (kept.columns, kept.rows)
+    with pytest.raises(ValueError, match="no printed table has the columns"):
+        printed_as(kept, [[["p T_p", "another"], ["2", "1.0"]]])
+    with pytest.raises(ValueError, match="exit code 2"):
+        measure_again("python -m benchmarks.substeps.paper --unknown", [kept])
+
+
+def test_tables_of_older_motions_are_named(capsys, monkeypatch):
+    monkeypatch.setattr("sys.argv", ["tables"])
+    keep()
+    told = capsys.readouterr().out
+    for name in tables.names():
+        assert (f"{name} (" in told) is not tables.read(name).current
