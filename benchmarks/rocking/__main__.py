@@ -1,5 +1,6 @@
-"""python -m benchmarks.rocking [-n N] [-o DIR]: processor time of a million planar blocks, and the
-overturning spectra of four pulses.
+"""Processor time of a million planar blocks.
+
+    ./containers/run python -m benchmarks.rocking [-n N]
 
 Blocks of alpha 0.08 to 0.35 and p 1 to 6 rad/s in the motions of the Lick ensemble, cut to 10 s, at
 factors 0.5 to 2.5: free and held by a spring and a tendon.
@@ -12,6 +13,7 @@ import time
 
 import numpy as np
 
+from benchmarks.beside import markdown
 from fecolumn.case.sections import Motion
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.swing import (
@@ -67,7 +69,11 @@ def blocks(count: int, held: bool) -> np.ndarray:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.rocking",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
     parser.add_argument(
         "-n", type=int, default=100_000, help="analyses of each kind (default: %(default)s)"
     )
@@ -75,21 +81,31 @@ def main() -> None:
     grounds, step = motions(40)
     rng = np.random.default_rng(2)
     rock_all(grounds, step, [0], 1.0, blocks(1, True))
-    print(f"{args.n} analyses of {SECONDS:g} s, motions sampled at {step:g} s")
-    print(
-        f"{'blocks':<8}{'CPU ms/analysis':>17}{'h of one core for a million':>30}"
-        f"{'overturned':>12}{'impacts':>9}"
-    )
-    for name, held in (("free", False), ("held", True)):
+    lines, overturned = [], []
+    for name, held in (("free", False), ("held by a spring and a tendon", True)):
         rows = blocks(args.n, held)
         which, scales = rng.integers(0, len(grounds), args.n), rng.uniform(0.5, 2.5, args.n)
         began = time.process_time()
         found = rock_all(grounds, step, which, scales, rows)
-        spent = time.process_time() - began
-        print(
-            f"{name:<8}{1e3 * spent / args.n:>17.3f}{1e6 * spent / args.n / 3600:>30.2f}"
-            f"{np.isinf(found[:, PEAK_TILT]).mean():>12.1%}{found[:, IMPACT_COUNT].mean():>9.1f}"
+        spent = (time.process_time() - began) / args.n
+        impacts = found[:, IMPACT_COUNT].mean()
+        lines.append((name, f"{1e3 * spent:.2f}", f"{1e6 * spent / 3600:.2f}", f"{impacts:.0f}"))
+        overturned.append(f"{np.isinf(found[:, PEAK_TILT]).mean():.1%}")
+    print(
+        f"{args.n} analyses of each kind, motions sampled at {step:g} s; of them overturn "
+        f"{' and '.join(overturned)}"
+    )
+    print(
+        markdown(
+            (
+                "planar rocking block",
+                f"CPU of a motion of {SECONDS:g} s [ms]",
+                "hours of one core for a million",
+                "impacts a motion",
+            ),
+            lines,
         )
+    )
 
 
 if __name__ == "__main__":
