@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 HEAD = (
-    "peer",
+    "program",
     "dofs",
     "CPU s a step",
     "iterations",
