@@ -11,17 +11,13 @@ earlier runs are taken again.
 
 from __future__ import annotations
 
-import os
-import re
 import resource
-import shlex
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-PAGE = Path(__file__).parents[1] / "fecolumn" / "case" / "manual" / "jobs.md"
-_BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+from benchmarks.page import follow, sections
+
 #: What came of each job with version 0.6.6, tried by its README and manual alone
 BEFORE = {
     "statue": ("half: no surfaces, millimetres not known", "-"),
@@ -39,13 +35,12 @@ def main() -> int:
     """Run all jobs and print the table."""
     folder = Path(sys.argv[1] if len(sys.argv) > 1 else tempfile.mkdtemp()).resolve()
     folder.mkdir(parents=True, exist_ok=True)
-    os.environ["PYTHONPATH"] = str(PAGE.parents[3])
-    sections = PAGE.read_text(encoding="utf-8").split("\n## ")[1:]
     rows = []
-    for name, section in zip(BEFORE, sections):
+    for name, blocks in zip(BEFORE, sections("jobs").values()):
         lines, spent = 0, _spent_s()
-        for language, text in _BLOCK.findall(section):
-            lines += _do(language, text, folder)
+        for language, text in blocks:
+            follow(language, text, folder)
+            lines += lines_of_input(language, text)
         rows.append((name, *BEFORE[name], str(lines), _minutes(_spent_s() - spent)))
     print("\n| job | in 0.6.6 | in 0.6.6 [min] | lines of input | now [min] |")
     print("|---|---|---|---|---|")
@@ -54,17 +49,8 @@ def main() -> int:
     return 0
 
 
-def _do(language: str, text: str, folder: Path) -> int:
-    """Write a file or run what a block says; lines of input in it."""
-    if language in ("toml", "csv"):
-        (folder / text.partition("\n")[0].strip("# ").partition(":")[0]).write_text(text)
-    elif language == "python":
-        subprocess.run([sys.executable, "-c", text], cwd=folder, check=True)
-    else:
-        for command in text.splitlines():
-            print(f"$ {command}", flush=True)
-            words = [sys.executable, "-m", "fecolumn.cli", *shlex.split(command)[1:]]
-            subprocess.run(words, cwd=folder, check=True, stderr=subprocess.DEVNULL)
+def lines_of_input(language: str, text: str) -> int:
+    """Lines of a block that a user types: of TOML files and Python, but for pictures."""
     code = [line for line in text.splitlines() if line.strip() and line.strip()[0] != "#"]
     return len(code) if language == "toml" or language == "python" and "pyvista" not in text else 0
 

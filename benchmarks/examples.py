@@ -1,0 +1,68 @@
+"""What the commands of the manual's pages quick-start and questions answer.
+
+    ./containers/run python -m benchmarks.examples [DIR]
+
+Follows the pages in DIR (default: a new folder) and prints the sentences that they quote, as two
+tables; some minutes of the processor.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from pathlib import Path
+
+from benchmarks.beside import markdown
+from benchmarks.page import follow, sections
+
+#: Page and heading of each example, and how the answer begins.
+EXAMPLES = {
+    "my-tube": ("quick-start", "A column", "my-tube/run: "),
+    "design": ("questions", "How large must it be?", "P(overturn) < "),
+    "risk": ("questions", "How often does it happen?", "overturn has a mean "),
+    "screen": ("questions", "Which of many is in danger?", "Most endangered of "),
+}
+FITTED = ("questions", "Which parameters fit a test?")
+KEYS = {
+    "restitution": "block.restitution = ",
+    "tilt": "initial.tilt_rad = ",
+    "fit": "The fit leaves ",
+}
+
+
+def answers(page: str, heading: str, folder: Path) -> list[str]:
+    """Lines that the commands below a heading print."""
+    blocks = sections(page)[heading]
+    return "".join(follow(language, text, folder) for language, text in blocks).splitlines()
+
+
+def first(lines: list[str], begin: str) -> str:
+    """The first line that begins so.
+
+    Raises
+    ------
+    ValueError
+        there is none.
+    """
+    for line in lines:
+        if line.startswith(begin):
+            return line
+    raise ValueError(f"no line of the answer begins with {begin!r}")
+
+
+def main() -> int:
+    """Follow the pages and print the tables."""
+    folder = Path(sys.argv[1] if len(sys.argv) > 1 else tempfile.mkdtemp()).resolve()
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = [
+        (name, first(answers(page, heading, folder), begin))
+        for name, (page, heading, begin) in EXAMPLES.items()
+    ]
+    fitted = answers(*FITTED, folder)
+    print("\n" + markdown(("example", "says"), rows))
+    print("\n" + markdown(("key", "says"), [(key, first(fitted, by)) for key, by in KEYS.items()]))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
