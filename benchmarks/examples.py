@@ -37,7 +37,7 @@ def answers(page: str, heading: str, folder: Path) -> list[str]:
 
 
 def first(lines: list[str], begin: str) -> str:
-    """The first line that begins so.
+    """The first line that begins so, without a full stop at its end.
 
     Raises
     ------
@@ -46,7 +46,7 @@ def first(lines: list[str], begin: str) -> str:
     """
     for line in lines:
         if line.startswith(begin):
-            return line
+            return line.removesuffix(".")
     raise ValueError(f"no line of the answer begins with {begin!r}")
 
 
@@ -60,7 +60,8 @@ def main() -> int:
     ]
     fitted = answers(*FITTED, folder)
     print("\n" + markdown(("example", "says"), rows))
-    print("\n" + markdown(("key", "says"), [(key, first(fitted, by)) for key, by in KEYS.items()]))
+    rows = [(key, first(fitted, begin)) for key, begin in KEYS.items()]
+    print("\n" + markdown(("key", "says"), rows))
     return 0
 
 
