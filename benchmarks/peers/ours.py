@@ -29,7 +29,7 @@ ENOUGH_S = 1.0
 
 
 def toes_of(reference, radius: float) -> list[int]:
-    """Foot points (of (n, 3) [m]) at the rim's +x and -x ends."""
+    """Contact points (of (n, 3) [m], before the release) at the rim's +x and -x ends."""
     return [
         int(np.linalg.norm(reference - [sign * radius, 0.0, 0.0], axis=1).argmin())
         for sign in (1, -1)
@@ -43,7 +43,8 @@ def full(given: Release, steps: int):
         system_of(Case.of_column(given.case)),
         lambda system: tilted(system, given.tilt, 0.0),
     )
-    reference = trial.system.interface.reference
+    interface = trial.system.interface
+    reference = interface.reference[interface.points["node"]]
     toes, standing, cpu, made = (
         toes_of(reference, given.radius),
         trial.mechanical() - given.rigid.energy(given.tilt),
@@ -85,7 +86,7 @@ def reduced(given: Release, steps: int):
         spent += time.process_time() - began
         made += steps
     engine = engine_of(case, model, "peers")
-    reference = model.parts[0].model.reference
+    reference = model.parts[0].model.reference[engine.points["node"]]
     toes, standing, seen = (
         toes_of(reference, given.radius),
         engine.mechanical() - given.rigid.energy(given.tilt),

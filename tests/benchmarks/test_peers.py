@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from benchmarks.peers import ours
 from benchmarks.peers import peer as peers
 from benchmarks.peers.calculix import displacements, increments
 from benchmarks.peers.case import release
@@ -65,6 +66,17 @@ def test_track_tells_impact_creep_and_energy(tmp_path):
     assert track.creep == pytest.approx(1e-3 * (quarter - 0.013), rel=0.01)
     assert track.kept == pytest.approx(rigid.restitution**2)
     assert track.cpu_per_step == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize("engine", ["rigid", "reduced"])
+def test_toes_of_this_program_start_where_they_stand(engine, tmp_path):
+    """The one turned about is not moved by the release, the other one by radius (1 - cos)."""
+    given = ours.release("pipe")
+    ours.main(engine, "pipe", tmp_path, "50")
+    track = read_track(tmp_path / "track.csv")
+    raised = 2 * given.radius * (1 - np.cos(given.tilt))
+    assert abs(track.right[0]) < 1e-12 and track.left[0] == pytest.approx(raised, rel=1e-3)
+    assert track.creep < 1e-7
 
 
 def test_line_that_was_being_written_is_left_out(tmp_path):
