@@ -9,11 +9,10 @@ tables; some minutes of the processor.
 from __future__ import annotations
 
 import sys
-import tempfile
 from pathlib import Path
 
 from benchmarks.beside import markdown
-from benchmarks.page import follow, sections
+from benchmarks.page import folder_given, follow, sections
 
 #: Page and heading of each example, and how the answer begins.
 EXAMPLES = {
@@ -32,8 +31,7 @@ KEYS = {
 
 def answers(page: str, heading: str, folder: Path) -> list[str]:
     """Lines that the commands below a heading print."""
-    blocks = sections(page)[heading]
-    return "".join(follow(language, text, folder) for language, text in blocks).splitlines()
+    return "".join(follow(block, folder) for block in sections(page)[heading]).splitlines()
 
 
 def first(lines: list[str], begin: str) -> str:
@@ -52,8 +50,7 @@ def first(lines: list[str], begin: str) -> str:
 
 def main() -> int:
     """Follow the pages and print the tables."""
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else tempfile.mkdtemp()).resolve()
-    folder.mkdir(parents=True, exist_ok=True)
+    folder = folder_given()
     rows = [
         (name, first(answers(page, heading, folder), begin))
         for name, (page, heading, begin) in EXAMPLES.items()

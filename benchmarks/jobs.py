@@ -13,10 +13,9 @@ from __future__ import annotations
 
 import resource
 import sys
-import tempfile
-from pathlib import Path
 
-from benchmarks.page import follow, sections
+from benchmarks.beside import markdown
+from benchmarks.page import Block, folder_given, follow, sections
 
 #: What came of each job with version 0.6.6, tried by its README and manual alone
 BEFORE = {
@@ -33,26 +32,23 @@ BEFORE = {
 
 def main() -> int:
     """Run all jobs and print the table."""
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else tempfile.mkdtemp()).resolve()
-    folder.mkdir(parents=True, exist_ok=True)
-    rows = []
+    folder, rows = folder_given(), []
     for name, blocks in zip(BEFORE, sections("jobs").values()):
         lines, spent = 0, _spent_s()
-        for language, text in blocks:
-            follow(language, text, folder)
-            lines += lines_of_input(language, text)
+        for block in blocks:
+            follow(block, folder)
+            lines += lines_of_input(block)
         rows.append((name, *BEFORE[name], str(lines), _minutes(_spent_s() - spent)))
-    print("\n| job | in 0.6.6 | in 0.6.6 [min] | lines of input | now [min] |")
-    print("|---|---|---|---|---|")
-    for row in rows:
-        print(f"| {' | '.join(row)} |")
+    head = ("job", "in 0.6.6", "in 0.6.6 [min]", "lines of input", "now [min]")
+    print("\n" + markdown(head, rows))
     return 0
 
 
-def lines_of_input(language: str, text: str) -> int:
+def lines_of_input(block: Block) -> int:
     """Lines of a block that a user types: of TOML files and Python, but for pictures."""
-    code = [line for line in text.splitlines() if line.strip() and line.strip()[0] != "#"]
-    return len(code) if language == "toml" or language == "python" and "pyvista" not in text else 0
+    code = [line for line in block.text.splitlines() if line.strip() and line.strip()[0] != "#"]
+    drawn = block.language == "python" and "pyvista" in block.text
+    return len(code) if block.language in ("toml", "python") and not drawn else 0
 
 
 def _minutes(seconds: float) -> str:

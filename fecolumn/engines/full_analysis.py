@@ -67,7 +67,7 @@ class FullAnalysis(OfStructure):
             self.say(f"resuming at t = {self.state.time:.4f} s")
         else:
             self.state = self._released(self._standing())
-            self.state.ground = self.grounds(range(1))[0]
+            self.state.ground = self.grounds_at(0)
             self.state.grounds["acceleration"] = self.state.ground.reshape(-1, 3)
             self.ledger.open(self.state)
             self._note(0)
@@ -189,8 +189,7 @@ class FullAnalysis(OfStructure):
         try:
             while self.step < self.steps and not over:
                 began, before = time.perf_counter(), self.stepper.record.iterations
-                (ground,) = self.grounds(range(self.step + 1, self.step + 2))
-                state = self.stepper.step(self.state, ground)
+                state = self.stepper.step(self.state, self.grounds_at(self.step + 1))
                 self.state, self.step = state, self.step + 1
                 self.stepping_s += time.perf_counter() - began
                 measures = self._note(self.stepper.record.iterations - before)

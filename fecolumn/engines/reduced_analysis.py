@@ -78,7 +78,7 @@ class ReducedAnalysis(OfStructure):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:
             self.standing_j = self._standing_energy(file) - self.energy_to_fall()
-            self.engine.begin_shaking(self.grounds(range(1))[0])
+            self.engine.begin_shaking(self.grounds_at(0))
             self._note(self.engine.row()[None])
             self._keep()
 

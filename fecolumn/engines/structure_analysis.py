@@ -138,6 +138,11 @@ class OfStructure(Analysis):
         """Accelerations (k, 3 G) of all grounds at k successive steps [m/s2]."""
         return accelerations(self.motions, steps)
 
+    def grounds_at(self, step: int) -> NDArray[Any]:
+        """As `grounds`, (3 G,) of one step."""
+        found: NDArray[Any] = self.grounds(range(step, step + 1))[0]
+        return found
+
     def steepest_at(self, step: int) -> float:
         """As `steepest`, of one step."""
         return float(self.steepest(range(step, step + 1))[0])

@@ -4,12 +4,12 @@ import pytest
 
 from benchmarks import tables
 from benchmarks.examples import EXAMPLES, FITTED, answers, first
-from benchmarks.page import follow, sections
+from benchmarks.page import Block, follow, sections
 
 
 @pytest.mark.parametrize("page, heading", [(*one[:2],) for one in EXAMPLES.values()] + [FITTED])
 def test_a_section_that_is_followed_has_commands(page, heading):
-    assert any(language == "sh" for language, _ in sections(page)[heading])
+    assert any(block.language == "sh" for block in sections(page)[heading])
 
 
 def test_an_example_answers_what_is_kept(tmp_path):
@@ -22,5 +22,5 @@ def test_an_example_answers_what_is_kept(tmp_path):
 
 
 def test_a_block_is_written_under_the_name_in_its_first_line(tmp_path):
-    assert follow("toml", '# case.toml: a block\ntitle = "Block"\n', tmp_path) == ""
+    assert follow(Block("toml", '# case.toml: a block\ntitle = "Block"\n', ""), tmp_path) == ""
     assert (tmp_path / "case.toml").read_text().endswith('title = "Block"\n')
