@@ -233,6 +233,7 @@ def report(campaign: Campaign, rows: list[dict], folder: Path) -> None:
         name: [tests[row["test"]].computed[name] for row in told]
         for name in campaign.tests[0].computed
     }
+    print(f"{len(told)} tests\n")
     print(
         table(
             {

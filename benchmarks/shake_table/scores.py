@@ -57,16 +57,16 @@ def chance(measured, told, other) -> float:
 
 
 def table(scores: dict[str, Confusion]) -> str:
-    """Table of Markdown, a line for each that tells."""
+    """Table of Markdown, a line for each that tells, as `benchmarks/tables` keeps it."""
     lines = [
-        "| told by | N | accuracy [95 %] | overturned: told so | told to stand | "
+        "| told by | right | 95 % interval | overturned: told so | told to stand | "
         "stood: told to overturn | told so |",
         "|---|--:|---|--:|--:|--:|--:|",
     ]
     for name, c in scores.items():
         low, high = c.interval
         lines.append(
-            f"| {name} | {c.n} | {c.accuracy:.3f} [{low:.3f}, {high:.3f}] | {c.hit} | "
+            f"| {name} | {c.accuracy:.3f} | {low:.3f} to {high:.3f} | {c.hit} | "
             f"{c.missed} | {c.false} | {c.stood} |"
         )
     return "\n".join(lines)
