@@ -244,6 +244,9 @@ REST_ITERATIONS, REST_PROGRESS = 50, 0.5
 #: The same where links hold bodies: a soft link of a block that nothing else holds along its base
 #: brings it back slowly, in steps that are small from the first.
 LINKS_PROGRESS = 0.99
+#: Iterations of full order between two that begin ahead, and how steady the share of a step in the
+#: one before must be for that, over what it lacks of 1: what is slow alone is left by then.
+AHEAD_AFTER, AHEAD_STEADY = 5, 0.02
 #: Iterations after which points keep the slides that they have made. Until then friction is that of
 #: a point's whole way, whatever the iterations did. Where all points of a joint slide, as of a
 #: light stone that a heavy one spreads below it, friction of 1.5 makes that balance unstable and

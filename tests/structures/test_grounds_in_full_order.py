@@ -73,6 +73,28 @@ def test_a_pulled_block_rests_leaning_on_its_pad(tmp_path):
     assert np.ptp(tilt) < 1e-5 * exact
 
 
+def test_a_body_on_soil_that_a_firm_bar_holds_rests_as_its_springs_bear(tmp_path):
+    """The bar makes the steps to rest short, and the soil leaves the body to sway between them."""
+    high = 0.9 * HEIGHT
+    _, rows = on_pad(
+        tmp_path / "run",
+        links=dict(
+            bar=dict(
+                kind="spring",
+                body="block",
+                point_m=[0.0, 0.0, high],
+                to="soil",
+                to_point_m=[-2.0, 0.0, high],
+                stiffness_n_m=20 * SUBGRADE * SIDE**2,
+            )
+        ),
+        integration=dict(duration_s=0.02),
+    )
+    assert rows["interface/foot: block on soil/rise"] == pytest.approx(-SETTLED, rel=1e-3)
+    assert np.abs(rows["link/bar/tension"]).max() < 1e-4 * WEIGHT
+    assert rows["energy/kinetic"].max() < 1e-12 * WEIGHT * SETTLED
+
+
 def test_a_pad_that_yields_bears_no_more_and_keeps_its_settlement(tmp_path):
     """As of the rigid engine: springs hold what they do at the yield force, the flow takes the
     rest.

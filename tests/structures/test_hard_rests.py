@@ -264,3 +264,31 @@ def test_friction_dampers_that_slip_while_a_bent_settles_hold_their_slip_force(b
     # of a search that was made twice a little more of the way of 8 mm is left
     exact = EXACT if body == "column" else 2 * EXACT
     assert soil == pytest.approx(weights(made).sum(), rel=exact)
+
+
+@pytest.mark.parametrize("engine", ["rigid", "reduced"])
+@pytest.mark.parametrize("dt_s", [2.5e-4, 2e-4, 1e-4])
+def test_a_block_beside_a_spring_stands_at_any_step(engine, dt_s):
+    """Short steps make what bodies give small, and contact is solved to a length: it went on by
+    less than that in each iteration and was never at rest.
+    """
+    for friction, stiffness in ((0.02, 1e6), (0.1, 1e3), (0.3, 2e4), (0.5, 2e4)):
+        made = standing(
+            bodies=dict(
+                block=COARSE
+                | STONE
+                | dict(length_m=1.0, width_m=0.8, height_m=0.4, density_kg_m3=625.0)
+            ),
+            joints=dict(foot=dict(between=["block", "ground"], friction_coefficient=friction)),
+            links=dict(
+                spring=dict(
+                    kind="spring",
+                    body="block",
+                    point_m=[0.0, 0.0, 0.2],
+                    to_point_m=[-1.5, 0.0, 0.2],
+                    stiffness_n_m=stiffness,
+                )
+            ),
+            integration=dict(engine=engine, dt_s=dt_s),
+        )
+        assert carried(made, 0) == pytest.approx(200 * GRAVITY, rel=EXACT)

@@ -11,8 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from fecolumn.contact.tolerances import (
+    AHEAD_AFTER,
+    AHEAD_STEADY,
     FIRMNESS,
     LINKS_FIRM,
+    LINKS_PROGRESS,
     REST_ITERATIONS,
     REST_PROGRESS,
     REST_WAY,
@@ -27,6 +30,7 @@ from fecolumn.foundation.arrays import Array
 if TYPE_CHECKING:
     from fecolumn.case.sections import Initial
     from fecolumn.engines.dynamics.system import System
+    from fecolumn.fem.composite import Composite
 
 
 class NoEquilibrium(RuntimeError):
@@ -74,19 +78,44 @@ def iterate_to_rest(
     NoEquilibrium
         it does not come to rest, or all too slowly: its pad hardly holds it upright.
     """
-    moved, steps, yardstick = np.inf, 0, np.inf
+    steps, least, yardstick = 0, np.inf, np.inf
     progress = REST_PROGRESS if progress is None else progress
     while True:
         moved, steps = proximal_step(), steps + 1
         if moved < REST_WAY * height:
             return
+        least = min(least, moved)
         if steps % REST_ITERATIONS == 0:
-            if not moved < progress * yardstick:
+            if not least < progress * yardstick:
                 break
-            yardstick = moved
+            least, yardstick = np.inf, least
     raise NoEquilibrium(
         f"gravity equilibrium: still moving by {moved:.2e} m after {steps} iterations"
     )
+
+
+class Ahead:
+    """How far ahead of its place the next proximal step of a linked structure begins.
+
+    Firm links make steps short where soft ground leaves a body free, each the same share of the
+    last. After REST_ITERATIONS the next one begins where all that would follow lead, once their
+    share is steady (Irons and Tuck 1969, as `contact.frozen_slips.extrapolate`).
+    """
+
+    def __init__(self) -> None:
+        self.way: Any = 0.0  # (n, 3) [m]
+        self._steps, self._since = 0, 0
+        self._moved, self._share = 0.0, 0.0
+
+    def follow(self, change: Array, bodies: Composite) -> None:
+        """Find the way of the next step after one that changed the places by (n, 3) [m]."""
+        moved, before = bodies.max(np.abs(change).max(initial=0.0)), self._share
+        self._steps, self._since, self.way = self._steps + 1, self._since + 1, 0.0
+        self._share, self._moved = moved / self._moved if self._moved else 0.0, moved
+        left = 1 - self._share
+        steady = abs(self._share - before) < AHEAD_STEADY * left
+        if self._steps > REST_ITERATIONS and self._since >= AHEAD_AFTER and steady:
+            self.way, self._since = self._share / left * change, 0
 
 
 def standing(system: System, tolerance: float = 1e-9) -> State:
@@ -101,12 +130,13 @@ def standing(system: System, tolerance: float = 1e-9) -> State:
     state, mover = system.unstrained(bodies.placed), None
     firmness = _firmness(system)
     factors, load, pulls, straight = (firmness, 1.0), system.load(np.zeros(3)), None, 0.0
+    ahead = Ahead()
 
     def proximal_step() -> float:
         nonlocal state, pulls, straight, mover
         before, rims = interface.lay(state)
         stage = Stage(
-            target=state.x,
+            target=state.x + ahead.way,
             load=load,
             start=state.x,
             scale=1.0,
@@ -119,6 +149,8 @@ def standing(system: System, tolerance: float = 1e-9) -> State:
             turns=interface.foot.filtered,
         )
         outcome = equilibrate(system, system.operators(*factors), stage, tolerance, 20)
+        if links:
+            ahead.follow(outcome.x - state.x, bodies)
         away = np.abs(outcome.x - state.x)
         of_each = [bodies.max(away[rows].max(initial=0.0)) for rows in bodies.rows]
         mover = int(np.argmax(of_each))
@@ -157,7 +189,7 @@ def standing(system: System, tolerance: float = 1e-9) -> State:
         return max(of_each)
 
     try:
-        iterate_to_rest(proximal_step, bodies.extent)
+        iterate_to_rest(proximal_step, bodies.extent, LINKS_PROGRESS if links else None)
     except NoEquilibrium as error:
         error.mover = mover
         raise

@@ -168,14 +168,17 @@ class Settling:
 
     def _done(self) -> float:
         """What the last step returns."""
-        if not self.moved < REST_WAY * self.height:
+        rests = REST_WAY * self.height
+        # bodies go on by what contact may miss, in any number of steps
+        missed = self.engine.work.problem.allowed.max(initial=0.0)
+        if not self.moved < max(rests, missed):
             self._yardstick, self._halved_at = np.inf, self.steps
         if self.unbalanced < self._yardstick / 2:
             self._yardstick, self._halved_at = self.unbalanced, self.steps
         stalls = self.steps - self._halved_at >= BALANCE_HALVES
         if stalls and self.unbalanced < BALANCED_AT_LEAST:
-            return self.moved
-        return max(self.moved, self.unbalanced / BALANCED * REST_WAY * self.height)
+            return min(self.moved, rests / 2)
+        return max(self.moved, self.unbalanced / BALANCED * rests)
 
     def _hastened(self) -> bool:
         """Make the next step from where the last one leads; whether that serves.
