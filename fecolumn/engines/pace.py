@@ -9,6 +9,8 @@ import dataclasses
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from fecolumn.case.sections import POINTS_OF_SEVERAL
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.progress import clock
@@ -21,16 +23,19 @@ if TYPE_CHECKING:
 
 #: File of a running analysis with its pace, from which a study knows how long it will take
 PACE_FILE = "pace.json"
-# Wall time of steps [s], and their least number, after which the pace is known
-_KNOWN_S, _KNOWN_STEPS = 1.0, 3
+# Wall time of steps [s], and their least number, after which the pace is known; the same between
+# two times that it is judged again, as some steps of a motion take much longer than all others
+_KNOWN_S, _KNOWN_STEPS, _AGAIN_S = 1.0, 3, 5.0
 #: Wall time [s] between two looks, so that Ctrl-C and progress do not wait; steps until the first
 LOOK_S, _FIRST_STEPS = 0.25, 5
 # A rest of so long [s] is told; of one longer than this, what would shorten it
 _TOLD_S, _LONG_S = 3.0, 30.0
 #: A step that takes longer [s] is slow
 SLOW_S = 0.05
-# Slow steps are told again where they take so many times as long as those told last
+# Slow steps, and the time left, are told again where they are so many times what was told last
 _SLOWER = 2.0
+# The ground moved little so far where it did by less than this share of what is to come
+_QUIET = 0.5
 
 
 class Pace:
@@ -52,7 +57,9 @@ class Pace:
         # step and wall time at the begin, when steps were last judged, at the last look
         self._began = self._judged = self._looked = analysis.step, analysis.stepping_s
         self._record = dataclasses.replace(record)
-        self._told, self._slow = False, SLOW_S
+        # the time left that was told last [s], None before any
+        self._told: float | None = None
+        self._slow = SLOW_S
         self._made_in_s = analysis.made_in_s()
         self._s_per_step = 0.0
 
@@ -83,9 +90,9 @@ class Pace:
                 self._slow = _SLOWER * each
                 self._say(self._why(record, each))
             self._judged, self._record = now, dataclasses.replace(record)
-        known = now[1] - self._began[1] >= _KNOWN_S and now[0] - self._began[0] >= _KNOWN_STEPS
-        if known and not self._told:
-            self._told = True
+        enough = _KNOWN_S if self._told is None else _AGAIN_S
+        known = now[1] - self._began[1] >= enough and now[0] - self._began[0] >= _KNOWN_STEPS
+        if known:
             self._tell()
 
     def _note_step(self, record: Record) -> None:
@@ -106,30 +113,51 @@ class Pace:
             (self._analysis.folder / PACE_FILE).unlink(missing_ok=True)
 
     def _tell(self) -> None:
-        """Say how long the rest takes."""
+        """Say how long the rest takes by the steps since the last time, where that is not known or
+        much longer than was told; later steps are then judged from here.
+        """
         analysis = self._analysis
-        made = analysis.step - self._began[0]
-        each = _each(self._began, self._looked)
+        made, each = analysis.step - self._began[0], _each(self._began, self._looked)
+        first, self._began = self._told is None, self._looked
         surely = analysis.motion_steps if analysis.until_rest else analysis.steps
         left = each * (analysis.steps - analysis.step)
+        if not first and left < max(_LONG_S, _SLOWER * (self._told or 0.0)):
+            return
+        self._told = left
         if left < _TOLD_S:
             return
         cheaper_keys = cheaper_text(analysis.case, analysis.structure)
-        if analysis.comm.rank == 0:
+        if first and analysis.comm.rank == 0:
             with contextlib.suppress(OSError):
                 write_json(
                     analysis.folder / PACE_FILE, {"whole_s": each * surely, "cheaper": cheaper_keys}
                 )
-        said = f"{made:,} steps took {_written(each)} each: about {clock(left)} for the rest"
+        which = f"{made:,} steps" if first else f"the last {made:,} steps"
+        said = f"{which} took {_written(each)} each: about {clock(left)} for the rest"
         if surely < analysis.steps:
             until = each * max(surely - analysis.step, 0)
             said = (
-                f"{made:,} steps took {_written(each)} each: about {clock(until)} to the end of "
+                f"{which} took {_written(each)} each: about {clock(until)} to the end of "
                 f"the motion, {clock(left)} at most until at rest"
             )
+        said += self._if_quiet() if first else ", if all take as long"
         if left > _LONG_S:
             said += f"; {cheaper_keys}"
         self._say(said)
+
+    def _if_quiet(self) -> str:
+        """What the time left is told of, in words, where the ground has moved little so far."""
+        analysis = self._analysis
+        if analysis.motion is None or analysis.step >= analysis.motion_steps:
+            return ""
+        ground = np.abs(analysis.motion.acceleration).max(axis=1)
+        before, after = ground[: analysis.step].max(), ground[analysis.step :].max()
+        if before >= _QUIET * after:
+            return ""
+        return (
+            f", more when bodies rock: the ground has moved by {before:.2g} m/s2 so far, later by "
+            f"{after:.2g}"
+        )
 
     def _why(self, record: Record, each: float) -> str:
         """Why steps take `each` so long [s], in words."""

@@ -55,6 +55,7 @@ def _running(tmp_path, steps=10_000, motion_steps=0, until_rest=False):
         history=SimpleNamespace(last=lambda: last),
         step=0,
         steps=1 + steps,
+        motion=None,
         motion_steps=1 + motion_steps,
         until_rest=until_rest,
         stepping_s=0.0,
@@ -116,6 +117,31 @@ def test_a_rest_of_seconds_is_not_told_and_one_until_rest_has_two_ends(tmp_path)
     assert json.loads((tmp_path / PACE_FILE).read_text())["whole_s"] == pytest.approx(
         20.0, rel=1e-3
     )
+
+
+def test_the_time_left_is_told_again_where_it_has_become_much_longer(tmp_path):
+    said = []
+    analysis = _running(tmp_path, steps=10_000, motion_steps=10_000)
+    quiet = np.full((10_001, 3), 0.1)
+    quiet[5000] = 2.0
+    analysis.motion = SimpleNamespace(acceleration=quiet)
+    pace = _begun(analysis, said)
+    _go(analysis, pace, 1000, 1.0)  # 1 ms
+    (words,) = said
+    assert words.startswith("1,000 steps took 1 ms each: about 9 s for the rest, more when bodies")
+    assert words.endswith("moved by 0.1 m/s2 so far, later by 2") and "cheaper" not in words
+    _go(analysis, pace, 2000, 3.0)
+    _go(analysis, pace, 2500, 6.1)  # 3.4 ms: 25 s are left
+    assert len(said) == 1
+    _go(analysis, pace, 5100, 40.0)  # 13 ms
+    assert len(said) == 2 and said[1].startswith("the last 2,600 steps took 13 ms each:")
+    assert (
+        "about 1 min 04 s for the rest, if all take as long; 54 contact points; cheaper may be"
+        in said[1]
+    )
+    _go(analysis, pace, 5200, 43.0)  # 30 ms, of too few steps
+    _go(analysis, pace, 5500, 47.0)  # 18 ms: 1 min 19 s
+    assert len(said) == 2
 
 
 def test_slow_steps_say_which_joint_and_how_many_iterations(tmp_path):
