@@ -87,25 +87,26 @@ def main(args: argparse.Namespace) -> int:
     if case.integration.step_is_chosen:
         case = chosen_step(case, args.case, say=_tell)[0]
     duration, quiet_s = _duration(case, args.case)
-    before = 0.0
-    if quiet_s:
-        _say(f"the first {quiet_s:.3g} s")
-        begin = first_steps(case, args.case, args.seconds / 2)
-        before = begin.pace * quiet_s
+    _say("as it is")
+    own, before = first_steps(case, args.case, args.seconds), 0.0
+    quiet = own.span < quiet_s
+    if quiet:
+        before = own.pace * quiet_s
         print(
-            f"a step of the quiet first {quiet_s:.3g} s takes {1e3 * begin.step_s:.3g} ms; "
+            f"a step of the quiet first {quiet_s:.3g} s takes {1e3 * own.step_s:.3g} ms; "
             "then, where the motion is strong:"
         )
         case = _strong(case)
-    _say("as it is")
-    own = first_steps(case, args.case, args.seconds)
+        _say("as it is, where the motion is strong")
+        own = first_steps(case, args.case, args.seconds)
+    later_s = duration - quiet_s if quiet else duration
     print(
         f"{'setting':<34} {'ms a step':>9} {'whole analysis':>14} {'times as fast':>13}  "
-        f"top in the first {own.span:.3g} s{' of it' if quiet_s else ''}"
+        f"top in the first {own.span:.3g} s{' of it' if quiet else ''}"
     )
 
     def row(name: str, trial: FirstSteps) -> None:
-        whole = before * trial.pace / own.pace + trial.pace * (duration - quiet_s)
+        whole = before * trial.pace / own.pace + trial.pace * later_s
         print(
             f"{name:<34} {1e3 * trial.step_s:>9.3g} "
             f"{clock(whole):>14} {own.pace / trial.pace:>13.2g}  "
@@ -152,7 +153,7 @@ def _duration(case: Case, file: str) -> tuple[float, float]:
     intensity = arias_intensity(ground)[:, :2].sum(axis=1)
     begins = ground.dt * int(np.searchsorted(intensity, _ROCKS_FROM * intensity[-1]))
     alone = all(one.motion is None for one in case.grounds.values())
-    return duration, begins if alone and 0 < begins < duration / 2 else 0.0
+    return duration, begins if alone and begins < duration else 0.0
 
 
 def _strong(case: Case) -> Case:

@@ -255,6 +255,29 @@ def test_cost_measures_the_case_and_what_makes_it_cheaper(tmp_path, capsys):
     assert [one.name for one in tmp_path.iterdir()] == ["block.toml"]
 
 
+def test_cost_measures_where_the_motion_is_strong(tmp_path, capsys):
+    """A block stands through a quiet minute, then a sine lifts it."""
+    times = np.arange(0.0, 64.0, 0.01)
+    ground = np.where(times < 60.0, 0.01, 6.0) * np.sin(2 * np.pi * 2.0 * times)
+    rows = [f"{t:.2f},{a:.5f}" for t, a in zip(times, ground)]
+    (tmp_path / "ground.csv").write_text("\n".join(["time [s],ax [m/s2]", *rows]))
+    file = tmp_path / "case.toml"
+    file.write_text(
+        """
+        column = { shape = "block", length_m = 0.4, width_m = 0.4, height_m = 1.2 }
+        material = { youngs_modulus_pa = 50e9, density_kg_m3 = 2700 }
+        mesh = { fine_size_m = 0.1, coarse_size_m = 0.2, base_size_m = 0.2 }
+        motion.source = "ground.csv"
+        integration = { engine = "rigid", dt_s = 1e-3 }
+        """
+    )
+    assert main(["cost", str(file), "--seconds", "0.1"]) == 0
+    quiet, head, row = capsys.readouterr().out.splitlines()[:3]
+    assert quiet.startswith("a step of the quiet first 60.") and " ms; then, where" in quiet
+    assert head.endswith(" s of it") and row.startswith("as it is")
+    assert float(row.split()[-2]) > 10.0  # mm: it rocks
+
+
 @pytest.mark.parametrize(
     "text, options, told",
     [
