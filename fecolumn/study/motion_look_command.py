@@ -8,6 +8,7 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+from fecolumn.motions.formats import FORMATS
 from fecolumn.study.motion_files import (
     add_unit_and_step,
     all_of,
@@ -18,19 +19,13 @@ from fecolumn.study.motion_files import (
     told_by_flags,
 )
 
-# As `load.FORMATS`, which it would take long to import
-_FORMATS = (
-    "PEER AT2, ESM ASC, columns of text (CSV, tabs, spaces; decimal comma or point); with the "
-    "extra records K-NET, KiK-net, SAC, miniSEED, GSE2"
-)
-
 
 def add_look_actions(actions: Any) -> None:
     """Actions of `fecolumn motions` that look at motions and convert them."""
     info = actions.add_parser(
         "info",
         help="what a file or an ensemble is: format, unit, peaks, and what is odd; medians, spread",
-        epilog=f"Files that are read: {_FORMATS}.",
+        epilog=f"Files that are read: {FORMATS}.",
     )
     info.add_argument(
         "ensemble", metavar="FILE", help="ENSEMBLE.h5, or a motion as in motion.source of a case"
@@ -120,10 +115,10 @@ def add_look_actions(actions: Any) -> None:
 
 
 def _info(args: argparse.Namespace) -> int:
-    from fecolumn.motions.ensemble_file import summary
+    from fecolumn.motions.ensemble_file import is_foreign_hdf5, summary
     from fecolumn.motions.ensemble_report import report
 
-    if Path(args.ensemble).suffix not in (".h5", ".hdf5"):
+    if Path(args.ensemble).suffix not in (".h5", ".hdf5") or is_foreign_hdf5(args.ensemble):
         return _info_of_motion(args)
     ensemble = stored_ensemble(args.ensemble)
     print(report(ensemble, summary(ensemble)))
