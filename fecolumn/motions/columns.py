@@ -31,7 +31,7 @@ from fecolumn.motions.text import (
     read_text,
     uniform_step,
 )
-from fecolumn.statistics.csv_table import cells_of, delimiter_of
+from fecolumn.statistics.csv_table import MARKS, cells_of, delimiter_of
 
 
 def read_columns(path: Path | str, dt_s: float) -> Recording:
@@ -102,10 +102,12 @@ def _split(text: str) -> tuple[list[str], list[str], list[tuple[int, str]]]:
     for row, line in enumerate(text.splitlines(), 1):
         if line.lstrip().startswith("#"):
             comments.append(line.strip().lstrip("# "))
-        elif line.strip() and not rows and not _begins_with_number(line.strip()):
-            words.append(line.strip(" ").rstrip(";,\t "))
-        elif line.strip():
-            rows.append((row, line.strip().rstrip(";, \t")))
+        elif not line.strip(MARKS):
+            continue  # blank, or the empty cells that a spreadsheet writes below a table
+        elif rows or _begins_with_number(line.strip()):
+            rows.append((row, line.strip().rstrip(MARKS)))
+        else:
+            words.append(line.strip(" ").rstrip(MARKS))
     return words, [comment for comment in comments if comment], rows
 
 
@@ -169,6 +171,8 @@ def _known(columns: list[NamedColumn], table: NDArray[Any]) -> list[NamedColumn]
     """
     columns = [_numbering(place, one, table) for place, one in enumerate(columns)]
     left = [place for place, one in enumerate(columns) if one.meaning != NUMBER]
+    if not left:
+        raise UnusableRecord(f"holds no acceleration; needs {EXAMPLE}")
     first, last = left[0], left[-1]
     timeless = columns[first].meaning is None and all(one.meaning != "time" for one in columns)
     no_choice = len(left) == 2 and columns[last].meaning in (None, "")

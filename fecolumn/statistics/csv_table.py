@@ -12,6 +12,8 @@ from pathlib import Path
 from fecolumn.foundation.files import Unreadable, read_bytes
 from fecolumn.foundation.schema import InputError
 
+#: What may stand behind the last cell of a line; a line of nothing else is blank.
+MARKS = ";,\t \r\f\v"
 _QUOTED = re.compile(r'"[^"]*"')
 # Numbers as they stand between blanks, with a decimal comma, and with a decimal point
 _NUMBER = re.compile(r"[-+]?\d+(,\d+)?([eEdD][-+]?\d+)?")
@@ -105,7 +107,7 @@ def read_csv(path: Path, needed: str) -> tuple[list[str], list[tuple[int, list[s
     lines = [
         (number, line)
         for number, line in enumerate(re.split(r"\r\n|\n|\r", text), 1)
-        if line.strip() and not line.startswith("#")
+        if line.strip(MARKS) and not line.startswith("#")
     ]
     if len(lines) < 2:
         raise InputError(path, "", None, f"holds no line below its header; needed are {needed}")

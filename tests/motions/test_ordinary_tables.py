@@ -47,6 +47,7 @@ def read(folder, text):
         table("Station 1\nTime,X\n(s),(g)", TIMES, X),
         table("Time;X\ns;g", TIMES, X, between=";", comma=True),
         table("Time X\n[s] [g]", TIMES, X, between="  "),
+        table("time_s;ax_g;;", TIMES, X, between=";").replace("\n", ";;\n") + ";;;\n;;;\n",
     ],
     ids=[
         "quoted commas",
@@ -60,6 +61,7 @@ def read(folder, text):
         "units below",
         "bare units below",
         "units below by blanks",
+        "empty cells",
     ],
 )
 def test_one_component_in_many_dialects(tmp_path, text):
@@ -126,6 +128,7 @@ def test_units_of_recorders_become_ours(tmp_path, unit, read_as, factor):
         ("time_s,HHE", "second letter H of a channel stands for a velocity, N for an acceleratio"),
         ("time_min,signal", "time in 'min' is not known"),
         ("index,acc", "'index' is not known"),
+        (",sample", "'sample' is not known"),
     ],
 )
 def test_what_is_no_acceleration_is_refused_with_its_unit(tmp_path, header, said):
@@ -136,6 +139,11 @@ def test_what_is_no_acceleration_is_refused_with_its_unit(tmp_path, header, said
 def test_index_without_a_time_leaves_the_step_to_the_case(tmp_path):
     found = read(tmp_path, table(",ax_g", (0, 1, 2), X))
     assert found.dt is None and found.values.T.tolist() == [list(X)]
+
+
+def test_columns_that_only_count_are_no_record(tmp_path):
+    with pytest.raises(UnusableRecord, match="holds no acceleration"):
+        read(tmp_path, table(",sample", (0, 1, 2), (0, 1, 2)))
 
 
 def test_decimal_commas_and_points_in_one_column_are_refused(tmp_path):

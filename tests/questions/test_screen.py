@@ -67,7 +67,8 @@ def test_units_of_the_header_are_turned_into_si(tmp_path):
 @pytest.mark.parametrize(
     "text",
     [
-        "name;width_cm;depth_cm;height_cm;mass_kg;friction\nKrug, blau;12,5;11;42;2,1;0,25\n",
+        "name;width_cm;depth_cm;height_cm;mass_kg;friction\nKrug, blau;12,5;11;42;2,1;0,25\n"
+        ";;;;;\n",
         "name\twidth_cm\tdepth_cm\theight_cm\tmass_kg\tfriction\n"
         "Krug, blau\t12,5\t11\t42\t2,1\t0,25\n",
         '"name","width_cm","depth_cm","height_cm","mass_kg","friction"\n'
