@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from fecolumn.motions.record import UnusableRecord
 from fecolumn.motions.text import ACCELERATIONS, acceleration_unit
-from fecolumn.statistics.csv_table import cells_of, delimiter_of
+from fecolumn.statistics.csv_table import cells_of_lines, delimiter_of
 
 # Axes by the compass, as `directions` has them: x is east, y north, z up
 _COMPASS = {
@@ -111,7 +111,7 @@ def header_cells(line: str) -> list[tuple[str, str]]:
 def _cells(line: str) -> list[str]:
     """Cells of a line of words, whatever its quotes."""
     try:
-        ((_, cells),) = cells_of([(0, line)], delimiter_of(line))
+        ((_, cells),) = cells_of_lines([(0, line)], delimiter_of(line))
     except ValueError:
         return [cell.strip() for cell in re.split(r"[,;\t]", line)]
     return cells

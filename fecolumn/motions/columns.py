@@ -31,7 +31,7 @@ from fecolumn.motions.text import (
     read_text,
     uniform_step,
 )
-from fecolumn.statistics.csv_table import MARKS, cells_of, delimiter_of
+from fecolumn.statistics.csv_table import CELL_MARKS, cells_of_lines, delimiter_of
 
 
 def read_columns(path: Path | str, dt_s: float) -> Recording:
@@ -63,7 +63,7 @@ def read_columns(path: Path | str, dt_s: float) -> Recording:
             f"holds {len(lines)} sample{'s' * (len(lines) != 1)}; at least 2 are needed"
         )
     try:
-        rows = cells_of(lines, delimiter_of(lines[0][1]))
+        rows = cells_of_lines(lines, delimiter_of(lines[0][1]))
     except ValueError as error:
         raise UnusableRecord(str(error)) from None
     table = _table(rows)
@@ -102,18 +102,18 @@ def _split(text: str) -> tuple[list[str], list[str], list[tuple[int, str]]]:
     for row, line in enumerate(text.splitlines(), 1):
         if line.lstrip().startswith("#"):
             comments.append(line.strip().lstrip("# "))
-        elif not line.strip(MARKS):
+        elif not line.strip(CELL_MARKS):
             continue  # blank, or the empty cells that a spreadsheet writes below a table
         elif rows or _begins_with_number(line.strip()):
-            rows.append((row, line.strip().rstrip(MARKS)))
+            rows.append((row, line.strip().rstrip(CELL_MARKS)))
         else:
-            words.append(line.strip(" ").rstrip(MARKS))
+            words.append(line.strip(" ").rstrip(CELL_MARKS))
     return words, [comment for comment in comments if comment], rows
 
 
 def _begins_with_number(line: str) -> bool:
     try:
-        ((_, cells),) = cells_of([(0, line)], delimiter_of(line))
+        ((_, cells),) = cells_of_lines([(0, line)], delimiter_of(line))
         parse_number(cells[0])
     except ValueError:
         return False

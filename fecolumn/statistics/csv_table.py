@@ -13,7 +13,7 @@ from fecolumn.foundation.files import Unreadable, read_bytes
 from fecolumn.foundation.schema import InputError
 
 #: What may stand behind the last cell of a line; a line of nothing else is blank.
-MARKS = ";,\t \r\f\v"
+CELL_MARKS = ";,\t \r\f\v"
 _QUOTED = re.compile(r'"[^"]*"')
 # Numbers as they stand between blanks, with a decimal comma, and with a decimal point
 _NUMBER = re.compile(r"[-+]?\d+(,\d+)?([eEdD][-+]?\d+)?")
@@ -32,7 +32,7 @@ def delimiter_of(line: str) -> str:
     return delimiter
 
 
-def cells_of(lines: list[tuple[int, str]], delimiter: str) -> list[tuple[int, list[str]]]:
+def cells_of_lines(lines: list[tuple[int, str]], delimiter: str) -> list[tuple[int, list[str]]]:
     """Each line's number in the file and its cells, without their quotes; numbers with a decimal
     comma have a decimal point.
 
@@ -85,8 +85,8 @@ def _take_points(lines: list[tuple[int, str]], table: list[list[str]], place: in
 
 
 def read_csv(path: Path, needed: str) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """Header, and each line's number in the file and its cells, as of `cells_of`; lines that are
-    blank or begin with # are left out. The header says what parts the cells.
+    """Header, and each line's number in the file and its cells, as of `cells_of_lines`; lines that
+    are blank or begin with # are left out. The header says what parts the cells.
 
     Parameters
     ----------
@@ -107,12 +107,12 @@ def read_csv(path: Path, needed: str) -> tuple[list[str], list[tuple[int, list[s
     lines = [
         (number, line)
         for number, line in enumerate(re.split(r"\r\n|\n|\r", text), 1)
-        if line.strip(MARKS) and not line.startswith("#")
+        if line.strip(CELL_MARKS) and not line.startswith("#")
     ]
     if len(lines) < 2:
         raise InputError(path, "", None, f"holds no line below its header; needed are {needed}")
     try:
-        (_, header), *rows = cells_of(lines, delimiter_of(lines[0][1]))
+        (_, header), *rows = cells_of_lines(lines, delimiter_of(lines[0][1]))
     except ValueError as error:
         raise InputError(path, "", None, f"cannot be read as CSV ({error})") from None
     return header, rows

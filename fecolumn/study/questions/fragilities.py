@@ -129,7 +129,7 @@ def _check_counts(source: str, number: int, cells: dict[str, str]) -> None:
     def refuse(name: str, allowed: str) -> InputError:
         return InputError(source, f"line {number}, {name}", cells[name], allowed)
 
-    counts = {}
+    counts: dict[str, int] = {}
     for name in ("n", "records", "overturned"):
         if name not in cells:
             continue
