@@ -32,8 +32,8 @@ _FREQUENCY, _PERIOD = "annual_frequency", "return_period_years"
 _PROBABILITY = re.compile(r"probability_(\d+(?:\.\d+)?)_years")
 _POE = re.compile(r"poe-(\S+)")
 _OF_OPENQUAKE = {"PGA": ("pga_m_s2", _G), "PGV": ("pgv_m_s", 1e-2)}
-# Bounds: of accelerations 100 g, as of records, and as far beyond what was recorded of the others;
-# more often than 100 a year is no strong motion, but a return period in a column of frequencies, and
+# Bounds: of accelerations 100 g, as of records, and as far beyond what was recorded of the others.
+# More often than 100 a year is no strong motion, but a return period in a column of frequencies;
 # nobody knows what comes less often than once in 1e12 years
 _MOST = {"_m_s2": 100 * _G, "_m_s": 100.0, "_m": 100.0, "_s": 1e4}
 _LEAST_A_YEAR, _MOST_A_YEAR = 1e-12, 100.0
@@ -53,8 +53,8 @@ def read_hazard(path: Path | str, site: int = 1) -> HazardCurve:
     Raises
     ------
     InputError
-        no such file, no such columns, a value that cannot be, such as an acceleration above 100 g or
-        a frequency outside of 1e-12 to 100 a year, lines out of order.
+        no such file, no such columns, a value that cannot be, such as an acceleration above 100 g
+        or a frequency outside of 1e-12 to 100 a year, lines out of order.
     """
     path = Path(path)
     header, rows = read_csv(path, _NEEDED)

@@ -152,7 +152,7 @@ def _info_of_motion(args: argparse.Namespace) -> int:
 def _correct(args: argparse.Namespace) -> int:
     from fecolumn.foundation.folder import written
     from fecolumn.foundation.schema import InputError
-    from fecolumn.motions.correction import corrected, end_of
+    from fecolumn.motions.correction import WrongCorner, corrected, end_of
     from fecolumn.motions.export import write_text_files
     from fecolumn.pictures.figures.correction_figure import correction_figure
 
@@ -169,8 +169,11 @@ def _correct(args: argparse.Namespace) -> int:
     before = read_record(args.source, args, source_y=args.source_y)
     try:
         after = corrected(before, args.high_pass, args.low_pass, args.order, args.degree)
-    except ValueError as error:
-        raise InputError("fecolumn motions correct", "SOURCE", args.source, str(error)) from None
+    except WrongCorner as error:
+        key = f"--{error.key.replace('_', '-')}"
+        raise InputError(
+            "fecolumn motions correct", key, error.value, f"{error.allowed} of {args.source}"
+        ) from None
     with written(args.output, "motions correct") as draft:
         files = [*write_text_files([after], draft, "csv")]
         files += correction_figure(before, after, draft)

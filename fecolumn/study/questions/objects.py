@@ -15,8 +15,8 @@ _MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3}
 #: Columns of the list with the units that may end their names; friction has none.
 _COLUMNS = {"width": _LENGTHS, "depth": _LENGTHS, "height": _LENGTHS, "mass": _MASSES}
 _MOST = {"width": 100.0, "depth": 100.0, "height": 100.0, "mass": 1e9, "friction": 10.0}
-# [kg/m3] of the block that an object is taken for: below, it is lighter than air (1.2 kg/m3), above,
-# denser than any matter (osmium 22,600): a unit is another. An open frame in its box is above it
+# [kg/m3] of the block that an object is taken for: below, it is lighter than air (1.2), and above
+# denser than any matter (osmium, 22,600)
 _DENSITIES = (1.0, 25_000.0)
 _SI = {"width": "m", "depth": "m", "height": "m", "mass": "kg", "friction": "-"}
 _NEEDED = "name, width_m, depth_m, height_m, mass_kg and friction"
