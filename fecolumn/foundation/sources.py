@@ -56,6 +56,7 @@ DECIDING = (
     "foundation/content.py",
     "mesh",
     "motions",
+    "statistics/csv_table.py",
     "structures",
 )
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from fecolumn.foundation.atomic import write_csv
 from fecolumn.foundation.schema import InputError
-from fecolumn.motions.record import GroundMotion, UnusableRecord, sound
+from fecolumn.motions.record import STEPS_S, GroundMotion, UnusableRecord, sound
 
 
 def motion_file(path: Path | str, acceleration: ArrayLike, dt_s: float) -> str:
@@ -27,8 +27,8 @@ def motion_file(path: Path | str, acceleration: ArrayLike, dt_s: float) -> str:
     Raises
     ------
     InputError
-        an array of another shape, with fewer than two samples, or with values that are no ground
-        motion's.
+        an array of another shape, with fewer than two samples, or with values or a step that are
+        no ground motion's.
     """
     path, values = Path(path), np.array(acceleration, float)
     values = values[:, None] if values.ndim == 1 else values
@@ -40,6 +40,9 @@ def motion_file(path: Path | str, acceleration: ArrayLike, dt_s: float) -> str:
             f"has shape {np.shape(acceleration)}; must be (n,), (n, 2) or (n, 3) with n "
             "of at least 2",
         )
+    if not STEPS_S[0] <= dt_s <= STEPS_S[1]:
+        low, high = STEPS_S
+        raise InputError(path, "dt_s", dt_s, f"must lie in [{low:g}, {high:g}] s")
     whole = np.zeros((len(values), 3))
     whole[:, : values.shape[1]] = values
     try:

@@ -17,6 +17,20 @@ _TAPER = 0.05
 _PAD = 1.5
 
 
+class WrongCorner(ValueError):
+    """A corner of a filter that a record does not allow.
+
+    Attributes
+    ----------
+    key, value, allowed
+        "high_pass" or "low_pass", the corner [Hz], and what it must be.
+    """
+
+    def __init__(self, key: str, value: float, allowed: str) -> None:
+        super().__init__(f"{key} = {value:g} Hz: {allowed}")
+        self.key, self.value, self.allowed = key, value, allowed
+
+
 def corrected(
     motion: GroundMotion, high_pass: float, low_pass: float, order: int = 4, degree: int = 1
 ) -> GroundMotion:
@@ -39,19 +53,19 @@ def corrected(
 
     Raises
     ------
-    ValueError
-        corners beyond the Nyquist frequency or in wrong order, or a record too short for them.
+    WrongCorner
+        corners beyond half of the sampling frequency or in wrong order, or a record too short for
+        them.
     """
-    nyquist = 0.5 / motion.dt
+    nyquist, once = 0.5 / motion.dt, 1 / motion.duration
+    half = f"below {nyquist:g} Hz, half of the sampling frequency"
     if low_pass and not low_pass < nyquist:
-        raise ValueError(f"low-pass {low_pass:g} Hz must be below {nyquist:g} Hz, half of 1 / dt")
+        raise WrongCorner("low_pass", low_pass, f"must be {half}")
+    if high_pass and not once <= high_pass < nyquist:
+        least = f"at least {once:.3g} Hz, one period in the record, and {half}"
+        raise WrongCorner("high_pass", high_pass, f"must be 0 or {least}")
     if low_pass and not high_pass < low_pass:
-        raise ValueError(f"high-pass {high_pass:g} Hz must be below the low-pass {low_pass:g} Hz")
-    if high_pass and high_pass * motion.duration < 1:
-        raise ValueError(
-            f"high-pass {high_pass:g} Hz must be at least {1 / motion.duration:.3g} Hz, one period "
-            "in the record"
-        )
+        raise WrongCorner("high_pass", high_pass, f"must be below the low-pass {low_pass:g} Hz")
     acceleration, time = motion.acceleration.copy(), np.linspace(-1, 1, len(motion.acceleration))
     moving = [axis for axis in range(3) if acceleration[:, axis].any()]
     for axis in moving:

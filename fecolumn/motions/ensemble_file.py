@@ -168,6 +168,15 @@ def is_ensemble(path: Path | str) -> bool:
         return False
 
 
+def is_foreign_hdf5(path: Path | str) -> bool:
+    """Whether a file is whole HDF5 of another format."""
+    try:
+        with open_whole(path) as file:
+            return bool(file.attrs.get("format") != FORMAT)
+    except Unreadable:
+        return False
+
+
 @contextlib.contextmanager
 def _open(path: Path | str) -> Iterator[Any]:
     """The ensemble's HDF5 file; whatever is not as it should be is found out while it is open.

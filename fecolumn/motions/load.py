@@ -23,7 +23,9 @@ from fecolumn.motions.csmip import looks_like_csmip, read_csmip
 from fecolumn.motions.ensemble_file import file_and_number, read_member
 from fecolumn.motions.esm import looks_like_esm, read_esm
 from fecolumn.motions.fema_p695 import FEMA_PREFIX, read_fema_p695
+from fecolumn.motions.formats import FORMATS
 from fecolumn.motions.geonet import looks_like_geonet, read_geonet
+from fecolumn.motions.hdf5_record import HDF5_SUFFIXES, read_hdf5_record
 from fecolumn.motions.processing import (
     delay,
     join,
@@ -50,12 +52,6 @@ from fecolumn.motions.text import read_text
 AXES = "xyz"
 _DT_TOLERANCE = 1e-4
 _LENGTH_TOLERANCE = 0.01
-#: What files of motions may be.
-FORMATS = (
-    "PEER AT2, ESM ASC, COSMOS, CSMIP V1 and V2, SMC, GeoNet V1A and V2A, AFAD, columns of text "
-    "(CSV, tabs, spaces; decimal comma or point); with the extra records K-NET, KiK-net, SAC, "
-    "miniSEED, GSE2"
-)
 # Of networks, by their first lines
 _NETWORKS = (
     (looks_like_esm, read_esm),
@@ -258,6 +254,8 @@ def recording_of(motion: Motion, key: str, file: Path | str) -> Recording:
             recording = Recording(
                 member.acceleration, tuple(AXES), member.dt, "m/s2", member.name, member.source
             )
+        elif Path(source).suffix.lower() in HDF5_SUFFIXES:
+            recording = read_hdf5_record(source, motion.dt_s)
         elif kind := seismic_format(source):
             recording = read_seismic(source, kind)
         elif read := _network_reader(text := read_text(source)):

@@ -13,11 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.schema import InputError, meant
+from fecolumn.motions.record import UnusableRecord
+from fecolumn.motions.text import check_end, read_text
 from fecolumn.statistics.csv_table import check_columns, check_row, read_csv
 
 _NEEDED = "period_s, sa_g or sa_m_s2, and sigma_ln where the dispersion shall fit, too"
 _UNITS = {"sa_g": GRAVITY, "sa_m_s2": 1.0}
+_KNOWN = ("period_s", *_UNITS, "sigma_ln")
 # Passes of swaps at most, each of which tries every motion in every place
 _PASSES = 20
 
@@ -57,14 +60,23 @@ def read_target_spectrum(path: Path | str) -> TargetSpectrum:
     Raises
     ------
     InputError
-        no such file or columns, a value that cannot be, periods that do not rise.
+        no such file or columns, others than these, a value that cannot be, periods that do not
+        rise, a file cut off inside its last number.
     """
     path = Path(path)
     header, rows = read_csv(path, _NEEDED)
     check_columns(path, header, ("period_s",))
     own = [name for name in header if name in _UNITS]
-    if len(own) != 1:
+    if len(own) != 1 or header.count("sigma_ln") > 1:
         raise InputError(path, "header", ", ".join(header), f"must have columns {_NEEDED}")
+    for name in header:
+        if name not in _KNOWN:
+            told = f"is not known; must be one of {', '.join(_KNOWN)}{meant(name, _KNOWN)}"
+            raise InputError(path, "header", name, told)
+    try:
+        check_end(read_text(path), [row[-1] for _, row in rows[-12:]])
+    except UnusableRecord as error:
+        raise InputError(path, f"line {rows[-1][0]}", None, str(error)) from None
     names = ["period_s", own[0], *(["sigma_ln"] if "sigma_ln" in header else [])]
     values = []
     for number, row in rows:

@@ -24,6 +24,17 @@ _LATEST_S, _RESOLVED = 1e13, 1e-4
 # Samples before a last one that may be told from a spike, and how much farther it jumps than any
 _KNOWN, _SPIKE = 20, 5.0
 _UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}
+# Units that columns may have besides, each as one of ours and a factor
+_FURTHER = {
+    "%g": ("g", 0.01),
+    "mg": ("g", 1e-3),
+    "ft/s2": ("m/s2", 0.3048),
+    "ft/s/s": ("m/s2", 0.3048),
+    "in/s2": ("m/s2", 0.0254),
+    "in/s/s": ("m/s2", 0.0254),
+}
+#: Units of accelerations in columns, for messages.
+ACCELERATIONS = "g, %g, mg, m/s2, cm/s2, mm/s2, ft/s2 or in/s2"
 
 
 def read_text(path: Path | str) -> str:
@@ -125,13 +136,24 @@ def _shape(word: str) -> tuple[int, int, int]:
 
 def unit_named(text: str) -> str:
     """Unit of acceleration by any of its spellings, such as CM/SEC**2; "" for none of ours."""
-    word = (
-        text.strip().lower().replace("²", "2").replace("**", "").replace("^", "").replace(" ", "")
-    )
-    return _UNITS.get(word.replace("sec", "s"), "")
+    return _UNITS.get(_plain_unit(text), "")
 
 
-def uniform_step(time: NDArray[Any], lines: list[int], dt_s: float) -> float:
+def acceleration_unit(text: str) -> tuple[str, float]:
+    """Unit of ours for a unit of acceleration, and the factor to it, 0.3048 m/s2 of ft/s2; "" and 1
+    for a unit of anything else.
+    """
+    word = _plain_unit(text)
+    return _FURTHER.get(word, (_UNITS.get(word, ""), 1.0))
+
+
+def _plain_unit(text: str) -> str:
+    """A unit in small letters, without blanks and marks of exponents."""
+    word = text.strip().lower().replace("²", "2").replace("**", "").replace("^", "")
+    return word.replace(" ", "").replace("sec", "s")
+
+
+def uniform_step(time: NDArray[Any], lines: list[int], dt_s: float, line: str = "line") -> float:
     """Sampling step of a column of times [s].
 
     No sample may lie further than a twentieth of a step from an even grid. Times rounded more
@@ -146,6 +168,8 @@ def uniform_step(time: NDArray[Any], lines: list[int], dt_s: float) -> float:
         line of the file each time stands in.
     dt_s
         step stated by the case [s], 0 if none.
+    line
+        what `lines` number, for messages.
 
     Raises
     ------
@@ -155,7 +179,7 @@ def uniform_step(time: NDArray[Any], lines: list[int], dt_s: float) -> float:
     latest = float(np.abs(time).max())
     if latest > _LATEST_S:
         raise UnusableRecord(
-            f"line {lines[int(np.argmax(np.abs(time)))]}: t = {latest:g} s; times must "
+            f"{line} {lines[int(np.argmax(np.abs(time)))]}: t = {latest:g} s; times must "
             f"be at most {_LATEST_S:g} s"
         )
     steps = np.diff(time)
@@ -170,7 +194,7 @@ def uniform_step(time: NDArray[Any], lines: list[int], dt_s: float) -> float:
     if steps[worst] < 0 or (steps[worst] == 0 and not rounded):
         what = "falls" if steps[worst] < 0 else "repeats"
         raise UnusableRecord(
-            f"line {lines[worst + 1]}: time {what}, t = {time[worst + 1]:g} s after "
+            f"{line} {lines[worst + 1]}: time {what}, t = {time[worst + 1]:g} s after "
             f"{time[worst]:g} s; "
             "it must rise evenly"
         )
@@ -179,7 +203,7 @@ def uniform_step(time: NDArray[Any], lines: list[int], dt_s: float) -> float:
         usual = float(np.median(steps))
         worst = int(np.argmax(np.abs(steps - usual)))
         raise UnusableRecord(
-            f"line {lines[worst + 1]}: step of {steps[worst]:g} s before t = "
+            f"{line} {lines[worst + 1]}: step of {steps[worst]:g} s before t = "
             f"{time[worst + 1]:g} s where {usual:g} s "
             "is usual; samples must be even, without gaps (where times are only "
             "rounded, state motion.dt_s)"

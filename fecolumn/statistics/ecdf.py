@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.bands import greenwood
 
 
@@ -56,7 +57,7 @@ def ecdf(u_max: ArrayLike, overturned: ArrayLike, confidence: float = 0.95) -> E
 
     Raises
     ------
-    ValueError
+    InputError
         empty sample, lengths that differ, or a run that stood without a finite u_max.
     """
     standing, n = _standing(u_max, overturned)
@@ -109,7 +110,7 @@ def censored(u_max: ArrayLike, overturned: ArrayLike) -> NDArray[Any]:
 
     Raises
     ------
-    ValueError
+    InputError
         as of `ecdf`.
     """
     _standing(u_max, overturned)
@@ -130,14 +131,14 @@ def _standing(u_max: ArrayLike, overturned: ArrayLike) -> tuple[NDArray[Any], in
     """Peaks of the runs that stood, and the size of the whole sample."""
     u_max, overturned = np.asarray(u_max, float), np.asarray(overturned, bool)
     if u_max.ndim != 1 or u_max.shape != overturned.shape or u_max.size == 0:
-        raise ValueError(
-            f"u_max {u_max.shape} and overturned {overturned.shape}: must be two lists "
-            "of one length, not empty"
-        )
+        told = f"{overturned.shape}: u_max {u_max.shape} and it must be two lists of one length"
+        raise InputError("ecdf", "overturned", None, f"has shape {told}, not empty")
     standing = u_max[~overturned]
     if not np.isfinite(standing).all():
-        raise ValueError(
-            "u_max of a run that stood is not finite; a failed run is neither standing "
-            "nor overturned"
+        raise InputError(
+            "ecdf",
+            "u_max",
+            None,
+            "of a run that stood is not finite; a failed run is neither standing nor overturned",
         )
     return standing, u_max.size

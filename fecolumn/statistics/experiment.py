@@ -82,7 +82,7 @@ def _columns(path: Path, header: list[str]) -> tuple[tuple[int, int, int], float
             "header",
             ", ".join(header),
             f"must have one of the columns {', '.join(_TO_METRES)}: the unit is part of the name"
-            + ("; columns are separated by commas" if len(header) == 1 else ""),
+            + ("; columns are parted by commas, semicolons or tabs" if len(header) == 1 else ""),
         )
     check_columns(path, header, ("motion", "overturned"))
     return (

@@ -32,6 +32,11 @@ _FREQUENCY, _PERIOD = "annual_frequency", "return_period_years"
 _PROBABILITY = re.compile(r"probability_(\d+(?:\.\d+)?)_years")
 _POE = re.compile(r"poe-(\S+)")
 _OF_OPENQUAKE = {"PGA": ("pga_m_s2", _G), "PGV": ("pgv_m_s", 1e-2)}
+# Bounds: of accelerations 100 g, as of records, and as far beyond what was recorded of the others.
+# More often than 100 a year is no strong motion, but a return period in a column of frequencies;
+# nobody knows what comes less often than once in 1e12 years
+_MOST = {"_m_s2": 100 * _G, "_m_s": 100.0, "_m": 100.0, "_s": 1e4}
+_LEAST_A_YEAR, _MOST_A_YEAR = 1e-12, 100.0
 _NEEDED = (
     "a column of the intensity, its unit at the end of its name, such as pga_g, pga_m_s2 or "
     "pgv_m_s, and one of annual_frequency, return_period_years or probability_50_years"
@@ -48,7 +53,8 @@ def read_hazard(path: Path | str, site: int = 1) -> HazardCurve:
     Raises
     ------
     InputError
-        no such file, no such columns, a value that cannot be, lines out of order.
+        no such file, no such columns, a value that cannot be, such as an acceleration above 100 g
+        or a frequency outside of 1e-12 to 100 a year, lines out of order.
     """
     path = Path(path)
     header, rows = read_csv(path, _NEEDED)
@@ -82,6 +88,9 @@ def _own(path: Path, header: list[str], rows: list[tuple[int, list[str]]]) -> Ha
     found = []
     for number, row in rows:
         im = _number(path, number, measure, row[1 - kinds[0]])
+        if im * _UNITS[unit][1] > (most := _MOST[_UNITS[unit][0]]):
+            told = f"must be at most {most / _UNITS[unit][1]:.4g}: is its unit another?"
+            raise InputError(path, f"line {number}, {measure}", row[1 - kinds[0]], told)
         found.append((number, im, _frequency(path, number, kind, row[kinds[0]])))
     for (_, im, frequency), (number, later, other) in zip(found, found[1:]):
         if later <= im:
@@ -144,9 +153,10 @@ def _of_openquake(
         poe = _number(path, number, column, text, zero=True)
         if poe > 1:
             raise InputError(path, f"line {number}, {column}", text, "must be at most 1")
-        if 0 < poe < 1:  # exceeded for sure or never: nothing is known but a bound
+        # exceeded for sure or never: nothing is known but a bound
+        if 0 < poe < 1 and (often := -math.log1p(-poe) / years) >= _LEAST_A_YEAR:
             ims.append(factor * _number(path, number, column, found[1]))
-            frequencies.append(-math.log1p(-poe) / years)
+            frequencies.append(often)
     im, frequency = np.array(ims), np.array(frequencies)
     if im.size and ((np.diff(im) <= 0).any() or (np.diff(frequency) > 0).any()):
         raise InputError(
@@ -180,16 +190,21 @@ def _number(path: Path, number: int, name: str, text: str, zero: bool = False) -
 def _frequency(path: Path, number: int, kind: str, text: str) -> float:
     """Mean annual frequency [1/year] of a cell of a column of this kind."""
     value = _number(path, number, kind, text)
-    if kind == _FREQUENCY:
-        return value
+    low, high = _LEAST_A_YEAR, _MOST_A_YEAR
     if kind == _PERIOD:
-        return 1 / value
-    if value >= 1:
-        raise InputError(
-            path, f"line {number}, {kind}", text, "must lie between 0 and 1: a share, not percent"
-        )
-    found = _PROBABILITY.fullmatch(kind)
-    years = float(found[1]) if found else math.nan
-    if not years > 0:
-        raise InputError(path, "header", kind, "must state a time of more than 0 years")
-    return -math.log1p(-value) / years
+        value, told = 1 / value, f"must lie in [{1 / high:g}, {1 / low:g}] years"
+    elif kind == _FREQUENCY:
+        told = f"must lie in [{low:g}, {high:g}] a year; a return period is return_period_years"
+    else:
+        if value >= 1:
+            told = "must lie between 0 and 1: a share, not percent"
+            raise InputError(path, f"line {number}, {kind}", text, told)
+        found = _PROBABILITY.fullmatch(kind)
+        years = float(found[1]) if found else math.nan
+        if not years > 0:
+            raise InputError(path, "header", kind, "must state a time of more than 0 years")
+        value = -math.log1p(-value) / years
+        told = f"is {value:.3g} a year, which must lie in [{low:g}, {high:g}]"
+    if not low <= value <= high:
+        raise InputError(path, f"line {number}, {kind}", text, told)
+    return value

@@ -8,6 +8,7 @@ import warnings
 from pathlib import Path
 from typing import Any
 
+from fecolumn.motions.formats import FORMATS
 from fecolumn.study.motion_files import (
     add_unit_and_step,
     all_of,
@@ -18,19 +19,13 @@ from fecolumn.study.motion_files import (
     told_by_flags,
 )
 
-# As `load.FORMATS`, which it would take long to import
-_FORMATS = (
-    "PEER AT2, ESM ASC, columns of text (CSV, tabs, spaces; decimal comma or point); with the "
-    "extra records K-NET, KiK-net, SAC, miniSEED, GSE2"
-)
-
 
 def add_look_actions(actions: Any) -> None:
     """Actions of `fecolumn motions` that look at motions and convert them."""
     info = actions.add_parser(
         "info",
         help="what a file or an ensemble is: format, unit, peaks, and what is odd; medians, spread",
-        epilog=f"Files that are read: {_FORMATS}.",
+        epilog=f"Files that are read: {FORMATS}.",
     )
     info.add_argument(
         "ensemble", metavar="FILE", help="ENSEMBLE.h5, or a motion as in motion.source of a case"
@@ -120,10 +115,10 @@ def add_look_actions(actions: Any) -> None:
 
 
 def _info(args: argparse.Namespace) -> int:
-    from fecolumn.motions.ensemble_file import summary
+    from fecolumn.motions.ensemble_file import is_foreign_hdf5, summary
     from fecolumn.motions.ensemble_report import report
 
-    if Path(args.ensemble).suffix not in (".h5", ".hdf5"):
+    if Path(args.ensemble).suffix not in (".h5", ".hdf5") or is_foreign_hdf5(args.ensemble):
         return _info_of_motion(args)
     ensemble = stored_ensemble(args.ensemble)
     print(report(ensemble, summary(ensemble)))
@@ -157,7 +152,7 @@ def _info_of_motion(args: argparse.Namespace) -> int:
 def _correct(args: argparse.Namespace) -> int:
     from fecolumn.foundation.folder import written
     from fecolumn.foundation.schema import InputError
-    from fecolumn.motions.correction import corrected, end_of
+    from fecolumn.motions.correction import WrongCorner, corrected, end_of
     from fecolumn.motions.export import write_text_files
     from fecolumn.pictures.figures.correction_figure import correction_figure
 
@@ -174,8 +169,11 @@ def _correct(args: argparse.Namespace) -> int:
     before = read_record(args.source, args, source_y=args.source_y)
     try:
         after = corrected(before, args.high_pass, args.low_pass, args.order, args.degree)
-    except ValueError as error:
-        raise InputError("fecolumn motions correct", "SOURCE", args.source, str(error)) from None
+    except WrongCorner as error:
+        key = f"--{error.key.replace('_', '-')}"
+        raise InputError(
+            "fecolumn motions correct", key, error.value, f"{error.allowed} of {args.source}"
+        ) from None
     with written(args.output, "motions correct") as draft:
         files = [*write_text_files([after], draft, "csv")]
         files += correction_figure(before, after, draft)

@@ -12,6 +12,7 @@ from fecolumn.case.sections import Motion
 from fecolumn.cli import main
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions.correction import corrected, end_of
+from fecolumn.motions.formats import FORMATS
 from fecolumn.motions.load import read_motion, unsampled
 from fecolumn.motions.record import GroundMotion
 
@@ -124,6 +125,24 @@ def test_correct_writes_a_motion_and_a_picture(tmp_path, capsys):
     assert {file.suffix for file in (tmp_path / "out").iterdir()} >= {".csv", ".png", ".pdf"}
     assert main([*command[:-1], "1e9"]) == 2
     assert "--high-pass" in capsys.readouterr().err
+    for corner in ("60", "50", "0.1"):
+        assert main([*command[:-1], corner]) == 2
+        told = capsys.readouterr().err
+        assert f"--high-pass = {float(corner)}: must be 0 or at least 0.251 Hz" in told
+        assert "below 50 Hz, half of the sampling frequency" in told and told.count("\n") == 1
+    assert main([*command, "--low-pass", "50"]) == 2
+    assert "--low-pass = 50.0: must be below 50 Hz" in capsys.readouterr().err
+
+
+def test_help_names_every_format_that_a_refusal_names(tmp_path, capsys):
+    with pytest.raises(SystemExit):
+        main(["motions", "info", "--help"])
+    told = " ".join(capsys.readouterr().out.split())
+    assert FORMATS in told
+    for name in ("COSMOS", "CSMIP", "SMC", "GeoNet", "AFAD", "AT2", "ESM", "HDF5", "K-NET"):
+        assert name in FORMATS
+    assert main(["motions", "info", written(tmp_path, "good morning\n")]) == 2
+    assert FORMATS in capsys.readouterr().err
 
 
 KNET = """Origin Time       2024/01/01 16:10:00

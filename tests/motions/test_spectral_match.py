@@ -20,6 +20,7 @@ from fecolumn.motions.spectral_match import (
 )
 
 PERIODS = np.geomspace(0.1, 2.0, 20)
+TARGET = "period_s,sa_g,sigma_ln\n0.05,0.6,0.3\n0.1,1,0.3\n0.2,1,0.3\n0.5,0.3,0.4\n1,0.1,0.5\n"
 
 
 def test_a_spectrum_of_the_targets_shape_is_scaled_to_it_exactly():
@@ -101,6 +102,11 @@ def test_a_target_is_interpolated_in_logarithms(tmp_path):
         ("period_s,sa_g\n0.1,1\n", "two periods"),
         ("period_s,sa_g\n", "holds no line"),
         ("period_s,sa_g\n0.1,1,3\n1,1\n", "line 2"),
+        (TARGET[:-3], "line 6: ends inside a number, '0' after '0.4', .* is cut off"),
+        (TARGET[:-2], r"line 6: ends inside a number, '0\.' after '0.4'"),
+        (TARGET.replace("sigma", "sjgma"), "'sjgma_ln': is not known; must be one of period_s, sa"),
+        (TARGET.replace("sigma", "sjgma"), "did you mean sigma_ln"),
+        (TARGET.replace("sigma_ln", "sa_m_s2"), "must have columns period_s, sa_g or sa_m_s2"),
     ],
 )
 def test_a_wrong_target_is_refused_in_a_line(tmp_path, text, said):
@@ -108,6 +114,27 @@ def test_a_wrong_target_is_refused_in_a_line(tmp_path, text, said):
     with pytest.raises(InputError, match=said) as caught:
         read_target_spectrum(tmp_path / "t.csv")
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        TARGET.replace(",", ";").replace(".", ","),
+        TARGET.replace(",", "\t").replace(".", ","),
+        "\n".join(
+            ",".join(f'"{cell}"' for cell in line.replace(",", ";").replace(".", ",").split(";"))
+            for line in TARGET.split()
+        ),
+        TARGET[:-1],
+    ],
+    ids=["semicolons", "tabs", "quotes", "no end of line"],
+)
+def test_a_target_is_read_as_tables_are_written(tmp_path, text):
+    (tmp_path / "t.csv").write_text(text)
+    target = read_target_spectrum(tmp_path / "t.csv")
+    assert target.sa == pytest.approx(GRAVITY * np.array([0.6, 1, 1, 0.3, 0.1]))
+    assert target.sigma is not None and target.sigma.tolist() == [0.3, 0.3, 0.3, 0.4, 0.5]
+    assert target.periods.tolist() == [0.05, 0.1, 0.2, 0.5, 1.0]
 
 
 @pytest.fixture(scope="module")

@@ -22,11 +22,26 @@ from fecolumn.statistics.crossing import (
     runs_needed,
 )
 from fecolumn.statistics.ecdf import proportion_interval
+from fecolumn.study.questions.design import grid_of
 from fecolumn.study.questions.limit import read_event, read_limit
 
 G = 9.80665
 AMPLITUDES = np.linspace(1.0, 5.0, 40)  # m/s2
 HEIGHT_M = 2.0
+RIGID = """[bodies.post]
+kind = "block"
+length_m = 0.3
+width_m = 0.3
+height_m = 1.0
+element_size_m = 0.1
+[joints.foot]
+between = ["post", "ground"]
+[contact]
+interior_points = 0
+[integration]
+engine = "rigid"
+dt_s = 1e-3
+"""
 
 
 @pytest.fixture(scope="module")
@@ -111,6 +126,13 @@ def test_what_was_killed_goes_on_to_the_same_answer(pulses):
     assert design(pulses, "whole", "--steps", "16") == 0
     answers = [(pulses / name / "design.csv").read_bytes() for name in ("killed", "whole")]
     assert answers[0] == answers[1]
+
+
+def test_of_two_values_neither_is_looked_at_twice(pulses, capsys):
+    assert grid_of(2, 3, int, 64) == [2, 3] and grid_of(0.5, 0.500001, float, 8) == [0.5, 0.500001]
+    assert design(pulses, "two", "--steps", "8", vary=("block.width_m", "0.5:0.500001")) == 0
+    told = capsys.readouterr().err
+    assert told.count("beyond tilt") == 2 and told.count("= 0.500001 m: ") == 1
 
 
 def test_folder_of_another_question_is_refused(pulses, capsys):
@@ -214,6 +236,8 @@ def test_what_is_lost_is_beyond_every_limit():
         ("P(top > -5 mm) < 0.1", "must be a number greater than 0 [mm]"),
         ("P(top > 1_0 mm) < 0.1", "must be a number greater than 0 [mm]"),
         ("P(slide > 2 mm) < 0.1", "rocking models have no joints"),
+        ("P(overturn) < 0,1", "'0,1' needs a decimal point: 0.1"),
+        ("P(top > 2,5 mm) < 0.1", "'2,5' needs a decimal point: 2.5"),
     ],
 )
 def test_limit_that_cannot_be_used_is_refused_in_a_line(limit, said):
@@ -238,12 +262,27 @@ def test_limit_that_cannot_be_used_is_refused_in_a_line(limit, said):
         ({"--motions": ("none.AT2",)}, "none.AT2': no such file"),
         ({"--motions": ("lick:1-3",)}, "must be at least 5 motions, is 3"),
         ({"--motions": ("lick:9-900",)}, "--motions = 'lick:9-900': must be two rising numbers"),
+        # the engine is not stated: of a block it is a rocking model
+        ({"--limit": ("P(tension > 5 kN) < 0.1",)}, "rocking models have no joints, links"),
+        (
+            {
+                "case": ("rigid.toml",),
+                "--vary": ("bodies.post.length_m", "0.2:0.4"),
+                "--limit": ("P(tension > 5 kN) < 0.1",),
+            },
+            "is of links: the case has no [links]",
+        ),
+        ({"--vary": ("block.width_m", "0.5:0.5000001")}, "must hold two values told apart by six"),
         ({"--steps": ("1",)}, "--steps = 1: must lie in [2, 1024]"),
         ({"-j": ("0",)}, "-j = 0: must be at least 1"),
         ({"case": ("absent.toml",)}, "absent.toml: no such file"),
     ],
 )
-def test_question_that_cannot_be_asked_is_refused_in_a_line(pulses, capsys, change, said):
+def test_question_that_cannot_be_asked_is_refused_in_a_line(
+    pulses, capsys, monkeypatch, change, said
+):
+    monkeypatch.chdir(pulses)
+    (pulses / "rigid.toml").write_text(RIGID)
     options = {
         "case": (str(pulses / "block.toml"),),
         "--vary": ("block.width_m", "0.3:0.9"),

@@ -120,6 +120,37 @@ def test_what_fragility_wrote_will_do(tmp_path):
         assert float(a[end]) == pytest.approx(float(b[end]), rel=0.25)
 
 
+FRAGILITY = (
+    "setting,n,records,overturned,median_pga_m_s2,low,high,beta,beta_low,beta_high\n"
+    "all,120,40,37,7.8,6.9,8.9,0.41,0.28,0.60\n"
+)
+
+
+@pytest.mark.parametrize(
+    "old, new, said",
+    [
+        (",37,", ",121,", "line 2, overturned = '121': must be at most n = 120"),
+        (",40,", ",140,", "line 2, records = '140': must be at most n = 120"),
+        (
+            ",37,",
+            ",0,",
+            "line 2, overturned = '0': must be at least 1: none that overturned bounds",
+        ),
+        (",37,", ",3.7,", "line 2, overturned = '3.7': must be a whole number of at least 0"),
+        ("all,120", "all,-120", "line 2, n = '-120': must be a whole number"),
+    ],
+)
+def test_fragility_table_of_impossible_counts_is_refused(tmp_path, capsys, old, new, said):
+    hazard, out = hazard_file(tmp_path, POWER), str(tmp_path / "out")
+    file = hazard_file(tmp_path, FRAGILITY, "whole.csv")
+    assert main(["risk", str(file), "--hazard", str(hazard), "-o", out]) == 0
+    file = hazard_file(tmp_path, FRAGILITY.replace(old, new), "fragility.csv")
+    capsys.readouterr()
+    assert main(["risk", str(file), "--hazard", str(hazard), "-o", out]) == 2
+    told = capsys.readouterr().err
+    assert said in told and told.count("\n") == 1
+
+
 def test_interval_holds_the_true_frequency_as_often_as_it_says():
     """Bootstrap of 60 samples of 150 runs; 95 % of them should hold the truth."""
     rng, curve, inside = np.random.default_rng(2), power_law(1e-2, 1e3, 20), 0
@@ -140,6 +171,11 @@ def test_units_and_kinds_of_hazard_are_one_curve(tmp_path):
         f"pga_g,annual_frequency\n0.1,{frequency!r}\n0.5,1e-5\n",
         f"pga_cm_s2,return_period_years\n98.0665,{1 / frequency!r}\n490.3325,100000\n",
         f"probability_50_years,pga_m_s2\n0.1,0.980665\n{-math.expm1(-5e-4)!r},4.903325\n",
+    )
+    texts += (
+        texts[0].replace(",", ";").replace(".", ","),
+        texts[0].replace(",", "\t").replace(".", ","),
+        f'"pga_g","annual_frequency"\n"0,1","{frequency!r}"\n"0,5","1e-5"\n',
     )
     for text in texts:
         curve = read_hazard(hazard_file(tmp_path, text))
@@ -162,6 +198,9 @@ def test_export_of_openquake_is_read(tmp_path):
     assert first.im == pytest.approx(9.80665 * np.array([0.05, 0.5]))
     assert first.frequency == pytest.approx(-np.log1p(-np.array([0.4, 5e-3])) / 50)
     assert second.im.size == 4
+    # what comes less often than anybody knows is never, as 0 is
+    file = hazard_file(tmp_path, OPENQUAKE.replace("1.0E-07", "1.0E-12"))
+    assert read_hazard(file, 2).im.size == 3
 
 
 @pytest.mark.parametrize(
@@ -186,6 +225,21 @@ def test_export_of_openquake_is_read(tmp_path):
         (OPENQUAKE.replace("#,", "x,"), "has 7 columns where the header has 6"),
         (OPENQUAKE.replace("4.0E-01", "1.4"), "poe-0.0500000 = '1.4': must be at most 1"),
         ("sa1_g,annual_frequency\n0.1,1e-2\n0.2,1e-3\n", "must have one column sa1_m_s2"),
+        (
+            "pga_g,annual_frequency\n0.1,1e-2\n981,1e-3\n",
+            "line 3, pga_g = '981': must be at most 1",
+        ),
+        (
+            "pga_gal,annual_frequency\n0.1,1e-2\n99000,1e-3\n",
+            "pga_gal = '99000': must be at most 9",
+        ),
+        (
+            "pga_g,annual_frequency\n0.1,475\n0.2,1e-3\n",
+            "= '475': must lie in [1e-12, 100] a year;",
+        ),
+        ("pga_g,annual_frequency\n0.1,1\n0.2,1e-13\n", "line 3, annual_frequency = '1e-13': must"),
+        ("pga_g,return_period_years\n0.1,1e-3\n0.2,9\n", "must lie in [0.01, 1e+12] years"),
+        ("pga_g,probability_50_years\n0.1,0.1\n0.2,1e-12\n", "is 2e-14 a year, which must lie in"),
     ],
 )
 def test_hazard_that_cannot_be_used_is_refused_in_a_line(tmp_path, capsys, text, said):

@@ -65,6 +65,24 @@ def test_units_of_the_header_are_turned_into_si(tmp_path):
 
 
 @pytest.mark.parametrize(
+    "text",
+    [
+        "name;width_cm;depth_cm;height_cm;mass_kg;friction\nKrug, blau;12,5;11;42;2,1;0,25\n"
+        ";;;;;\n",
+        "name\twidth_cm\tdepth_cm\theight_cm\tmass_kg\tfriction\n"
+        "Krug, blau\t12,5\t11\t42\t2,1\t0,25\n",
+        '"name","width_cm","depth_cm","height_cm","mass_kg","friction"\n'
+        '"Krug, blau","12,5","11","42","2,1","0,25"\n',
+    ],
+    ids=["semicolons", "tabs", "quotes"],
+)
+def test_a_list_is_read_as_spreadsheets_write_it(tmp_path, text):
+    (tmp_path / "list.csv").write_text(text)
+    (found,) = read_objects(tmp_path / "list.csv")
+    assert (found.name, *found.values) == ("Krug, blau", 0.125, 0.11, 0.42, 2.1, 0.25)
+
+
+@pytest.mark.parametrize(
     "text, said",
     [
         (None, "list.csv: no such file"),
@@ -78,6 +96,8 @@ def test_units_of_the_header_are_turned_into_si(tmp_path):
         (HEADER + "a,1,1,nan,1,0.3\n", "line 2, height_m = 'nan': must be a number"),
         (HEADER + "a,400,1,1,1,0.3\n", "at most 100 [m]"),
         (HEADER + "a,1,1,1,1,30\n", "friction = '30': must be a number greater than 0 and at mo"),
+        (HEADER + "a,1,1,1,0.9,1\n", "line 2, mass_kg = '0.9': is 0.9 kg/m3 of its width, depth"),
+        (HEADER + "a,1,1,1,3e4,1\n", "must lie in [1, 25000] kg/m3: is a unit another?"),
         (HEADER + "a,1,1,1,1,1\na,1,1,1,2,1\n", "line 3, name = 'a': stands twice"),
         (HEADER + ",1,1,1,1,1\n", "line 2, name = '': must not be empty"),
     ],

@@ -1,5 +1,6 @@
 """Results as Python objects: what a script or a notebook sees of an analysis and of a study."""
 
+import math
 import shutil
 import sys
 from pathlib import Path
@@ -216,6 +217,12 @@ def test_array_is_a_motion(drum, tmp_path):
 def test_array_that_is_no_motion_is_refused(acceleration, tmp_path):
     with pytest.raises(InputError, match="acceleration"):
         fecolumn.motion_file(tmp_path / "a.csv", acceleration, 0.01)
+
+
+@pytest.mark.parametrize("dt_s", [-1, 0, math.nan, 100])
+def test_step_that_no_motion_has_is_refused(dt_s, tmp_path):
+    with pytest.raises(InputError, match=r"dt_s = .*: must lie in \[1e-06, 10\] s"):
+        fecolumn.motion_file(tmp_path / "a.csv", np.ones(5), dt_s)
 
 
 def test_names_of_the_package_exist():

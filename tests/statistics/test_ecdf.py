@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import beta
 
+from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.bands import normal_quantile
 from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
 from fecolumn.statistics.ensemble import summarize
@@ -57,6 +58,11 @@ def test_all_overturned_leaves_no_curve_and_no_percentile():
         and f.overturned == 2
         and percentile([1.0, 1.0], [True, True], 0.16) == math.inf
     )
+
+
+def test_lists_of_two_lengths_are_refused_as_input():
+    with pytest.raises(InputError, match=r"ecdf: overturned: .*u_max \(2,\).*of one length"):
+        ecdf([0.1, 0.2], [False])
 
 
 def test_nan_of_a_standing_run_is_refused_not_counted_as_overturned():

@@ -24,6 +24,14 @@ def test_maxima_of_a_campaign(tmp_path):
     np.testing.assert_array_equal(found.overturned, [False, True, False])
 
 
+@pytest.mark.parametrize("between", [";", "\t"])
+def test_semicolons_tabs_decimal_commas_and_quotes_are_read(tmp_path, between):
+    rows = [["motion", "u_max_mm", "overturned"], ['"a; b"', "1,5", "0"], ["c", '"0,25"', "0"]]
+    found = read_maxima(written(tmp_path, "\n".join(map(between.join, rows)) + "\n"))
+    assert found.motions == ("a; b", "c")
+    assert found.u_max == pytest.approx([1.5e-3, 2.5e-4])
+
+
 @pytest.mark.parametrize("unit, factor", [("mm", 1e-3), ("cm", 1e-2), ("m", 1)])
 def test_unit_is_that_of_the_header(tmp_path, unit, factor):
     assert read_maxima(
@@ -35,7 +43,7 @@ def test_unit_is_that_of_the_header(tmp_path, unit, factor):
     "text, said",
     [
         ("motion,u_max,overturned\na,1,0\n", "header.*u_max_m, u_max_mm"),
-        ("motion;u_max_mm;overturned\na;1;0\n", "separated by commas"),
+        ("motion:u_max_mm:overturned\na:1:0\n", "parted by commas, semicolons or tabs"),
         ("motion,u_max_mm\na,1\n", "one column overturned"),
         ("motion,u_max_mm,overturned\n", "no line below its header"),
         (

@@ -27,13 +27,11 @@ from fecolumn.study.questions.limit import ShareLimit
 
 
 def grid_of(low: float, high: float, kind: type, steps: int) -> list[float | int]:
-    """Values from low to high, both included, in so many steps; of whole numbers each at most
-    once.
-    """
+    """Values from low to high, both included, in so many steps, each once."""
     values = np.linspace(low, high, steps + 1).tolist()
     if kind is int:
         return sorted({round(value) for value in values if low <= round(value) <= high})
-    return [float(f"{value:.6g}") for value in values]
+    return list(dict.fromkeys(float(f"{value:.6g}") for value in values))
 
 
 @dataclass(frozen=True, slots=True)

@@ -87,7 +87,7 @@ def main(args: argparse.Namespace) -> int:
         motion_sources,
         read_range,
     )
-    from fecolumn.study.questions.limit import read_limit
+    from fecolumn.study.questions.limit import check_event, read_limit
     from fecolumn.study.run import ENTRY, StudyError, check_motions, stop_code
 
     check_jobs(args.jobs, _COMMAND)
@@ -100,8 +100,12 @@ def main(args: argparse.Namespace) -> int:
         raise InputError(
             _COMMAND, f"--vary {key}", text, "must be no key of the motion but its scales"
         )
+    grid = grid_of(low, high, kind, args.steps)
+    if len(grid) < 2:
+        what = "whole numbers" if kind is int else "values told apart by six digits"
+        raise InputError(_COMMAND, f"--vary {key}", text, f"must hold two {what} at least")
     axes: dict[str, list[Any]] = {
-        key: grid_of(low, high, kind, args.steps),
+        key: grid,
         "motion.source": motion_sources(args.motions, _COMMAND),
     }
     plan = asked_plan(
@@ -110,6 +114,7 @@ def main(args: argparse.Namespace) -> int:
         axes,
         {key: f"--vary {key}", "motion.source": "--motions"},
     )
+    check_event(limit.event, plan.analyses[0].case, _COMMAND)
     check_motions(plan)
     question = DesignQuestion(plan, key, limit)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -138,7 +143,8 @@ def _look(question: Any, folder: str, pool: Any) -> int:
     from fecolumn.study.run import StudyError, complete_study
     from fecolumn.study.store import FAILED
 
-    places = [0, len(question.grid) // 2, len(question.grid) - 1]
+    # of two values the middle one is the last
+    places = list(dict.fromkeys([0, len(question.grid) // 2, len(question.grid) - 1]))
     asked, spent = set(), 0.0
     while places:
         ids = question.ids(places)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -97,6 +98,7 @@ def _stated(source: str, measure: str) -> dict[str, KnownFragility]:
     for number, row in rows:
         check_row(Path(source), header, number, row)
         cells = dict(zip(header, row))
+        _check_counts(source, number, cells)
         values = []
         for name in (medians[0], "low", "high", "beta", "beta_low", "beta_high"):
             try:
@@ -118,3 +120,26 @@ def _stated(source: str, measure: str) -> dict[str, KnownFragility]:
             median[0], beta[0], drawn_parameters(median, beta)
         )
     return found
+
+
+def _check_counts(source: str, number: int, cells: dict[str, str]) -> None:
+    """InputError where the counts of a line of a fragility table cannot be those of its runs."""
+    from fecolumn.foundation.schema import InputError
+
+    def refuse(name: str, allowed: str) -> InputError:
+        return InputError(source, f"line {number}, {name}", cells[name], allowed)
+
+    counts: dict[str, int] = {}
+    for name in ("n", "records", "overturned"):
+        if name not in cells:
+            continue
+        text = cells[name].strip()
+        if not re.fullmatch(r"[0-9]{1,9}", text):
+            raise refuse(name, "must be a whole number of at least 0")
+        counts[name] = int(text)
+    n, fallen = counts.get("n"), counts.get("overturned")
+    if fallen == 0:
+        raise refuse("overturned", "must be at least 1: none that overturned bounds no median")
+    for name in ("overturned", "records"):
+        if n is not None and counts.get(name, 0) > n:
+            raise refuse(name, f"must be at most n = {n}")

@@ -8,11 +8,14 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fecolumn.case.sections import GRAVITY, MODEL_ENGINES
 from fecolumn.engines.ending import lost
 from fecolumn.foundation.schema import InputError, meant
+
+if TYPE_CHECKING:
+    from fecolumn.case.case import Case
 
 _LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
 _ANGLES = {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180}
@@ -177,18 +180,47 @@ def read_event(text: str, command: str, engine: str | None = None) -> LimitEvent
     if unit not in kind.units:
         what = f"{unit!r} is no unit of {name}" if unit else f"{name} has no unit here"
         raise refuse(f"{what}; must be one of {words}, such as {name} > 5 {next(iter(kind.units))}")
+    if "," in value:
+        raise refuse(f"{value!r} needs a decimal point: {value.replace(',', '.')}")
     number = _number(value)
     if not 0 < number < math.inf:
         raise refuse(f"{value!r} must be a number greater than 0 [{unit}]")
-    if engine in MODEL_ENGINES and not (kind.whole and not part):
-        raise refuse(
-            f"rocking models have no joints, links and storeys: choose integration.engine = "
-            f"'rigid' or 'reduced' instead of {engine!r}, or a limit of overturn, top or tilt"
-        )
     inner = f"[{part}]" if part else ""
-    return LimitEvent(
+    event = LimitEvent(
         f"{name}{inner} > {number:g} {unit}", name, part or "", number * kind.units[unit]
     )
+    _check_engine(event, engine, command)
+    return event
+
+
+def check_event(event: LimitEvent, case: Case, command: str) -> None:
+    """Refuse an event that no analysis of a case can tell of.
+
+    Raises
+    ------
+    InputError
+        its engine, which the case need not state, is a rocking model without such parts, or it has
+        no links, or none whose name begins so.
+    """
+    _check_engine(event, case.integration.engine, command)
+    kind = _QUANTITIES.get(event.quantity)
+    if kind is None or kind.table != "links":
+        return
+    if not any(name.startswith(event.part) for name in case.links):
+        there = f"there are {', '.join(case.links)}" if case.links else "the case has no [links]"
+        raise InputError(command, "--limit", event.text, f"is of links: {there}")
+
+
+def _check_engine(event: LimitEvent, engine: str | None, command: str) -> None:
+    kind = _QUANTITIES.get(event.quantity)
+    if kind and engine in MODEL_ENGINES and not (kind.whole and not event.part):
+        raise InputError(
+            command,
+            "--limit",
+            event.text,
+            f"rocking models have no joints, links and storeys: choose integration.engine = "
+            f"'rigid' or 'reduced' instead of {engine!r}, or a limit of overturn, top or tilt",
+        )
 
 
 def read_limit(text: str, command: str, engine: str | None = None) -> ShareLimit:
@@ -208,6 +240,10 @@ def read_limit(text: str, command: str, engine: str | None = None) -> ShareLimit
             'must be "P(EVENT) < SHARE", such as "P(overturn) < 0.1"; EVENT: ' + _KNOWN,
         )
     event, less, value, percent = found.groups()
+    if "," in value:
+        raise InputError(
+            command, "--limit", text, f"{value!r} needs a decimal point: {value.replace(',', '.')}"
+        )
     share = _number(value) / (100 if percent else 1)
     if not 0 < share < 1:
         raise InputError(

@@ -15,6 +15,9 @@ _MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3}
 #: Columns of the list with the units that may end their names; friction has none.
 _COLUMNS = {"width": _LENGTHS, "depth": _LENGTHS, "height": _LENGTHS, "mass": _MASSES}
 _MOST = {"width": 100.0, "depth": 100.0, "height": 100.0, "mass": 1e9, "friction": 10.0}
+# [kg/m3] of the block that an object is taken for: below, it is lighter than air (1.2), and above
+# denser than any matter (osmium, 22,600)
+_DENSITIES = (1.0, 25_000.0)
 _SI = {"width": "m", "depth": "m", "height": "m", "mass": "kg", "friction": "-"}
 _NEEDED = "name, width_m, depth_m, height_m, mass_kg and friction"
 
@@ -63,7 +66,18 @@ def read_objects(path: Path | str) -> list[ListedObject]:
             for word, (place, factor) in places.items()
             if word != "name"
         }
-        found[name] = ListedObject(name, **sizes)
+        one = ListedObject(name, **sizes)
+        density = one.mass / (one.width * one.depth * one.height)
+        if not _DENSITIES[0] <= density <= _DENSITIES[1]:
+            place = places["mass"][0]
+            raise InputError(
+                path,
+                f"line {number}, {header[place]}",
+                row[place].strip(),
+                f"is {density:.4g} kg/m3 of its width, depth and height; must lie in "
+                f"[{_DENSITIES[0]:g}, {_DENSITIES[1]:g}] kg/m3: is a unit another?",
+            )
+        found[name] = one
     return list(found.values())
 
 
