@@ -136,7 +136,11 @@ def test_box_overturns_where_theory_says_and_the_benchmark_scores_it(copy, tmp_p
     said = capsys.readouterr()
     assert "1 of 4 tests have no file" in said.err
     # the measured outcome of the third is not theory's
-    assert "| fecolumn | 0.667 | " in said.out and "3 tests" in said.out and "| 1 | 1 | 0 | 1 |" in said.out
+    assert (
+        "| fecolumn | 0.667 | " in said.out
+        and "3 tests" in said.out
+        and "| 1 | 1 | 0 | 1 |" in said.out
+    )
     assert (tmp_path / "outcomes.png").stat().st_size > 10_000
 
     kept = tmp_path / "tests" / "002.json"
