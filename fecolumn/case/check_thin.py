@@ -17,7 +17,7 @@ from fecolumn.mesh.outline import is_solid
 
 #: Least dimension of a body over its largest one. Gmsh takes points nearer than 1e-8 of its model
 #: for one; faces and hulls of bodies are found to 1e-6 of their size.
-LEAST_SHARE = 1e-5
+THINNEST = 1e-5
 _DIMENSIONS = (
     "length_m",
     "width_m",
@@ -45,7 +45,7 @@ class Dimension(NamedTuple):
 
 
 def check_thin(key: str, body: WithMaterial, refuse: Refuse) -> None:
-    """Refuse a body of which a dimension is less than LEAST_SHARE of its largest."""
+    """Refuse a body of which a dimension is less than THINNEST of its largest."""
     found = _stated(key, body)
     if isinstance(body, Tube):
         found.append(_bore(key, body.outer_diameter_m, body.wall_m))
@@ -73,18 +73,18 @@ def check_thin_column(case: ColumnSections, refuse: Refuse) -> None:
 
 
 def refuse_thin(dimensions: Sequence[Dimension], refuse: Refuse) -> None:
-    """Refuse the smallest of a body's dimensions if it is less than LEAST_SHARE of the largest."""
+    """Refuse the smallest of a body's dimensions if it is less than THINNEST of the largest."""
     if not dimensions:
         return
     smallest = min(dimensions, key=lambda one: one.metres)
     largest = max(dimensions, key=lambda one: one.metres)
-    least = LEAST_SHARE * largest.metres
+    least = THINNEST * largest.metres
     if smallest.metres < least * (1 - 1e-6):
         made = smallest.made and f"{smallest.made} {smallest.metres:.3g} m, which "
         refuse(
             smallest.key,
             smallest.value,
-            f"{made}must be at least {least:.6g} m, {LEAST_SHARE:g} of the largest dimension, "
+            f"{made}must be at least {least:.6g} m, {THINNEST:g} of the largest dimension, "
             f"{largest.metres:g} m ({largest.key}): less cannot be meshed",
         )
 

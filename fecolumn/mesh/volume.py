@@ -314,6 +314,7 @@ def _of_script(
     _opened(lambda: gmsh.model.mesh.generate(3), "a script whose volume can be meshed")
     points, cells = _elements(gmsh)
     solids = gmsh.model.getEntities(3)
+    exact: MassProperties | None
     if gmsh.model.occ.getEntities(3) == solids:
         exact = functools.reduce(operator.add, (_properties(gmsh, solid) for solid in solids))
     else:

@@ -174,16 +174,13 @@ def sized_ground(name: str, ground: Ground, feet: list[NDArray[Any]], file: Path
         lines.append(plate_line(spans, middle - length / 2, middle + length / 2, fine, largest))
     thickness = thickness_of(ground, shorter)
     if ground.kind == "plate":
-        sides_of_plate = {
-            "length_m": lines[0],
-            "width_m": lines[1],
-            "thickness_m": [0.0, thickness],
-        }
+        sides_of_plate = (
+            ("length_m", float(np.ptp(lines[0]))),
+            ("width_m", float(np.ptp(lines[1]))),
+            ("thickness_m", thickness),
+        )
         refuse_thin(
-            [
-                Dimension(f"grounds.{name}.{key}", line[-1] - line[0], line[-1] - line[0])
-                for key, line in sides_of_plate.items()
-            ],
+            [Dimension(f"grounds.{name}.{key}", side, side) for key, side in sides_of_plate],
             refuse_in(file),
         )
     levels = depths(thickness, fine, largest)

@@ -135,7 +135,7 @@ def test_too_thin_a_plate_below_feet_is_refused():
 
 
 def test_what_gmsh_cannot_mesh_is_told_of_the_body_in_one_line(monkeypatch):
-    monkeypatch.setattr(check_thin, "LEAST_SHARE", 0.0)
+    monkeypatch.setattr(check_thin, "THINNEST", 0.0)
     body = _alone(_with(BLOCK, "height_m", TOO_THIN)).bodies["b"]
     with pytest.raises(InputError, match="^small.toml: bodies.b: cannot be meshed: Gmsh") as caught:
         shape_of("bodies.b", body, "small.toml")
