@@ -19,6 +19,7 @@ from fecolumn.case.bodies import (
     rise,
 )
 from fecolumn.case.body_keys import Placed, Solid, WithMaterial
+from fecolumn.case.check_thin import check_thin
 from fecolumn.case.checked import Refuse
 from fecolumn.case.polygon import crossing, signed_area
 from fecolumn.case.sections import Material
@@ -85,6 +86,7 @@ def check_body(key: str, body: Placed, materials: Mapping[str, Material], refuse
         _check_solid(key, body, refuse)
     if isinstance(body, Storeys):
         _check_storeys(key, body, refuse)
+    check_thin(key, body, refuse)
 
 
 def _check_solid(key: str, body: Solid, refuse: Refuse) -> None:
@@ -252,6 +254,7 @@ def check_arch(key: str, arch: Arch, refuse: Refuse) -> None:
             f"must be more, or arc_sides: a straight side spans {span / arch.voussoirs:g} deg "
             "here, less than 90 deg make an arc",
         )
+    check_thin(key, arch, refuse)
 
 
 def _check_foot(key: str, body: Tube | Cylinder | Block, refuse: Refuse) -> None:

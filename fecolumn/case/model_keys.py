@@ -45,7 +45,7 @@ def check_model(case: _OnBase, models: Sequence[str], refuse: Refuse) -> None:
             f"needs a table of its own, [{engine.removeprefix('rocking_')}]; of a "
             f"[column] there are {' and '.join(OF_COLUMN)}",
         )
-    for section, key in (*UNKNOWN_KEYS, ("material", "damping_ratio")):
+    for section, key in UNKNOWN_KEYS:
         if value := getattr(getattr(case, section), key):
             refuse(
                 f"{section}.{key}",

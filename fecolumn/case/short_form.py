@@ -16,6 +16,7 @@ from typing import Any
 
 from fecolumn.case import sizes
 from fecolumn.case.check_grounds import OF_KINDS
+from fecolumn.case.check_thin import check_thin_column
 from fecolumn.case.checked import Refuse, refuse_in
 from fecolumn.case.column_keys import Base, Column, ColumnSections, Mesh
 from fecolumn.case.model_keys import check_model, check_substeps
@@ -114,6 +115,7 @@ def finished(case: ShortForm, file: Path | str) -> ShortForm:
         as of `read_case`.
     """
     sizes.check_shape(case, file)
+    check_thin_column(case, refuse_in(file))
     case = sizes.with_sizes(case, file)
     sizes.check_sizes(case, file)
     check_short_form(case, file)

@@ -89,10 +89,18 @@ def checked_layout(case: Case, file: Path | str) -> Layout:
                 '"reduced" takes all kinds',
             )
         assert isinstance(body, Solid)
+        if body.fixed:
+            raise InputError(
+                file,
+                f"bodies.{name}.fixed",
+                True,
+                'must be false where engine = "full": what holds its bodies is a ground, a plate '
+                'or rigid plane at a joint; engine = "reduced" or "rigid" takes fixed bodies',
+            )
         if not body.deforms:
             raise InputError(
                 file,
-                f"bodies.{name}.{'fixed' if body.fixed else 'rigid'}",
+                f"bodies.{name}.rigid",
                 True,
                 'must be false where engine = "full", whose bodies deform; engine = '
                 '"reduced" takes both',

@@ -62,11 +62,15 @@ class FullAnalysis(OfStructure):
         stops = plan.tolerance, plan.max_iterations, plan.max_cuts, plan.substeps
         self.stepper = Stepper(self.system, self.ledger, case.contact.impact, *stops)
         self.stance, self.top_arm = self.observer.stance, self.observer.top_arm
-        self.fields, self.rest = self._fields() if self.field_steps else None, None
-        if self.went_on(self._take):
+        self.fields, self.rest = None, None
+        went_on = self.went_on(self._take)
+        if not went_on:
+            self.state = self._released(self._standing())
+        if self.field_steps:  # whose folder is made where there is a start
+            self.fields = self._fields()
+        if went_on:
             self.say(f"resuming at t = {self.state.time:.4f} s")
         else:
-            self.state = self._released(self._standing())
             self.state.ground = self.grounds_at(0)
             self.state.grounds["acceleration"] = self.state.ground.reshape(-1, 3)
             self.ledger.open(self.state)

@@ -60,7 +60,7 @@ class ReducedAnalysis(OfStructure):
         super().__init__(case, folder, comm, file, quiet)
         self._file = file
         self.structure = structure_model(case, file, self.say)
-        self.fields, self.states = self._fields() if self.field_steps else None, self._states()
+        self.states = self._states()
         self.bases = self.structure.bases
         warn_of_grounds(case, self.structure, file)
         if not compiled(advance):
@@ -74,6 +74,8 @@ class ReducedAnalysis(OfStructure):
             time.process_time(),
         )  # what was made and compiled so far was so for all analyses
         self.stance, self.top_arm = self.engine.view.stance, self.engine.view.top_arm
+        # their folder is made where there is a start
+        self.fields = self._fields() if self.field_steps else None
         if self.went_on(self._take):
             self.say(f"resuming at t = {self.engine.motion.time:.4f} s")
         else:

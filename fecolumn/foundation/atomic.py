@@ -13,6 +13,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from fecolumn.foundation.sealed import sealed
+
 if TYPE_CHECKING:
     import h5py
 
@@ -79,9 +81,9 @@ def write_csv(path: Path, rows: Iterable[Iterable[object]]) -> None:
 def write_hdf5(
     path: Path,
     fill: Callable[[h5py.File], object],
-    finish: Callable[[bytes], bytes] = lambda content: content,
+    finish: Callable[[bytes], bytes] = sealed,
 ) -> None:
-    """Write the HDF5 file that `fill(file)` makes, its bytes as `finish` returns them.
+    """Write the HDF5 file that `fill(file)` makes, its bytes as `finish` returns them: with a seal.
 
     It is made in memory: HDF5 cannot take a full disk, and ends the process when it meets one.
     """

@@ -76,6 +76,26 @@ def open_whole(path: Path | str) -> Any:
         raise Unreadable(f"is no HDF5 file, or damaged ({error})") from None
 
 
+def seal_fault(path: Path | str) -> str:
+    """As `hdf5_fault`, of a file with a seal; empty of one without, which is not read further."""
+    try:
+        content = read_bytes(path, _MOST_BYTES)
+    except Unreadable as error:
+        return str(error)
+    if not content.startswith(_SIGNATURE):
+        return "is no HDF5 file"
+    return _fault_of_sealed(content) if _has_seal(content) else ""
+
+
+def _has_seal(content: bytes) -> bool:
+    return content[len(content) - len(sealed(b"")) :].startswith(_SEAL)
+
+
+def _fault_of_sealed(content: bytes) -> str:
+    whole = sealed(content[: len(content) - len(sealed(b""))]) == content
+    return "" if whole else "is damaged: it is not what its checksum says"
+
+
 def hdf5_fault(path: Path | str) -> str:
     """What keeps a file from being read as HDF5, in words; empty where nothing does."""
     try:
@@ -94,13 +114,8 @@ def _fault(path: str, version: tuple[int, int, int] | None) -> str:
     content = read_bytes(path, _MOST_BYTES)
     if not content.startswith(_SIGNATURE):
         return "is no HDF5 file"
-    length = len(content) - len(sealed(b""))
-    if content[length : length + len(_SEAL)] == _SEAL:
-        return (
-            ""
-            if sealed(content[:length]) == content
-            else "is damaged: it is not what its checksum says"
-        )
+    if _has_seal(content):
+        return _fault_of_sealed(content)
     del content
     try:
         reader = subprocess.run(

@@ -32,6 +32,7 @@ DECIDING = (
     "case/checked.py",
     "case/check_link.py",
     "case/check_step.py",
+    "case/check_thin.py",
     "case/given.py",
     "case/ground.py",
     "case/joint.py",

@@ -35,6 +35,10 @@ _KEYS = {
 _HUGE = 10.0
 
 
+#: Seconds to start from which it is said what makes them fewer
+LONG_START = 60.0
+
+
 @dataclass(frozen=True, slots=True)
 class Load:
     """What one mesh asks of an analysis: dofs of one of its copies, 0 of a rigid body; contact
@@ -50,7 +54,7 @@ class Load:
 @dataclass(frozen=True, slots=True)
 class Estimate:
     """bricks, dofs: number of elements and of degrees of freedom by body, or by part of a column;
-    loads: of each mesh. engine: of the case.
+    loads: of each mesh. engine: of the case. cheaper: what makes the start shorter, in words.
 
     Numbers of elements and degrees of freedom of built bodies are exact; memory and times are
     rough.
@@ -60,6 +64,7 @@ class Estimate:
     dofs: dict
     loads: tuple[Load, ...]
     engine: str
+    cheaper: str = ""
 
     @property
     def all_bricks(self) -> int:
@@ -130,7 +135,8 @@ class Estimate:
         return (
             f"{self.all_bricks:,} elements ({parts}), {self.all_dofs:,} degrees of "
             f"freedom, {self.foot_points:,} contact points; "
-            f"about {self.memory / 1e9:.1f} GB, {_span(self.setup)} to start and "
+            f"about {self.memory / 1e9:.1f} GB, {_span(self.setup)} to start"
+            f"{f' ({self.cheaper})' if self.cheaper and self.setup > LONG_START else ''} and "
             f"{1e3 * self.step:.2g} ms a step with the "
             f"{self.engine} engine{self._more}"
         )

@@ -31,12 +31,12 @@ _PATIENCE = 300
 _GOOD, _LEAST = 0.02, 2e-3
 # Of the volume: how far the elements' may be from that of what was drawn
 _VOLUME = 0.05
-_SOURCES = ("closed_surface.py", "volume.py", "filled.py", "mesh_file.py")
+_SOURCES = ("closed_surface.py", "curved.py", "volume.py", "filled.py", "mesh_file.py")
 
 
 class Filled(NamedTuple):
     """points: (n, 3) [m]; cells: (m, 4 or 8); exact: mass properties at a density of 1 of what was
-    drawn, None of a script.
+    drawn, None of a script of which they are not known.
     """
 
     points: np.ndarray

@@ -22,12 +22,21 @@ _OPTIONS = {
 }
 
 
+class NotMeshed(RuntimeError):
+    """Gmsh has made no mesh, or another one than was asked for."""
+
+
 @contextlib.contextmanager
 def gmsh_model() -> Iterator[ModuleType]:
     """The gmsh module with an empty model, leaving a caller's Gmsh session as it was.
 
     Gmsh is imported here and not at the top: an analysis of an imported mesh can then run without
     it.
+
+    Raises
+    ------
+    NotMeshed
+        an error of Gmsh.
     """
     # Gmsh 4.8 takes Ctrl-C away from Python on import; a study must stay interruptible.
     in_main_thread = threading.current_thread() is threading.main_thread()
@@ -49,6 +58,12 @@ def gmsh_model() -> Iterator[ModuleType]:
             gmsh.option.setNumber(key, value)
         gmsh.model.add("fecolumn")
         yield gmsh
+    except Exception as error:
+        if type(error) is not Exception:
+            raise
+        # as Gmsh raises its own
+        said = " ".join(str(error).split()) or "no word of why"
+        raise NotMeshed(f"Gmsh says: {said}") from error
     finally:
         if running:
             gmsh.model.remove()
@@ -125,6 +140,11 @@ def swept_grid(x: np.ndarray, y: np.ndarray, z: np.ndarray, part: int) -> BrickM
     part
         part of the bricks.
 
+    Raises
+    ------
+    NotMeshed
+        an error of Gmsh, or a grid with other points.
+
     Returns
     -------
     Bricks whose points lie exactly on the lines; point (i, j, k) has the number i + n_x (j +
@@ -151,7 +171,7 @@ def swept_grid(x: np.ndarray, y: np.ndarray, z: np.ndarray, part: int) -> BrickM
     if len(np.unique(number)) != len(number) or len(number) != np.prod(
         [len(line) for line in lines]
     ):
-        raise RuntimeError("Gmsh did not return a tensor-product grid")
+        raise NotMeshed("Gmsh did not return a tensor-product grid")
     grid = np.empty_like(points)
     grid[number] = np.stack([line[place] for line, place in zip(lines, places)], axis=1)
     return brick_mesh(grid, number[cells], part)
@@ -168,7 +188,7 @@ def generated(gmsh: ModuleType, dimension: int = 3) -> tuple[np.ndarray, np.ndar
 
     Raises
     ------
-    RuntimeError
+    NotMeshed
         Gmsh has made other elements.
     """
     gmsh.model.geo.synchronize()
@@ -176,7 +196,7 @@ def generated(gmsh: ModuleType, dimension: int = 3) -> tuple[np.ndarray, np.ndar
     kinds, _, nodes = gmsh.model.mesh.getElements(dimension)
     corners = 2**dimension
     if [gmsh.model.mesh.getElementProperties(kind)[3] for kind in kinds] != [corners]:
-        raise RuntimeError(f"Gmsh returned the element types {list(kinds)}, not {corners} corners")
+        raise NotMeshed(f"Gmsh returned the element types {list(kinds)}, not {corners} corners")
     tags, coordinates, _ = gmsh.model.mesh.getNodes()
     used, cells = np.unique(nodes[0], return_inverse=True)
     order = np.argsort(tags)

@@ -54,6 +54,16 @@ class MassProperties:
         )
         return MassProperties(self.volume + other.volume, mass, centre, inertia)
 
+    def scaled(self, factor: float) -> MassProperties:
+        """Those of a body so many times as large, of the same density."""
+        cubed = factor**3
+        return MassProperties(
+            self.volume * cubed,
+            self.mass * cubed,
+            self.centre * factor,
+            self.inertia * cubed * factor**2,
+        )
+
 
 def _steiner(arm: np.ndarray) -> np.ndarray:
     return arm @ arm * np.eye(3) - np.outer(arm, arm)

@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 from fecolumn.mesh.bricks import BrickMesh, brick_mesh
 from fecolumn.mesh.column import divisions
-from fecolumn.mesh.gmsh_section import generated, gmsh_model
+from fecolumn.mesh.gmsh_section import NotMeshed, generated, gmsh_model
 
 # Least sine of the angles of the quadrilaterals of a row
 _BLUNT = 0.15
@@ -160,6 +160,6 @@ def _evened(points: np.ndarray, corners: np.ndarray, halves: list[int]) -> np.nd
     )
     apart, place = cKDTree(points).query(exact)
     if apart.max() > _SAME * np.ptp(corners, axis=0).max():
-        raise RuntimeError("Gmsh returned a polygon with other points along its sides")
+        raise NotMeshed("Gmsh returned a polygon with other points along its sides")
     points[place] = exact
     return points

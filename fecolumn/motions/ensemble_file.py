@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from fecolumn.foundation.atomic import write_csv, write_hdf5
 from fecolumn.foundation.files import Unreadable
-from fecolumn.foundation.sealed import open_whole, sealed
+from fecolumn.foundation.sealed import open_whole
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.intensity import intensity_measures
 from fecolumn.motions.record import MOST_SAMPLES, GroundMotion, UnusableRecord, sound
@@ -63,7 +63,7 @@ def write_ensemble(ensemble: Ensemble, path: Path | str) -> None:
         for name, values in ensemble.parameters.items():
             parameters.create_dataset(name, data=np.asarray(values, dtype=np.float64))
 
-    write_hdf5(Path(path), fill, sealed)
+    write_hdf5(Path(path), fill)
 
 
 def read_ensemble(path: Path | str) -> Ensemble:

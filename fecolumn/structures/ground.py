@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
+from fecolumn.case.check_thin import Dimension, refuse_thin
+from fecolumn.case.checked import refuse_in
 from fecolumn.case.ground import Ground
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base, unbounded_base, window
@@ -134,7 +136,7 @@ def sized_ground(name: str, ground: Ground, feet: list[NDArray[Any]], file: Path
     Raises
     ------
     InputError
-        a plate too small for its feet.
+        a plate too small for its feet, or too thin to be meshed.
     """
     sides = np.array([np.ptp(foot[:, :2], axis=0) for foot in feet])
     smallest = sides[np.argmin(sides.min(axis=1))]
@@ -170,7 +172,18 @@ def sized_ground(name: str, ground: Ground, feet: list[NDArray[Any]], file: Path
             fine,
         )
         lines.append(plate_line(spans, middle - length / 2, middle + length / 2, fine, largest))
-    levels = depths(thickness_of(ground, shorter), fine, largest)
+    thickness = thickness_of(ground, shorter)
+    if ground.kind == "plate":
+        sides_of_plate = (
+            ("length_m", float(np.ptp(lines[0]))),
+            ("width_m", float(np.ptp(lines[1]))),
+            ("thickness_m", thickness),
+        )
+        refuse_thin(
+            [Dimension(f"grounds.{name}.{key}", side, side) for key, side in sides_of_plate],
+            refuse_in(file),
+        )
+    levels = depths(thickness, fine, largest)
     return Sized(lines[0], lines[1], levels, fine, allowance)
 
 

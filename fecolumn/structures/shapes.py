@@ -19,7 +19,7 @@ from fecolumn.case.sections import Cap, Flange
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import CAP, FLANGE, UPPER, BrickMesh, brick_mesh, merged_mesh
 from fecolumn.mesh.column import divisions
-from fecolumn.mesh.gmsh_section import extruded, swept_grid
+from fecolumn.mesh.gmsh_section import NotMeshed, extruded, swept_grid
 from fecolumn.mesh.imported import own_mesh
 from fecolumn.mesh.jacobian import corner_jacobians
 from fecolumn.mesh.prism import polygon_counts, prism_mesh
@@ -76,10 +76,24 @@ def shape_of(key: str, body: Meshable, file: Path | str, spots: Sequence[Spot] =
     Raises
     ------
     InputError
-        a mesh file that cannot be used, or parts that cannot be tied.
+        a mesh file that cannot be used, parts that cannot be tied, or a body that Gmsh does not
+        mesh.
     ValueError
         a kind without a mesh.
     """
+    try:
+        return _shape_of(key, body, file, spots)
+    except NotMeshed as error:
+        raise InputError(
+            file,
+            key,
+            None,
+            f"cannot be meshed: {error}; make what is thin thicker, or its elements of another "
+            "size (element_size_m)",
+        ) from None
+
+
+def _shape_of(key: str, body: Meshable, file: Path | str, spots: Sequence[Spot]) -> Shape:
     if is_tied(body):
         return Shape(*tied_mesh(key, body, file))
     # by the word, so that a kind that comes from the class of another one has to be named here

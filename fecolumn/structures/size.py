@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from fecolumn.case.bodies import Block, Meshed, Plate, Prism, Storeys, half_sides
 from fecolumn.case.case import Case
+from fecolumn.case.short_form import in_short_form
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.estimate import Estimate, Load, refuse_sizes
 from fecolumn.mesh.imported import own_mesh
@@ -89,7 +90,7 @@ def expected(case: Case, file: Path | str) -> Estimate:
             bricks[name] = math.prod(count - 1 for count in counts)
             dofs[name] = 3 * math.prod(counts)
             loads.append(Load(dofs[name], max((load.points for load in loads), default=0), 1, True))
-    return Estimate(bricks, dofs, tuple(loads), found.engine)
+    return Estimate(bricks, dofs, tuple(loads), found.engine, _cheaper(case, dofs))
 
 
 def made_of(case: Case, models: Mapping[str, BodyModel], scene: DrawnScene) -> Estimate:
@@ -117,7 +118,29 @@ def made_of(case: Case, models: Mapping[str, BodyModel], scene: DrawnScene) -> E
         if model.dofs:
             bricks[name], dofs[name] = times * count, times * model.dofs
         loads.append(Load(model.dofs if piece.stressed else 0, len(model.arms), copies))
-    return Estimate(bricks, dofs, tuple(loads), case.integration.engine)
+    return Estimate(bricks, dofs, tuple(loads), case.integration.engine, _cheaper(case, dofs))
+
+
+def _cheaper(case: Case, dofs: Mapping[str, int]) -> str:
+    """Keys that make the start shorter, of the ground or the body that deforms with the most
+    degrees of freedom, as the case was stated.
+    """
+    deforming = [name for name in dofs if getattr(case.bodies.get(name), "deforms", True)]
+    name = max(deforming, key=dofs.__getitem__, default="")
+    if not name:
+        return ""
+    body = case.bodies.get(name)
+    table = f"grounds.{name}" if body is None else f"bodies.{name}"
+    size = f"{table}.element_size_m"
+    if isinstance(body, Meshed):
+        size = f"{table}.mesh_size_m" if body.drawn.kind != "elements" else ""
+    if case.short:
+        size = "mesh.fine_size_m" if body is None else in_short_form(size)
+    rigid = f"{table}.rigid = true"
+    if body is None or case.short or isinstance(body, Storeys) or case.integration.engine == "full":
+        rigid = ""
+    keys = [*([f"a larger {size}"] if size else []), *([rigid] if rigid else [])]
+    return f"{' or '.join(keys)} makes it shorter" if keys else ""
 
 
 def _feet(case: Case, ground: str) -> list[NDArray[Any]]:

@@ -1,5 +1,6 @@
 """Bodies from surfaces, CAD bodies and scripts of Gmsh: elements that weigh what was drawn."""
 
+import math
 import warnings
 
 import gmsh
@@ -193,3 +194,39 @@ def test_mutants_of_surfaces_are_refused_or_closed(tmp_path, ending):
         if kind == 0:
             assert found.volume == pytest.approx(drawn.volume, rel=1e-9)
     assert taken < 70
+
+
+STATUE = """SetFactory("OpenCASCADE");
+Box(1) = {-0.2, -0.2, 0, 0.4, 0.4, 0.3};
+Cylinder(2) = {0, 0, 0.3, 0, 0, 0.9, 0.15};
+BooleanUnion{ Volume{1}; Delete; }{ Volume{2}; Delete; }
+"""
+DRUM = """lc = 100;
+Point(1) = {0, 0, 0, lc}; Point(2) = {150, 0, 0, lc}; Point(3) = {0, 150, 0, lc};
+Point(4) = {-150, 0, 0, lc}; Point(5) = {0, -150, 0, lc};
+Circle(1) = {2, 1, 3}; Circle(2) = {3, 1, 4}; Circle(3) = {4, 1, 5}; Circle(4) = {5, 1, 2};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Extrude {0, 0, 900} { Surface{1}; }
+"""
+# volume of a cylinder of 0.3 x 0.9 m and of a square slab
+CYLINDER, SQUARE = math.pi * 0.15**2 * 0.9, 0.4**2 * 0.3
+
+
+@pytest.mark.parametrize(
+    "script, unit, volume, inertia, within",
+    [
+        (STATUE, "m", CYLINDER + SQUARE, CYLINDER * 0.15**2 / 2 + SQUARE * 0.4**2 / 6, 1e-6),
+        (DRUM, "mm", CYLINDER, CYLINDER * 0.15**2 / 2, 1e-3),
+    ],
+    ids=["OpenCASCADE", "built-in kernel"],
+)
+def test_a_script_weighs_what_its_curved_faces_enclose(
+    tmp_path, script, unit, volume, inertia, within
+):
+    (tmp_path / "drawn.geo").write_text(script)
+    with pytest.warns(UserWarning, match=r"lack 4\.\d% of the volume"):
+        own = own_mesh(MeshFile(str(tmp_path / "drawn.geo"), unit))
+    assert own.exact.volume == pytest.approx(volume, rel=within)
+    weighed = mass_properties(own.mesh, 1.0)
+    assert weighed.mass == pytest.approx(volume, rel=within)
+    assert weighed.inertia[2, 2] == pytest.approx(inertia, rel=within)

@@ -12,9 +12,14 @@ import pytest
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.cli import main
+from fecolumn.engines.stored import stored_history, stored_states
 from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.sealed import sealed
+from fecolumn.pictures.figures.history_curves import HistoryCurves
 from fecolumn.pictures.figures.history_figures import history_figures
+from fecolumn.pictures.render.result import read_rows
 from fecolumn.simulation import run
+from fecolumn.study.results.analysis import AnalysisResult
 from fecolumn.study.results.parting import QuantityPair, differing_keys
 
 BLOCK = {
@@ -258,3 +263,54 @@ def test_a_history_of_another_case_is_one_line(folders, tmp_path, capsys, comman
     error = capsys.readouterr().err
     assert "history.h5: case_id = " in error and "is of another case: must be" in error
     assert error.count("\n") == 1
+
+
+def _damaged(whole):
+    """Contents of a file of which a byte has changed, or the end is missing."""
+    rng = np.random.default_rng(7)
+    for place in [2112, *rng.integers(len(whole), size=6)]:
+        changed = bytearray(whole)
+        changed[place] ^= 0xFF
+        yield bytes(changed)
+    for length in (0, 1000, len(whole) // 2, len(whole) - 200):
+        yield whole[:length]
+
+
+def test_a_damaged_history_is_refused_in_one_line(folders, tmp_path):
+    copy = shutil.copytree(folders / "fine", tmp_path / "copy")
+    whole = (copy / "history.h5").read_bytes()
+    for number, content in enumerate(_damaged(whole)):
+        (copy / "history.h5").write_bytes(content)
+        for read in (
+            lambda: AnalysisResult(copy).compare(AnalysisResult(folders / "coarse")),
+            lambda: HistoryCurves.read(copy / "history.h5"),
+            lambda: read_rows(copy / "history.h5"),
+        ):
+            with pytest.raises(InputError, match="run the analysis again") as caught:
+                read()
+            assert "history.h5" in str(caught.value) and "\n" not in str(caught.value), number
+
+
+def test_damaged_states_are_refused_in_one_line(tmp_path):
+    copy = tmp_path / "run"
+    tables = BLOCK | {"integration": ENGINE, "output": {"states_every_s": 0.05}}
+    run(case_from_tables(tables), copy, quiet=True)
+    assert len(stored_states(copy / "states.h5")["time"]) > 3
+    for content in _damaged((copy / "states.h5").read_bytes()):
+        (copy / "states.h5").write_bytes(content)
+        with pytest.raises(InputError, match="states.h5: not the states .*run the analysis again"):
+            stored_states(copy / "states.h5")
+
+
+def test_what_h5py_raises_of_a_file_without_checksum_is_one_line(folders, tmp_path, monkeypatch):
+    copy = shutil.copytree(folders / "fine", tmp_path / "copy")
+    file = copy / "history.h5"
+    file.write_bytes(file.read_bytes()[: -len(sealed(b""))])
+    assert len(stored_history(file)["time"]) > 100
+
+    def fail(*_):
+        raise RuntimeError("Object visitation failed\n(bad heap free list)")
+
+    monkeypatch.setattr("fecolumn.engines.stored.read_history", fail)
+    with pytest.raises(InputError, match=r"history.h5: not a .* \(Object visitation failed \(bad"):
+        stored_history(file)

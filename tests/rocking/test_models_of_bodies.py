@@ -260,7 +260,6 @@ def test_a_block_in_the_air_is_refused():
     [
         ("output.fields_every_s", 0.1),
         ("joints.foot.rolling_resistance", 0.02),
-        ("bodies.body.damping_ratio", 0.05),
     ],
 )
 @pytest.mark.parametrize("engine", ["housner", "wobbling"])
@@ -312,3 +311,14 @@ def test_a_plate_that_gives_is_told_where_a_model_takes_it_as_rigid(engine, recw
     weight = 2700 * np.pi * 0.2**2 * 1.6 * GRAVITY
     percent = 100 * weight * 0.8 * 0.03 / (2e6 * np.pi * 0.2**4 / 4)
     assert len(told) == 1 and f"{percent:.2g} %" in told[0] and "grounds.shelf" in told[0]
+
+
+@pytest.mark.parametrize("engine", ["housner", "wobbling"])
+@pytest.mark.parametrize("key", ["bodies.body.damping_ratio", "materials.stone.damping_ratio"])
+def test_a_rigid_model_passes_over_the_damping_of_elastic_modes(engine, key):
+    """As over Young's modulus, so that one file serves all engines."""
+    body = (BLOCK if engine == "housner" else DRUM) | dict(material="stone")
+    made = case(engine, dict(body=body), FOOT, materials=dict(stone=dict(damping_ratio=0.0)))
+    damped = made.replace({key: 0.05})
+    found, exact = (model_of(one, "case.toml").describe() for one in (damped, made))
+    assert found == exact

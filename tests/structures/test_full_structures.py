@@ -256,7 +256,12 @@ def test_block_that_is_tilted_too_far_overturns(tmp_path):
 @pytest.mark.parametrize(
     "body, key, told",
     [
-        (dict(rigid=True), "bodies.upper.rigid", "must be false"),
+        (dict(rigid=True), "bodies.upper.rigid", "must be false .* whose bodies deform"),
+        (
+            dict(fixed=True),
+            "bodies.upper.fixed",
+            "must be false .* a ground, a plate or rigid plane",
+        ),
         (
             dict(
                 kind="storeys",
@@ -280,6 +285,8 @@ def test_bodies_without_elements_are_refused_by_name_in_full_order(tmp_path, bod
         lower=LEANING["bodies"]["lower"],
         upper=body if "kind" in body else LEANING["bodies"]["upper"] | body,
     )
+    if "fixed" in body:
+        del tables["initial"]
     with pytest.raises(InputError, match=told) as refused:
         run(structure(**tables), tmp_path / "run", quiet=True)
     assert refused.value.key == key and "engine" in str(refused.value)

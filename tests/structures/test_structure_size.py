@@ -7,12 +7,12 @@ import time
 import pytest
 from small_structures import BLOCK, STONE, block, frame, stack, structure
 
-from fecolumn.case.case import read_case
+from fecolumn.case.case import case_from_tables, read_case
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures import layout
 from fecolumn.structures.bodies import drawing
 from fecolumn.structures.shapes import shape_of
-from fecolumn.structures.size import size_of
+from fecolumn.structures.size import expected, size_of
 from fecolumn.structures.structure import structure_model
 
 TUBE = dict(kind="tube", outer_diameter_m=0.4, wall_m=0.05, height_m=2.0)
@@ -199,3 +199,39 @@ def test_every_copy_counts_in_full_order():
         for engine in ("reduced", "full")
     )
     assert full.dofs["column"] == 4 * one.dofs["column"] and full.dofs["slab"] == one.dofs["slab"]
+
+
+ELASTIC = dict(rigid=False)
+
+
+@pytest.mark.parametrize(
+    "tables, said",
+    [
+        (
+            stack(bodies=dict(upper=ELASTIC | dict(element_size_m=0.01, coarse_size_m=0.01))),
+            "(a larger bodies.upper.element_size_m or bodies.upper.rigid = true makes it shorter)",
+        ),
+        (
+            stack(
+                bodies=dict(upper=ELASTIC | dict(element_size_m=0.01, coarse_size_m=0.01)),
+                integration=dict(engine="rigid"),
+            ),
+            "(a larger bodies.upper.element_size_m or bodies.upper.rigid = true makes it shorter)",
+        ),
+        (stack(bodies=dict(upper=ELASTIC)), None),
+    ],
+)
+def test_a_long_start_names_the_key_that_makes_it_shorter(tables, said):
+    found = expected(structure(**tables), "small.toml")
+    assert (found.setup > 60) == (said is not None)
+    assert said is None and "shorter" not in str(found) or f"to start {said} and" in str(found)
+
+
+def test_a_long_start_of_the_short_form_names_its_key():
+    column = dict(shape="block", length_m=0.4, width_m=0.4, height_m=1.2)
+    case = case_from_tables(
+        dict(column=column, mesh=dict(fine_size_m=0.015, coarse_size_m=0.015, base_size_m=0.1))
+    )
+    assert "to start (a larger mesh.fine_size_m makes it shorter) and" in str(
+        expected(case, "small.toml")
+    )

@@ -269,12 +269,12 @@ WRONG = [
     (
         dict(
             bodies=dict(
-                tube=dict(kind="tube", outer_diameter_m=1.0, height_m=3.0, wall_m=1e-6) | STONE
+                tube=dict(kind="tube", outer_diameter_m=1.0, height_m=3.0, wall_m=4e-5) | STONE
             ),
             joints=dict(foot=dict(slave="tube", on="ground")),
         ),
         "bodies.tube",
-        "its elements measure 1e-06 m across",
+        "its elements measure 4e-05 m across",
     ),
 ]
 

@@ -9,7 +9,6 @@ from typing import NoReturn
 import numpy as np
 
 from fecolumn.case.bodies import Block, Cylinder, Storeys, Tube
-from fecolumn.case.body_keys import Placed, WithMaterial
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.ground import GROUND_NAME
@@ -168,8 +167,6 @@ class _Reader:
         for name, body in self.case.bodies.items():
             for key in ("foot_radius_m", "edge_radius_m", "turned_deg"):
                 stated[f"bodies.{name}.{key}"] = getattr(body, key, None)
-            if body.kind != "storeys":  # those of a podium damp
-                stated[f"bodies.{name}.damping_ratio"] = self._damping(body)
         for key, value in stated.items():
             if value:
                 self._refuse(
@@ -181,12 +178,6 @@ class _Reader:
         self._refuse_grounds()
         if self.case.links:
             self._lacks("knows no links: leave them out, or choose the reduced or rigid engine")
-
-    def _damping(self, body: Placed) -> float | None:
-        """Damping ratio of a body, its own or of its material."""
-        if isinstance(body, WithMaterial):
-            return material_of(body, self.case.materials).damping_ratio
-        return body.damping_ratio
 
     def _refuse_grounds(self) -> None:
         """Refuse pads and grounds with a motion of their own."""

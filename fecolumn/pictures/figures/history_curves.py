@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.engines.dynamics.history import read_history
-from fecolumn.engines.summary import check_owner, summary_of_folder
+from fecolumn.engines.stored import stored_history
+from fecolumn.engines.summary import summary_of_folder
 from fecolumn.foundation.files import Unreadable, read_json
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.figures.specimen_outline import Outline, specimen_outline
@@ -50,9 +50,8 @@ class HistoryCurves:
         InputError
             missing file, or one without the datasets of a history.
         """
-        check_owner(file)
+        columns = stored_history(file)
         try:
-            columns = read_history(file)
             energy = {
                 name.removeprefix("energy/"): values
                 for name, values in columns.items()
@@ -60,7 +59,7 @@ class HistoryCurves:
             }
             ground = columns.get("ground", np.zeros_like(columns["u_top"]))
             return cls(columns["time"], columns["u_top"], columns["tilt"], ground, energy)
-        except (OSError, KeyError) as error:
+        except KeyError as error:
             raise InputError(file, "", None, f"not a history of an analysis ({error})") from None
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from fecolumn.engines.dynamics.history import read_history
+from fecolumn.engines.stored import stored_history
 from fecolumn.pictures.figures.energy_figure import energy_figure
 from fecolumn.pictures.figures.history_curves import HistoryCurves, read_ending
 from fecolumn.pictures.figures.path_figure import path_figure
@@ -46,7 +46,7 @@ def history_figures(folder: Path | str) -> list[Path]:
         if name.startswith(("interface/", "storey/", "link/", "bond/"))
     )
     return files + (
-        structure_figures(read_history(folder / "history.h5", ("time", *of_structure)), folder)
+        structure_figures(stored_history(folder / "history.h5", ("time", *of_structure)), folder)
         if of_structure
         else []
     )
@@ -62,6 +62,6 @@ def _names(file: Path) -> list[str]:
             content.visititems(
                 lambda name, item: names.append(name) if isinstance(item, h5py.Dataset) else None
             )
-    except OSError:
+    except Exception:  # whatever a damaged file makes h5py raise
         return []
     return names

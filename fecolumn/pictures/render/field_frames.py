@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.engines.scene.scene import Scene
+from fecolumn.engines.stored import stored
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.frame import Fields
 
@@ -79,8 +80,8 @@ class FieldFrames(FrameSeries):
 def _read(file: Path, *names: str) -> list[np.ndarray]:
     import h5py
 
-    try:
+    def read() -> list[np.ndarray]:
         with h5py.File(file) as content:
             return [content[name][()] for name in names]
-    except (OSError, KeyError) as error:
-        raise InputError(file, "", None, f"not a frame of an analysis' fields ({error})") from None
+
+    return stored(file, "a frame of an analysis' fields", read)

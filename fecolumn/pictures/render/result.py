@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.case.case import Case
-from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.reduced.states import STATES_FILE as STATES
 from fecolumn.engines.scene.scene import JointFace, Scene
-from fecolumn.engines.summary import SUMMARY_FILE, check_owner, read_summary
+from fecolumn.engines.stored import stored_history
+from fecolumn.engines.summary import SUMMARY_FILE, read_summary
 from fecolumn.foundation.files import Unreadable, is_file, read_json
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.field_frames import FieldFrames
@@ -247,11 +247,7 @@ def read_rows(file: Path) -> dict[str, np.ndarray]:
     InputError
         none, or one that says nothing of a motion.
     """
-    check_owner(file)
-    try:
-        history = read_history(file)
-    except (OSError, KeyError) as error:
-        raise InputError(file, "", None, f"not a history of an analysis ({error})") from None
+    history = stored_history(file)
     missing = [name for name in _NEEDED if name not in history]
     if missing:
         raise InputError(file, "", None, f"not a history of an analysis (no {missing[0]})")

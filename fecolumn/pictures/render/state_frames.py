@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.engines.reduced.states import Snapshot, modes_of, read_states, signature, state_at
+from fecolumn.engines.reduced.states import Snapshot, modes_of, signature, state_at
 from fecolumn.engines.scene.scene import Scene, SceneFields
-from fecolumn.engines.summary import check_owner
+from fecolumn.engines.stored import stored_states
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.field_frames import FrameSeries
 from fecolumn.pictures.render.frame import Fields
@@ -47,17 +47,7 @@ class StateFrames(FrameSeries):
     """
 
     def __init__(self, file: Path, scene: Scene) -> None:
-        check_owner(file)
-        try:
-            self._arrays = read_states(file)
-        except (OSError, KeyError) as error:
-            raise InputError(
-                file,
-                "",
-                None,
-                f"not the states of an analysis ({error}); remove it to draw what the "
-                "history alone gives",
-            ) from None
+        self._arrays = stored_states(file)
         names = [piece.name for piece in scene.bodies]
         # those of a single column are without its name
         kept = self._arrays["bodies"].tolist() or names[:1]

@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.ending import OVERTURNED, SLID_OFF
-from fecolumn.engines.summary import check_owner
+from fecolumn.engines.stored import stored_history
 from fecolumn.pictures.figures.thinning import thinned
 from fecolumn.study.report.sweep import Setting, Sweep
 
@@ -118,8 +117,7 @@ def spread_out(sweep: Sweep, most: int) -> set[str]:
 
 def _trace(folder: Path, run: dict[str, Any]) -> Trace | None:
     try:
-        check_owner(folder / "analyses" / run["case_id"] / "history.h5")
-        read = read_history(
+        read = stored_history(
             folder / "analyses" / run["case_id"] / "history.h5", ("time", "u_top", "tilt")
         )
         time, u, tilt = (np.asarray(read[name], float) for name in ("time", "u_top", "tilt"))

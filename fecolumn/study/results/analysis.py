@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
 from fecolumn.engines.dynamics.energy import TERMS
-from fecolumn.engines.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS, read_history
+from fecolumn.engines.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.schema import InputError, meant
 from fecolumn.study.results.parting import Parting, parting
@@ -56,21 +56,14 @@ class AnalysisResult:
         Raises
         ------
         InputError
-            the analysis has written none yet, or it is of another case.
+            the analysis has written none yet, or it is damaged or of another case.
         """
-        from fecolumn.engines.summary import check_owner
+        from fecolumn.engines.stored import stored_history
 
         file = self.folder / "history.h5"
-        check_owner(file)
-        try:
-            return read_history(file)
-        except OSError as error:
-            raise InputError(
-                file,
-                "",
-                None,
-                "not written yet" if not is_file(file) else f"cannot be read ({error})",
-            ) from None
+        if not is_file(file):
+            raise InputError(file, "", None, "not written yet")
+        return stored_history(file)
 
     @functools.cached_property
     def summary(self) -> dict[str, Any]:
