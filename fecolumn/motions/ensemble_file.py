@@ -19,6 +19,8 @@ from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.intensity import intensity_measures
 from fecolumn.motions.record import MOST_SAMPLES, GroundMotion, UnusableRecord, sound
 
+#: Endings of the names of HDF5 files.
+HDF5_SUFFIXES = (".h5", ".hdf5")
 FORMAT = "fecolumn ensemble 1"
 _MEMBER = re.compile(r"(?P<file>.+\.(?:h5|hdf5))#(?P<number>[^#]*)", re.IGNORECASE)
 ALL_MOTIONS = "*"

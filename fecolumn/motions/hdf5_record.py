@@ -14,8 +14,6 @@ from fecolumn.motions.ensemble_file import FORMAT
 from fecolumn.motions.record import MOST_SAMPLES, Recording, UnusableRecord
 from fecolumn.motions.text import ACCELERATIONS, acceleration_unit, uniform_step
 
-#: Endings of the names of HDF5 files.
-HDF5_SUFFIXES = (".h5", ".hdf5")
 _ACCELERATIONS, _TIMES = ("acc", "acceleration"), ("time", "t", "time_s")
 _STEPS, _UNITS = ("dt", "dt_s"), ("units", "unit")
 _NEEDED = (

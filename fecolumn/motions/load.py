@@ -20,12 +20,12 @@ from fecolumn.motions.at2 import looks_like_at2, read_at2
 from fecolumn.motions.columns import read_columns
 from fecolumn.motions.cosmos import looks_like_cosmos, read_cosmos
 from fecolumn.motions.csmip import looks_like_csmip, read_csmip
-from fecolumn.motions.ensemble_file import file_and_number, read_member
+from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, file_and_number, read_member
 from fecolumn.motions.esm import looks_like_esm, read_esm
 from fecolumn.motions.fema_p695 import FEMA_PREFIX, read_fema_p695
 from fecolumn.motions.formats import FORMATS
 from fecolumn.motions.geonet import looks_like_geonet, read_geonet
-from fecolumn.motions.hdf5_record import HDF5_SUFFIXES, read_hdf5_record
+from fecolumn.motions.hdf5_record import read_hdf5_record
 from fecolumn.motions.processing import (
     delay,
     join,

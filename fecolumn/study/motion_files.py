@@ -54,10 +54,10 @@ def store(ensemble: Ensemble, output: Path | str) -> int:
 def ensemble_path(output: Path | str) -> Path:
     """Path of an ensemble that may be written; its folder is there."""
     from fecolumn.foundation.schema import InputError
-    from fecolumn.motions.ensemble_file import TABLE_HEAD, is_ensemble
+    from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, TABLE_HEAD, is_ensemble
 
     path = Path(output)
-    if path.suffix not in (".h5", ".hdf5"):
+    if path.suffix not in HDF5_SUFFIXES:
         raise InputError("fecolumn motions", "-o", str(output), "must end in .h5")
     path.parent.mkdir(parents=True, exist_ok=True)
     if os.path.lexists(path) and not is_ensemble(path):

@@ -115,10 +115,10 @@ def add_look_actions(actions: Any) -> None:
 
 
 def _info(args: argparse.Namespace) -> int:
-    from fecolumn.motions.ensemble_file import is_foreign_hdf5, summary
+    from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, is_foreign_hdf5, summary
     from fecolumn.motions.ensemble_report import report
 
-    if Path(args.ensemble).suffix not in (".h5", ".hdf5") or is_foreign_hdf5(args.ensemble):
+    if Path(args.ensemble).suffix not in HDF5_SUFFIXES or is_foreign_hdf5(args.ensemble):
         return _info_of_motion(args)
     ensemble = stored_ensemble(args.ensemble)
     print(report(ensemble, summary(ensemble)))
@@ -217,9 +217,10 @@ def _plot(args: argparse.Namespace) -> int:
 def _convert(args: argparse.Namespace) -> int:
     from fecolumn.foundation.folder import written
     from fecolumn.motions.ensemble import Ensemble
+    from fecolumn.motions.ensemble_file import HDF5_SUFFIXES
     from fecolumn.motions.export import write_text_files
 
-    whole = Path(args.output).suffix in (".h5", ".hdf5")
+    whole = Path(args.output).suffix in HDF5_SUFFIXES
     if whole:
         ensemble_path(args.output)
     motions = all_of(args)

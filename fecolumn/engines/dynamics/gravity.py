@@ -70,8 +70,8 @@ def iterate_to_rest(
     reaches rounding. On a pad that tilts under a small moment, or held by a soft link alone, it is
     nearer to 1, and many are needed.
 
-    progress: share of itself to which a step must have come in REST_ITERATIONS of them;
-    REST_PROGRESS unless given.
+    progress: share of the least step among REST_ITERATIONS of them to which one of the next as many
+    must come; REST_PROGRESS unless given.
 
     Raises
     ------
