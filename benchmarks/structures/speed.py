@@ -35,18 +35,24 @@ SECONDS, POINTS, FRICTION, FIRST = 2.0, 24, 0.7, 20
 # Steps that are timed together: their median tells what most steps take, their mean what an
 # analysis takes
 _TIMED = 10
-#: Numbers of drums, and of contact points a face of two of them, over which costs grow
-DRUMS, POINTS_A_FACE = (1, 2, 4, 8, 16, 32), (12, 24, 48, 96, 192)
+#: Numbers of drums, and of contact points a face of two of them, over which costs grow; of these
+#: how far they may slide [m]: more would make all nodes of a fine face contact points, and a body
+#: has 1000 at most
+ALLOWED = 0.02
+DRUMS, POINTS_A_FACE = (1, 2, 4, 8, 16, 32), (12, 24, 48, 96)
 #: Cube that slides: side [m], velocity [m/s], friction; how long the stack of `CREEPS` drums
 #: stands [s]
 SIDE, SLIDES, CUBE_FRICTION = 0.5, 6.0, 0.5
 CREEPS, STANDS = 4, 10.0
 
 
-def case_of(kind: str, number: int, factor: float, engine: str, points: int = POINTS):
-    """Case of a row."""
+def case_of(kind: str, number: int, factor: float, engine: str, points: int | None = None):
+    """Case of a row; points: on each face of drums, which then slide by less than ALLOWED."""
     make = cases.frame_case if kind == "frame" else cases.stack_case
-    return make(number, factor == 0.0, engine=engine, points=points)
+    if points is None:
+        return make(number, factor == 0.0, engine=engine, points=POINTS)
+    near = dict(joints=dict(joints=dict(allowance_m=ALLOWED)))
+    return make(number, factor == 0.0, engine=engine, points=points, tables=near)
 
 
 def size_of(kind: str, number: int) -> tuple[float, float, float]:
@@ -61,9 +67,9 @@ def amplitude_of(kind: str, number: int, factor: float) -> float:
     return factor * GRAVITY * min(diameter / tall, FRICTION)
 
 
-def cost(kind: str, number: int, factor: float, engine: str, points: int = POINTS) -> dict:
-    """Processor time of a step [us], mean and median; greatest way of the structure's top [m];
-    error of the energy balance over the largest kinetic energy.
+def cost(kind: str, number: int, factor: float, engine: str, points: int | None = None) -> dict:
+    """Processor time of a step [us], mean and median, of a case of `case_of`; greatest way of the
+    structure's top [m]; error of the energy balance over the largest kinetic energy.
     """
     case = case_of(kind, number, factor, engine, points)
     dt = case.integration.dt_s

@@ -178,7 +178,7 @@ class ReducedAnalysis(OfStructure):
 
     def time_steps(self) -> None:
         """Note how long each step takes."""
-        self.step_times = StepTimes(self.engine.record)
+        self.step_times = StepTimes(self.engine.record, self.engine.call_s())
 
     def made_in_s(self) -> float:
         """Processor time [s] of the compiled steps so far."""

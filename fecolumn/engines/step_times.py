@@ -28,10 +28,13 @@ _BANDS = (2, 8, 40, 95)
 
 
 class StepTimes:
-    """Times of steps, made one at a time, and what they did."""
+    """Times of steps, made one at a time, and what they did.
 
-    def __init__(self, record: Record) -> None:
-        self._record = dataclasses.replace(record)
+    record: of the steps before; call_s: what making one alone takes beside the step itself [s].
+    """
+
+    def __init__(self, record: Record, call_s: float = 0.0) -> None:
+        self._record, self._call_s = dataclasses.replace(record), call_s
         self._rows: list[list[float]] = []
 
     def note(self, time_s: float, spent_s: float, points: int, record: Record) -> None:
@@ -41,7 +44,8 @@ class StepTimes:
         """
         counts = np.subtract(dataclasses.astuple(record), dataclasses.astuple(self._record))
         self._record = dataclasses.replace(record)
-        self._rows.append([time_s, 1e6 * spent_s, points, *counts.tolist()])
+        own = max(spent_s - self._call_s, 0.0)
+        self._rows.append([time_s, 1e6 * own, points, *counts.tolist()])
 
     def write(self, folder: Path) -> None:
         """Write the rows."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -117,7 +118,18 @@ def over(points: NDArray[Any], triangles: NDArray[Any], tolerance: float) -> NDA
     """Which points (n, 2) lie in any of the triangles (t, 3, 2) of a plane, or within `tolerance`
     [m] of one.
     """
-    inside = np.zeros(len(points), bool)
+    return np.concatenate([np.zeros(0, bool), *_over_by_parts(points, triangles, tolerance)])
+
+
+def any_over(points: NDArray[Any], triangles: NDArray[Any], tolerance: float) -> bool:
+    """Whether any of the points lies there, as of `over`: sooner known than which."""
+    return any(part.any() for part in _over_by_parts(points, triangles, tolerance))
+
+
+def _over_by_parts(
+    points: NDArray[Any], triangles: NDArray[Any], tolerance: float
+) -> Iterator[NDArray[Any]]:
+    """`over` of some hundred points after the other."""
     a, ab, ac = (
         triangles[:, 0],
         triangles[:, 1] - triangles[:, 0],
@@ -132,10 +144,7 @@ def over(points: NDArray[Any], triangles: NDArray[Any], tolerance: float) -> NDA
         offset = points[first : first + 256, None] - a
         s = (offset[..., 0] * ac[:, 1] - offset[..., 1] * ac[:, 0]) / double
         t = (offset[..., 1] * ab[:, 0] - offset[..., 0] * ab[:, 1]) / double
-        inside[first : first + 256] = ((s >= -slack) & (t >= -slack) & (s + t <= 1 + slack)).any(
-            axis=1
-        )
-    return inside
+        yield ((s >= -slack) & (t >= -slack) & (s + t <= 1 + slack)).any(axis=1)
 
 
 def apart(points: NDArray[Any], sides: NDArray[Any]) -> NDArray[Any]:

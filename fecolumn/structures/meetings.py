@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fecolumn.case.case import Case
 from fecolumn.case.joint import Interface
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.faces import SAME_PLANE, Face, over, triangles_of
+from fecolumn.structures.faces import SAME_PLANE, Face, any_over, triangles_of
 from fecolumn.structures.feet import ball_of
 from fecolumn.structures.overlaps import common_ball, depth_along
 from fecolumn.structures.patches import plane_box
@@ -337,6 +337,7 @@ def _of_pair(
     found: list[Meeting] = []
     gaps: list[_Gap] = []
     place = place_of(case, slave)
+    normals = np.array([face.normal for face in faces[master[0]]] if master else []).reshape(-1, 3)
     for number, face in enumerate(faces[slave[0]]):
         box = plane_box(face)
         width = min(box[1] - box[0], box[3] - box[2])
@@ -350,11 +351,11 @@ def _of_pair(
                     gaps.append(_Gap(replace(meeting, gap=gap), gap, width))
             continue
         offset = place - place_of(case, master)
-        for other_number, other in enumerate(faces[master[0]]):
-            if np.linalg.norm(face.normal + other.normal) > _OPPOSITE or (
-                twice and not _is_upper(face, slave, master)
-            ):
-                continue
+        if twice and not _is_upper(face, slave, master):
+            continue
+        away = np.linalg.norm(face.normal + normals, axis=1)
+        for other_number in np.flatnonzero(away <= _OPPOSITE).tolist():
+            other = faces[master[0]][other_number]
             gap = -(face.offset + face.normal @ offset) - other.offset
             corners = (face.corners + offset) @ other.axes[:, :2]
             if not _overlap(face, corners, other):
@@ -424,4 +425,4 @@ def _overlap(face: Face, corners: NDArray[Any], other: Face) -> bool:
         )
 
     mine, theirs = (triangles_of(quads) for quads in (corners, plane))
-    return bool(over(tried(corners), theirs, edge).any() or over(tried(plane), mine, edge).any())
+    return any_over(tried(corners), theirs, edge) or any_over(tried(plane), mine, edge)

@@ -70,6 +70,14 @@ def test_each_step_is_of_one_kind_and_the_first_that_holds(tmp_path):
     assert "| with an impact | 1 | 36% | 8 | 8 | 8 | 3 | 7 |" in step_table(rows)
 
 
+def test_what_a_call_takes_is_no_part_of_its_step(tmp_path):
+    times = StepTimes(Record(), call_s=3e-6)
+    for spent in (8e-6, 2e-6):
+        times.note(0.0, spent, 1, Record())
+    times.write(tmp_path)
+    assert read_step_times(tmp_path / STEP_TIMES_FILE)[:, 1] == pytest.approx([5.0, 0.0])
+
+
 @pytest.mark.parametrize("engine", ["rigid", "full"])
 def test_profile_of_a_run_has_each_step_and_all_its_counts(engine, tmp_path, capsys):
     case, out = tmp_path / "case.toml", tmp_path / "out"
