@@ -4,8 +4,10 @@ without end, names that cannot be.
 
 from __future__ import annotations
 
+import codecs
 import json
 import os
+import re
 import stat
 from pathlib import Path
 from typing import Any, NoReturn
@@ -80,3 +82,25 @@ def read_json(path: Path | str, most: int = _MOST_BYTES) -> Any:
 
 def _no_number(word: str) -> NoReturn:
     raise ValueError(f"{word} is no number")
+
+
+def read_any_text(path: Path | str) -> str:
+    """Text of a file in UTF-8 or, with its mark, UTF-16, as programs for tables write them, else in
+    Latin-1, as in older headers; without byte order mark.
+
+    Raises
+    ------
+    Unreadable
+        as of `read_bytes`, or not text: it holds control characters.
+    """
+    data = read_bytes(path).rstrip(b"\x1a")  # DOS marked the end of a text so
+    wide = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
+    for encoding in ("utf-16",) if wide else ("utf-8-sig", "latin-1"):
+        try:
+            text = data.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+        if not re.search(r"[\x00-\x08\x0e-\x1f\x7f]", text):
+            return text
+        break
+    raise Unreadable("is not a text file (it holds control characters)")

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.foundation.files import Unreadable, read_bytes
+from fecolumn.foundation.files import Unreadable, read_any_text
 from fecolumn.motions.record import UnusableRecord
 
 _SPELLINGS = {
@@ -38,7 +37,7 @@ ACCELERATIONS = "g, %g, mg, m/s2, cm/s2, mm/s2, ft/s2 or in/s2"
 
 
 def read_text(path: Path | str) -> str:
-    """Text of a file in UTF-8, or else Latin-1 as in older headers; without byte order mark.
+    """Text of a file, as of `read_any_text`.
 
     Raises
     ------
@@ -46,16 +45,9 @@ def read_text(path: Path | str) -> str:
         there is no such file, it may not be read, is empty, or is not text.
     """
     try:
-        data = read_bytes(path)
+        text = read_any_text(path)
     except Unreadable as error:
         raise UnusableRecord(str(error)) from None
-    data = data.rstrip(b"\x1a")  # DOS marked the end of a text so
-    if re.search(rb"[\x00-\x08\x0e-\x1f\x7f]", data):
-        raise UnusableRecord("is not a text file (it holds control characters)")
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = data.decode("latin-1")
     if not text.strip():
         raise UnusableRecord("is empty")
     return text

@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from fecolumn.foundation.files import Unreadable, read_bytes
+from fecolumn.foundation.files import Unreadable, read_any_text
 from fecolumn.foundation.schema import InputError
 
 #: What may stand behind the last cell of a line; a line of nothing else is blank.
@@ -96,14 +96,12 @@ def read_csv(path: Path, needed: str) -> tuple[list[str], list[tuple[int, list[s
     Raises
     ------
     InputError
-        no such file, not text in UTF-8, no line below the header, quotes that do not end.
+        no such file, not text, no line below the header, quotes that do not end.
     """
     try:
-        text = read_bytes(path).decode("utf-8-sig")
+        text = read_any_text(path)
     except Unreadable as error:
         raise InputError(path, "", None, str(error)) from None
-    except UnicodeDecodeError as error:
-        raise InputError(path, "", None, f"cannot be read as text in UTF-8 ({error})") from None
     lines = [
         (number, line)
         for number, line in enumerate(re.split(r"\r\n|\n|\r", text), 1)
