@@ -10,11 +10,12 @@ import pstats
 PARTS = {
     ("fem/effective.py", "solve"): "solves with the effective matrix",
     ("fem/foot.py", "position"): "filtered positions of the foot",
+    ("fem/foot.py", "acceleration"): "motion by contact forces",
+    ("fem/foot.py", "displacement"): "motion by contact forces",
     ("dynamics/interface.py", "solve"): "contact problem",
     ("dynamics/interface.py", "begin_step"): "rolling of the rim",
-    ("fem/total_lagrangian.py", "internal"): "internal forces and energy",
+    ("fem/composite.py", "internal"): "internal forces and energy",
     ("fem/total_lagrangian.py", "tangent"): "tangent",
-    ("fem/corotated.py", "internal"): "internal forces and energy",
 }
 
 

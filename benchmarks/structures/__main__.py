@@ -194,6 +194,7 @@ def wall_costs(folder: Path) -> None:
 def large_costs(folder: Path) -> None:
     """Of a large structure in full order, on all ranks."""
     found = large.costs(MPI.COMM_WORLD)
+    parts = found.pop("parts")
     if MPI.COMM_WORLD.rank == 0:
         write_csv(folder / "large.csv", [list(found), list(found.values())])
         print(
@@ -207,6 +208,9 @@ def large_costs(folder: Path) -> None:
             f"{found['tilt_rad']:.4f} "
             f"| {found['rocking_s']:.3f}, {found['rocking_iterations']:.2f} |"
         )
+        print("\n| what a step goes to | standing [%] | rocking [%] |\n|---|---:|---:|")
+        for name in parts[0]:
+            print(f"| {name} | " + " | ".join(f"{100 * part[name]:.0f}" for part in parts) + " |")
 
 
 PARTS = dict(

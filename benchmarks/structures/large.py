@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.profile import shares
 from fecolumn.case.case import case_from_tables
 from fecolumn.engines.full_analysis import FullAnalysis
 from fecolumn.foundation.toml_file import merge
@@ -53,19 +54,20 @@ def temple_case(size: float = SIZE, dt: float = 1e-3):
     )
 
 
-def costs(comm, standing: int = 20, rocking: int = 50) -> dict:
+def costs(comm, standing: int = 20, rocking: int = 50, parted: int = 10) -> dict:
     """Degrees of freedom; time [s] until the first step; CPU time [s] and iterations of a step, the
-    median of those that stand and the mean of those that rock.
+    median of those that stand and the mean of those that rock; and the share of the time of what
+    the next `parted` steps of each do.
     """
     began, case = time.perf_counter(), temple_case()
     with tempfile.TemporaryDirectory() as folder:
         analysis = FullAnalysis(case, Path(folder), comm, "large", True)
-        start, dt = time.perf_counter() - began, case.integration.dt_s
-        spent, iterations = [], []
-        for step in range(1, standing + ROCKS + rocking + 1):
-            amplitude, at = (
-                (STILL, step * dt) if step <= standing else (SHAKEN, (step - standing) * dt)
-            )
+        start, spent, iterations = time.perf_counter() - began, [], []
+
+        def make(step: int) -> None:
+            still = step <= standing + parted
+            amplitude = STILL if still else SHAKEN
+            at = case.integration.dt_s * (step if still else step - standing - parted)
             ground = amplitude * np.array(
                 [
                     math.sin(2 * math.pi * RATES[0] * at),
@@ -77,6 +79,16 @@ def costs(comm, standing: int = 20, rocking: int = 50) -> dict:
             analysis.state = analysis.stepper.step(analysis.state, ground)
             spent.append(time.process_time() - clock)
             iterations.append(analysis.stepper.record.iterations - before)
+
+        parts = []
+        for steps in (standing, ROCKS + rocking):
+            for _ in range(steps):
+                make(len(spent) + 1)
+            with shares() as part:
+                for _ in range(parted):
+                    make(len(spent) + 1)
+            parts.append(part)
+        rocked = slice(-parted - rocking, -parted)
         tilt = max(
             float(value)
             for name, value in analysis.observer.measure(analysis.state).items()
@@ -87,8 +99,9 @@ def costs(comm, standing: int = 20, rocking: int = 50) -> dict:
             ranks=comm.size,
             start_s=start,
             standing_s=float(np.median(spent[2:standing])),
-            rocking_s=float(np.mean(spent[-rocking:])),
+            rocking_s=float(np.mean(spent[rocked])),
             standing_iterations=float(np.mean(iterations[:standing])),
-            rocking_iterations=float(np.mean(iterations[-rocking:])),
+            rocking_iterations=float(np.mean(iterations[rocked])),
             tilt_rad=tilt,
+            parts=parts,
         )
