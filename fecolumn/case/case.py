@@ -69,7 +69,7 @@ class Case:
     joints
         Joint by name: what stands on what.
     links
-        Tendon, Spring, Restrainer, Strut, Stop, Dashpot, FrictionDamper by name.
+        Tendon, Spring, Restrainer, Strut, GapStop, Dashpot, FrictionDamper by name.
     grounds
         Ground by name; left out: "ground", a rigid flat at z = 0.
     materials
