@@ -8,7 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from fecolumn.contact.arrays import put_matrix
 from fecolumn.contact.blocks import find_blocks
+from fecolumn.contact.tolerances import HARDLY_REGULAR
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
 
@@ -40,9 +42,10 @@ def no_blocks(n: int) -> Blocked:
 
 
 @njit
-def factorize(W: Array, factor: Blocked) -> None:
+def factorize(W: Array, factor: Blocked) -> bool:
     """Find the factor of a symmetric positive definite W (3 n, 3 n): of each block, once those
-    before are eliminated, its inverse D^-1, and D^-1 times what couples it to those after it.
+    before are eliminated, its inverse D^-1, and D^-1 times what couples it to those after it. False
+    where W is singular: where points move by fewer ways than they have.
     """
     blocks = find_blocks(W)
     g = len(blocks.coupled)
@@ -56,7 +59,9 @@ def factorize(W: Array, factor: Blocked) -> None:
         )
     _take_blocks(W, blocks.coupled, factor)
     for k in range(g):
-        _eliminate_block(factor, k)
+        if not _eliminate_block(factor, k):
+            return False
+    return True
 
 
 @njit
@@ -100,12 +105,22 @@ def _block(blocked: Blocked, k: int, l: int) -> Array:
 
 
 @njit
-def _eliminate_block(factor: Blocked, k: int) -> None:
+def _eliminate_block(factor: Blocked, k: int) -> bool:
     """Invert block k, take from the later ones what it does to them, and divide what couples it to
-    them by it.
+    them by it; False where it is singular.
     """
     own = _block(factor, k, k)
-    inverse = np.linalg.inv(own)
+    inverse = np.empty_like(own)
+    try:
+        put_matrix(np.linalg.inv(own), inverse)
+    except Exception:
+        return False
+    size = found = 0.0
+    for i in range(len(own)):
+        for j in range(len(own)):
+            size, found = max(size, abs(own[i, j])), max(found, abs(inverse[i, j]))
+    if not size * found < HARDLY_REGULAR:
+        return False
     for i in range(len(own)):
         for j in range(i + 1):
             inverse[i, j] = inverse[j, i] = own[i, j] = own[j, i] = (
@@ -129,6 +144,7 @@ def _eliminate_block(factor: Blocked, k: int) -> None:
         for i in range(len(beside)):
             for j in range(beside.shape[1]):
                 beside[i, j] = divided[i, j]
+    return True
 
 
 @njit

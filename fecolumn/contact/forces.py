@@ -125,8 +125,8 @@ def find_residual(
                     stick, bodies, base, points, listed, springs, dynamic, rigid, rims, poses
                 )
                 counts[N_ASSEMBLED] += 1
-                problem.flags[STICKS_STILL] = sticks = True
-                stale = not problem.flags[IN_PLACE]
+                problem.flags[STICKS_STILL] = sticks = stick.key[1] == 1.0
+                stale = sticks and not problem.flags[IN_PLACE]
     if stale and stick.key[2] == 0.0:
         _displace_all(stick, listed, after, problem.displaced)
     else:

@@ -161,7 +161,7 @@ def find_stick(
     poses: Array,
 ) -> None:
     """Find the operator of feet of which all points, the listed ones (k,), stand; further arguments
-    as of `compliance.assemble`.
+    as of `compliance.assemble`. Where their compliance is singular there is none: key[1] stays 0.
     """
     k, arms = len(listed), np.empty((len(points), 3))
     for i in listed:
@@ -187,8 +187,10 @@ def find_stick(
         stick.rho_all[j] = stiffness_together(W, j)
         for a in range(3):
             static[3 * j + a, 3 * j + a] -= springs.own[listed[j], a]
-    factorize(W, stick.factor)
-    divide(static, stick.factor, stick.static)
+    if factorize(W, stick.factor):
+        divide(static, stick.factor, stick.static)
+    else:
+        stick.key[1] = 0.0
 
 
 @njit

@@ -102,6 +102,10 @@ YIELDED_GIVES = 1e4
 #: A foot that in one step moves by less than this share of the above will stay long enough for the
 #: operator to pay.
 STICK_STAYS = 0.2
+#: Largest entry of a compliance times that of its inverse from which points that stand have no
+#: stick operator: some move by fewer ways than they have, as those of a stone that bears on two.
+#: Feet on their nodes have 1e2 to 1e5.
+HARDLY_REGULAR = 1e9
 
 # --- Bodies that do not deform
 # --------------------------------------------------------------------------------------------------

@@ -353,7 +353,9 @@ def _transfer_contact_state(
         else:
             for a in range(3):
                 now.force[a] = 0.0
-            place.lift = max(0.0, -gap if was.located else -place.gap)
+            # above the surface it keeps no more than its lift, whatever the bodies bend by
+            high = min(-place.gap, place_was.lift + before[2] - after[2])
+            place.lift = max(0.0, -gap if was.located else high)
         now.relative[2], now.beyond = gap + place.lift, False
     now.present = True
     put(place.arm, now.arm)
