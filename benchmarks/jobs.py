@@ -4,10 +4,9 @@
 
 Runs the blocks of `fecolumn/case/manual/jobs.md` in their order in DIR (default: a new folder) and
 prints two tables: the answers that the page quotes, and what each job takes. Lines of input are
-those of TOML files and Python that hold a key
-or a statement; scans, records and measured tests are data. Minutes are of the processor, of all
-processes together; kernels are compiled beforehand, and reduced models that the machine has of
-earlier runs are taken again.
+those of TOML files and Python that hold a key or a statement; scans, records and measured tests are
+data. Minutes are of the processor, of all processes together; kernels are compiled beforehand, and
+reduced models that the machine has of earlier runs are taken again.
 """
 
 from __future__ import annotations

@@ -221,7 +221,8 @@ def _take_levers(stick: Stick, coupling: Coupling) -> None:
                         value = stick.levers[j, a, 6 * side + c] / stick.own[j, a]
                         for e in range(6):
                             S[top + c, left + e] += value * stick.levers[j, a, 6 * other + e]
-    factorize(S, stick.factor)
+    if not factorize(S, stick.factor):
+        stick.key[1] = 0.0
 
 
 @njit
