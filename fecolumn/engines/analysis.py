@@ -436,6 +436,7 @@ class Analysis:
             self.barrier_j,
             self.limits()["critical_tilt_rad"],
             len(self.case.bodies) <= 1,
+            self.case.integration.engine == "rigid",
         )
 
     def write_results(self, ending: Ending, dofs: int, more: dict[str, Any]) -> dict[str, Any]:

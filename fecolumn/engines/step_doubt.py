@@ -3,7 +3,8 @@
 Two signs are looked at, both of the analysis itself and without any trial. Rocking between two
 landings that takes N steps is off in its period by (pi / N)^2 / 12, the error of the trapezoidal
 rule at an angular frequency of pi / (N dt). Impacts that take more than those of rigid bodies do
-so because of the step: elastic bodies take 0.8 of it in the limit (theory, section 4).
+so because of the step: in the limit rigid bodies take all of it, elastic ones 0.8 (theory,
+section 4).
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ def step_doubt(
     barrier_j: float,
     critical: float | None,
     alone: bool,
+    rigid: bool,
 ) -> str | None:
     """What is doubtful of the step, in words; None where nothing is.
 
@@ -51,6 +53,8 @@ def step_doubt(
         tilt beyond which the column falls [rad]; None where it is not known.
     alone
         whether it is one body, whose landings follow each other.
+    rigid
+        whether all bodies are rigid.
     """
     tilts = [rows[name] for name in rows if name.startswith("body/") and name.endswith("/tilt")]
     if max(float(one.max()) for one in (rows["tilt"], *tilts)) < _ROCKS * (critical or 0.0):
@@ -66,8 +70,9 @@ def step_doubt(
         )
     if share is not None and share > _SHARE:
         said.append(
-            f"impacts took {share:.3g} of what rigid bodies lose, in short steps elastic ones take "
-            "about 0.8: rocking dies out too fast, unless joints slide where they land"
+            f"impacts took {share:.3g} of what rigid bodies lose, in short steps "
+            f"{'they take just that' if rigid else 'elastic ones take about 0.8'}: rocking dies "
+            "out too fast, unless joints slide where they land"
         )
     if not said:
         return None

@@ -17,28 +17,31 @@ def _rows(between, dt, end=2.0):
 
 
 def test_landings_a_few_steps_apart_are_told_with_their_error_and_a_step():
-    said = step_doubt(_rows(0.08, 0.02), 0.02, 1.0, 100.0, 0.3, True)
+    said = step_doubt(_rows(0.08, 0.02), 0.02, 1.0, 100.0, 0.3, True, False)
     # four steps between landings: (pi / 4)^2 / 12 = 5.1 %
     assert "less than 4 steps after" in said and "off by some 5.1 %" in said
     step = float(said.split("at most ")[1].split(" s")[0])
     assert (np.pi * step / 0.08) ** 2 / 12 < 0.01
-    assert step_doubt(_rows(0.08, step), step, 1.0, 100.0, 0.3, True) is None
+    assert step_doubt(_rows(0.08, step), step, 1.0, 100.0, 0.3, True, False) is None
 
 
 def test_impacts_that_take_more_than_rigid_bodies_lose_are_told():
     rows = _rows(0.4, 1e-3)
     assert "impacts took 1.4 of what rigid bodies lose" in step_doubt(
-        rows, 1e-3, 1.4, 100.0, 0.3, True
+        rows, 1e-3, 1.4, 100.0, 0.3, True, False
     )
-    assert step_doubt(rows, 1e-3, 1.1, 100.0, 0.3, True) is None
+    assert "in short steps they take just that" in step_doubt(
+        rows, 1e-3, 1.4, 100.0, 0.3, True, True
+    )
+    assert step_doubt(rows, 1e-3, 1.1, 100.0, 0.3, True, False) is None
 
 
 def test_nothing_is_said_of_what_hardly_rocks_or_of_bodies_that_land_by_turns():
     rows = _rows(0.08, 0.02)
-    assert step_doubt(rows, 0.02, 1.0, 100.0, 10.0, True) is None
-    assert step_doubt(rows, 0.02, 1.0, 100.0, 0.3, False) is None
+    assert step_doubt(rows, 0.02, 1.0, 100.0, 10.0, True, False) is None
+    assert step_doubt(rows, 0.02, 1.0, 100.0, 0.3, False, False) is None
     assert (
-        step_doubt({**rows, "energy/impact": 0 * rows["time"]}, 0.02, None, 100.0, 0.3, True)
+        step_doubt({**rows, "energy/impact": 0 * rows["time"]}, 0.02, None, 100.0, 0.3, True, False)
         is None
     )
 

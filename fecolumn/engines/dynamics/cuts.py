@@ -21,6 +21,7 @@ class Stop(enum.Enum):
 
     CONVERGED = "converged"
     ITERATIONS = "no convergence within max_iterations"
+    MOTION = "motion and contact forces did not converge"
     CONTACT = "the contact problem did not converge"
     DIVERGED = "the residual grew without bound"
     OFF_BASE = "the foot reached the edge of the base plate"

@@ -32,10 +32,21 @@ if TYPE_CHECKING:
 ) = range(9)
 N_TERMS = LINKS_WORK + 1
 # then the places of `reduced.rigid_loss`. Of all impacts that are over: energy that they have taken
-# from the rigid motion, and energy that rigid bodies would have lost [J]. Of the impact that goes
-# on: its rigid loss, 0 if there is none; energy of the rigid motion before it [J]; its beginning
-# and end [s]; fastest approach [m/s], 0 once nothing approaches
-TAKEN, RIGID_LOSS, IMPACT_LOSS, LEFT, BEGAN, ENDS, APPROACH_SPEED = range(N_TERMS, N_TERMS + 7)
+# from the rigid motion, energy that rigid bodies would have lost, and what friction took meanwhile
+# [J]. Of the impact that goes on: its rigid loss, 0 if there is none; energy of the rigid motion
+# and work of friction before it [J]; its beginning and end [s]; fastest approach [m/s], 0 once
+# nothing approaches
+(
+    TAKEN,
+    RIGID_LOSS,
+    RUBBED,
+    IMPACT_LOSS,
+    LEFT,
+    RUBBED_BEFORE,
+    BEGAN,
+    ENDS,
+    APPROACH_SPEED,
+) = range(N_TERMS, N_TERMS + 9)
 N_PLACES = APPROACH_SPEED + 1
 
 

@@ -28,11 +28,14 @@ from fecolumn.engines.reduced.ledger import (
     BASE_WORK,
     BEGAN,
     ENDS,
+    FRICTION_WORK,
     IMPACT_LOSS,
     LEFT,
     LINKS_WORK,
     RIGID_LOSS,
     ROLLING_WORK,
+    RUBBED,
+    RUBBED_BEFORE,
     TAKEN,
     rigid_kinetic,
     weight_energy,
@@ -49,9 +52,12 @@ if TYPE_CHECKING:
 
 def loss_share(ledger: Array, interfaces: Array) -> float | None:
     """What impacts have taken over what those of rigid bodies would have; None where none counts,
-    or they give back by a coefficient of restitution.
+    they give back by a coefficient of restitution, or friction took more while they lasted than
+    they should: bodies slide where they land.
     """
     if ledger[RIGID_LOSS] == 0 or interfaces["restitution"].any():
+        return None
+    if ledger[RUBBED] > ledger[RIGID_LOSS]:
         return None
     return float(ledger[TAKEN] / ledger[RIGID_LOSS])
 
@@ -259,6 +265,7 @@ def begin_impact(
         rigid_energy(structure, start, booked),
         start.whole[0].time,
     )
+    ledger[RUBBED_BEFORE] = booked[FRICTION_WORK]
 
 
 @njit
@@ -300,4 +307,5 @@ def _book(structure: Structure, motion: MotionState, booked: Array, ledger: Arra
     if ledger[IMPACT_LOSS] > LOSS_COUNTS * weight * width:
         ledger[RIGID_LOSS] += ledger[IMPACT_LOSS]
         ledger[TAKEN] += ledger[LEFT] - rigid_energy(structure, motion, booked)
+        ledger[RUBBED] += ledger[RUBBED_BEFORE] - booked[FRICTION_WORK]
     ledger[IMPACT_LOSS] = 0.0
