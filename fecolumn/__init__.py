@@ -32,19 +32,17 @@ if TYPE_CHECKING:
         Cone,
         Cylinder,
         Matrices,
+        MeshBody,
         Plate,
         Prism,
         Storeys,
         Tube,
     )
-    from fecolumn.case.bodies import Meshed as MeshBody
-    from fecolumn.case.case import Case, case_from_tables, read_case
-    from fecolumn.case.case import read_case as load_case
-    from fecolumn.case.column_keys import Base, Column
-    from fecolumn.case.column_keys import Mesh as MeshSizes
+    from fecolumn.case.case import Case, case_from_tables, load_case
+    from fecolumn.case.column_keys import Base, Column, MeshSizes
     from fecolumn.case.ground import Ground
-    from fecolumn.case.joint import Interface as Joint
-    from fecolumn.case.link import LinkKeys as Link
+    from fecolumn.case.joint import Joint
+    from fecolumn.case.link import Link
     from fecolumn.case.link_kinds import (
         Dashpot,
         FrictionDamper,
@@ -55,11 +53,13 @@ if TYPE_CHECKING:
         Tendon,
     )
     from fecolumn.case.mesh_limits import MeshLimits
-    from fecolumn.case.model_sections import BlockSection as BlockModel
-    from fecolumn.case.model_sections import FrameSection as FrameModel
-    from fecolumn.case.model_sections import PodiumSection as PodiumModel
-    from fecolumn.case.model_sections import WobblingFrameSection as WobblingFrameModel
-    from fecolumn.case.model_sections import WobblingSection as WobblingModel
+    from fecolumn.case.model_sections import (
+        BlockModel,
+        FrameModel,
+        PodiumModel,
+        WobblingFrameModel,
+        WobblingModel,
+    )
     from fecolumn.case.sections import (
         Cap,
         Contact,
@@ -143,7 +143,6 @@ __all__ = [
     "load_motion",
     "motion_file",
     "outcomes",
-    "read_case",
     "read_history",
     "risk",
     "run",
@@ -152,17 +151,17 @@ __all__ = [
     "specimen_mesh",
 ]
 
-# module of each name, and the name there where it is another; as imported above
+# module of each name, as imported above
 _HOMES = {
     "Arch": "case.bodies",
     "Block": "case.bodies",
     "Cone": "case.bodies",
     "Cylinder": "case.bodies",
     "Ground": "case.ground",
-    "Joint": "case.joint:Interface",
-    "Link": "case.link:LinkKeys",
+    "Joint": "case.joint",
+    "Link": "case.link",
     "Matrices": "case.bodies",
-    "MeshBody": "case.bodies:Meshed",
+    "MeshBody": "case.bodies",
     "MeshLimits": "case.mesh_limits",
     "Plate": "case.bodies",
     "Prism": "case.bodies",
@@ -170,8 +169,7 @@ _HOMES = {
     "Tube": "case.bodies",
     "Case": "case.case",
     "case_from_tables": "case.case",
-    "read_case": "case.case",
-    "load_case": "case.case:read_case",
+    "load_case": "case.case",
     "Dashpot": "case.link_kinds",
     "FrictionDamper": "case.link_kinds",
     "GapStop": "case.link_kinds",
@@ -190,14 +188,14 @@ _HOMES = {
     "Overturn": "case.sections",
     "Base": "case.column_keys",
     "Column": "case.column_keys",
-    "MeshSizes": "case.column_keys:Mesh",
+    "MeshSizes": "case.column_keys",
     "ShortForm": "case.short_form",
     "read_history": "engines.dynamics.history",
-    "BlockModel": "case.model_sections:BlockSection",
-    "FrameModel": "case.model_sections:FrameSection",
-    "WobblingModel": "case.model_sections:WobblingSection",
-    "WobblingFrameModel": "case.model_sections:WobblingFrameSection",
-    "PodiumModel": "case.model_sections:PodiumSection",
+    "BlockModel": "case.model_sections",
+    "FrameModel": "case.model_sections",
+    "WobblingModel": "case.model_sections",
+    "WobblingFrameModel": "case.model_sections",
+    "PodiumModel": "case.model_sections",
     "InputError": "foundation.schema",
     "specimen_mesh": "mesh.specimen",
     "motion_file": "motions.array",
@@ -219,14 +217,22 @@ _HOMES = {
 }
 
 
+# names of earlier versions, and those of this one
+_OLDER = {"read_case": "load_case"}
+
+
 def __getattr__(name: str) -> object:
     """Import on first use, so that `fecolumn --help` does not wait for dolfinx."""
-    if name not in _HOMES:
-        raise AttributeError(f"module fecolumn has no attribute {name!r}")
     import importlib
 
-    module, _, there = _HOMES[name].partition(":")
-    return getattr(importlib.import_module(f"fecolumn.{module}"), there or name)
+    if name in _OLDER:
+        from fecolumn.foundation.deprecated import warn_of_older_name
+
+        warn_of_older_name("script", f"fecolumn.{name}", f"fecolumn.{_OLDER[name]}")
+        name = _OLDER[name]
+    if name not in _HOMES:
+        raise AttributeError(f"module fecolumn has no attribute {name!r}")
+    return getattr(importlib.import_module(f"fecolumn.{_HOMES[name]}"), name)
 
 
 def __dir__() -> list[str]:

@@ -221,11 +221,11 @@ def _completion(args: argparse.Namespace) -> int:
 
 
 def _mesh(args: argparse.Namespace) -> int:
-    from fecolumn.case.case import read_case
+    from fecolumn.case.case import load_case
     from fecolumn.foundation.folder import written
     from fecolumn.pictures.mesh_report import FILES, mesh_report
 
-    case = read_case(args.case)
+    case = load_case(args.case)
     for table in case.own:
         from fecolumn.foundation.schema import InputError
 
@@ -270,9 +270,9 @@ def _prepare(args: argparse.Namespace) -> int:
 
 
 def _run(args: argparse.Namespace) -> int:
-    from fecolumn.case.case import read_case
+    from fecolumn.case.case import load_case
 
-    return _analyse(read_case(args.case), args.output, args.case, args.quiet, args.profile)
+    return _analyse(load_case(args.case), args.output, args.case, args.quiet, args.profile)
 
 
 def _resume(args: argparse.Namespace) -> int:

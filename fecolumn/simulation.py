@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from fecolumn.case.case import Case, read_case
+from fecolumn.case.case import Case, load_case
 from fecolumn.case.check_case import check, check_duration
 from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.engines.analysis import Analysis, AnalysisFailed
@@ -56,6 +56,12 @@ def run(
         asked after every step whether to save and raise KeyboardInterrupt; see
         `fecolumn.foundation.interrupt`.
 
+    Returns
+    -------
+    dict
+        entries of summary.json by name, each with its unit there in its name or on the manual's
+        page outputs.
+
     Raises
     ------
     InputError
@@ -70,7 +76,7 @@ def run(
 
     comm = comm or MPI.COMM_WORLD
     if isinstance(case, (str, Path)):
-        case, file = read_case(case), str(case)
+        case, file = load_case(case), str(case)
     if not isinstance(case, Case):
         raise TypeError(
             f"run takes a Case or the path of a case file, not {type(case).__name__}; "

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.case.case_tables import type_of
 from fecolumn.case.sections import DEFAULT
 from fecolumn.case.short_form import finished
@@ -33,27 +33,27 @@ def _folder(path, acceleration="0.1"):
 
 def test_id_outlives_a_move_and_sees_a_changed_motion(tmp_path):
     here = _folder(tmp_path / "here")
-    first = read_case(here / "case.toml").id
+    first = load_case(here / "case.toml").id
     shutil.copytree(here, tmp_path / "there")
-    assert read_case(tmp_path / "there" / "case.toml").id == first
-    assert read_case(_folder(tmp_path / "changed", "0.2") / "case.toml").id != first
+    assert load_case(tmp_path / "there" / "case.toml").id == first
+    assert load_case(_folder(tmp_path / "changed", "0.2") / "case.toml").id != first
 
 
 def test_id_ignores_title_and_output_but_no_number(tmp_path):
     folder = _folder(tmp_path / "case")
     file = folder / "case.toml"
-    first, text = read_case(file).id, file.read_text()
+    first, text = load_case(file).id, file.read_text()
     file.write_text('title = "other"\n' + text + "[output]\nhistory_every_s = 0.1\n")
-    assert read_case(file).id == first
+    assert load_case(file).id == first
     file.write_text(text + "[contact]\nfriction_coefficient = 0.31\n")
-    assert read_case(file).id != first
+    assert load_case(file).id != first
 
 
 def test_ids_of_the_specimens_stay():
     """Sizes that are stated are taken as stated; keys that came later say nothing at their
     default.
     """
-    assert [read_case(SPECIMEN.with_name(name)).id for name in ("specimen.toml", "stout.toml")] == [
+    assert [load_case(SPECIMEN.with_name(name)).id for name in ("specimen.toml", "stout.toml")] == [
         "25ab2f2f1c54",
         "0e77740b1867",
     ]
@@ -65,18 +65,18 @@ def test_the_full_form_is_the_same_case(tmp_path, capsys, name):
     both forms take the same changes.
     """
     file = SPECIMEN.with_name(f"{name}.toml")
-    case = read_case(file)
+    case = load_case(file)
     for options in ([], ["--all"]):
         assert main(["show", str(file), *options]) == 0
         (tmp_path / "full.toml").write_text(capsys.readouterr().out)
-        full = read_case(tmp_path / "full.toml")
+        full = load_case(tmp_path / "full.toml")
         assert full == case and full.id == case.id and full.short is None
     change = {"contact.friction_coefficient": 0.41}
     assert full.replace(change) == case.replace(change)
 
 
 def test_joints_of_earlier_versions_are_read_by_their_name_then():
-    tables = read_case(SPECIMEN.with_name("two_blocks.toml")).tables()
+    tables = load_case(SPECIMEN.with_name("two_blocks.toml")).tables()
     older = {("interfaces" if name == "joints" else name): one for name, one in tables.items()}
     case = case_from_tables(older, "case.toml")
     assert case == case_from_tables(tables, "case.toml")
@@ -89,14 +89,14 @@ def test_joints_of_earlier_versions_are_read_by_their_name_then():
 
 
 def test_an_older_name_is_said_once_with_the_one_to_write(tmp_path, capsys):
-    tables = read_case(SPECIMEN.with_name("two_blocks.toml")).tables()
+    tables = load_case(SPECIMEN.with_name("two_blocks.toml")).tables()
     case = case_from_tables(tables, tmp_path / "older.toml")
     text = case.to_toml().replace("[joints", "[interfaces")
     (tmp_path / "older.toml").write_text(text)
     told = f"{tmp_path / 'older.toml'}: [interfaces] is an older name of [joints]"
     with pytest.warns(DeprecationWarning) as caught:
-        assert read_case(tmp_path / "older.toml") == case
-        assert read_case(tmp_path / "older.toml") == case
+        assert load_case(tmp_path / "older.toml") == case
+        assert load_case(tmp_path / "older.toml") == case
     assert [str(one.message).startswith(told) for one in caught] == [True]
     with pytest.warns(DeprecationWarning, match="case: interfaces.x.law .* write joints.x.law"):
         type_of("interfaces.x.law")
@@ -106,7 +106,7 @@ def test_an_older_name_is_said_once_with_the_one_to_write(tmp_path, capsys):
 
 
 def test_a_case_of_the_short_form_takes_keys_of_both():
-    case = read_case(SPECIMEN)
+    case = load_case(SPECIMEN)
     taller = case.replace({"column.height_m": 1.2})
     assert taller.bodies["column"].height_m == 1.2 and taller.short
     full = case.replace({"bodies.column.height_m": 1.2})
@@ -128,7 +128,7 @@ def test_messages_of_the_short_form_name_its_own_keys(tmp_path):
         "thickness_m = 0.01\n"
     )
     with pytest.raises(InputError) as refusal:
-        read_case(tmp_path / "case.toml")
+        load_case(tmp_path / "case.toml")
     assert refusal.value.key == "flange.outer_diameter_m"
 
 
@@ -148,7 +148,7 @@ def test_keys_of_a_pad_belong_to_a_pad_and_a_pad_needs_its_stiffness(tmp_path, l
     file = _folder(tmp_path / "case") / "case.toml"
     file.write_text(file.read_text() + f"[base]\n{lines}\n")
     with pytest.raises(InputError) as refusal:
-        read_case(file)
+        load_case(file)
     assert all(word in str(refusal.value) for word in words)
 
 
@@ -157,22 +157,22 @@ def test_unbounded_base_needs_no_room_for_the_foot(tmp_path):
     text = file.read_text() + "[base]\nlength_m = 0.05\n"
     file.write_text(text)
     with pytest.raises(InputError, match="base.length_m"):
-        read_case(file)
+        load_case(file)
     file.write_text(text + 'kind = "unbounded"\n')
-    assert len(specimen_mesh(read_case(file).short).base.cells) == 0
+    assert len(specimen_mesh(load_case(file).short).base.cells) == 0
 
 
 @pytest.mark.parametrize("section, key", YOUNGER)
 def test_a_key_younger_than_the_first_studies_makes_another_case_where_it_is_set(
     tmp_path, section, key
 ):
-    first = read_case(SPECIMEN).id
+    first = load_case(SPECIMEN).id
     value = YOUNGER[section, key]
     (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[{section}]\n{key} = {value}\n')
-    assert read_case(tmp_path / "case.toml").id != first
+    assert load_case(tmp_path / "case.toml").id != first
     nothing = [0.0] * 3 if isinstance(value, list) else 0.0
     (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n[{section}]\n{key} = {nothing}\n')
-    assert read_case(tmp_path / "case.toml").id == first
+    assert load_case(tmp_path / "case.toml").id == first
 
 
 @pytest.mark.parametrize(
@@ -197,7 +197,7 @@ def test_a_key_younger_than_the_first_studies_makes_another_case_where_it_is_set
 def test_losses_and_starts_that_cannot_be_are_refused_by_name(tmp_path, text, key):
     (tmp_path / "case.toml").write_text(f'extends = "{SPECIMEN}"\n{text}\n')
     with pytest.raises(InputError, match=key):
-        read_case(tmp_path / "case.toml")
+        load_case(tmp_path / "case.toml")
 
 
 @pytest.mark.parametrize("engine", ["reduced", "rigid"])
@@ -207,7 +207,7 @@ def test_keys_that_an_engine_would_ignore_are_refused_with_what_to_do(tmp_path, 
         (tmp_path / "case.toml").write_text(
             f'extends = "{SPECIMEN}"\n[integration]\nengine = "{engine}"\n{text}\n'
         )
-        return read_case(tmp_path / "case.toml")
+        return load_case(tmp_path / "case.toml")
 
     with pytest.raises(
         InputError,
@@ -224,7 +224,7 @@ def test_a_block_has_no_rim_to_resist_rolling(tmp_path):
         f'extends = "{block}"\n[contact]\nrolling_resistance = 1e-3\n'
     )
     with pytest.raises(InputError, match="contact.rolling_resistance.*only a round foot rolls"):
-        read_case(tmp_path / "case.toml")
+        load_case(tmp_path / "case.toml")
 
 
 @pytest.mark.parametrize(
@@ -237,5 +237,5 @@ def test_a_block_has_no_rim_to_resist_rolling(tmp_path):
 )
 def test_finishing_a_finished_case_changes_nothing(tmp_path, column):
     (tmp_path / "case.toml").write_text(f"[column]\n{column}\n")
-    case = read_case(tmp_path / "case.toml")
+    case = load_case(tmp_path / "case.toml")
     assert finished(case.short, "case.toml") == case.short

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fecolumn.case.case import read_case
+from fecolumn.case.case import load_case
 from fecolumn.case.sections import Contact
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.toml_file import read_toml
@@ -33,7 +33,7 @@ def test_missing_unknown_and_impossible_keys_are_told_together(tmp_path):
         "0.2\n[contact]\nfriction_coefficient = -1\n[base]\nlength_m = 'wide'\n",
     )
     with pytest.raises(InputError) as caught:
-        read_case(path)
+        load_case(path)
     lines = str(caught.value).split("\n")
     assert all(line.startswith(f"{path}: ") for line in lines)
     assert {error.key for error in caught.value.all} == {
@@ -75,7 +75,7 @@ def test_files_that_extend_one_another_in_a_circle_are_told(tmp_path, files):
     with pytest.raises(
         InputError, match="itself" if files == 1 else "in a circle: 0.toml -> 1.toml -> "
     ) as caught:
-        read_case(tmp_path / "0.toml")
+        load_case(tmp_path / "0.toml")
     assert caught.value.key == "extends" and "\n" not in str(caught.value)
 
 
@@ -83,14 +83,14 @@ def test_endless_chain_of_files_is_refused(tmp_path):
     for number in range(200):
         _write(tmp_path, f'extends = "{number + 1}.toml"\n', f"{number}.toml")
     with pytest.raises(InputError, match="at most 50 files"):
-        read_case(tmp_path / "0.toml")
+        load_case(tmp_path / "0.toml")
 
 
 def test_section_set_to_false_takes_away_what_extends_brought(tmp_path):
-    bare = read_case(
+    bare = load_case(
         _write(tmp_path, f'extends = "{STOUT}"\ncap = false\nmotion = false\nmaterial = false\n')
     ).short
-    whole = read_case(STOUT).short
+    whole = load_case(STOUT).short
     assert (
         whole.cap
         and bare.cap is None
@@ -99,7 +99,7 @@ def test_section_set_to_false_takes_away_what_extends_brought(tmp_path):
     )
     # what must be there is as if the file said nothing of it
     assert bare.material == type(whole.material)()
-    again = read_case(
+    again = load_case(
         _write(
             tmp_path,
             'extends = "case.toml"\n[cap]\nlength_m = 0.2\nwidth_m = 0.2\nthickness_m = 0.02\n',
@@ -137,23 +137,23 @@ def test_study_varies_a_column_with_cap_and_without(tmp_path):
     ],
 )
 def test_no_invalid_section_can_be_made_from_python(section, key, value):
-    case = read_case(STOUT)
+    case = load_case(STOUT)
     with pytest.raises(InputError, match=f"^case: {section}.{key}"):
         dataclasses.replace(getattr(case.short, section), **{key: value})
 
 
 def test_the_mesh_of_a_structure_is_named_as_in_its_file():
     with pytest.raises(InputError, match="^case: mesh.limit_dofs = 3"):
-        dataclasses.replace(read_case(STOUT).mesh, limit_dofs=3)
+        dataclasses.replace(load_case(STOUT).mesh, limit_dofs=3)
 
 
 def test_case_takes_only_sections_of_their_kind():
     with pytest.raises(InputError, match="contact.*must be a Contact"):
-        dataclasses.replace(read_case(STOUT), contact=0.3)
+        dataclasses.replace(load_case(STOUT), contact=0.3)
 
 
 def test_numbers_of_numpy_and_whole_numbers_make_the_same_case():
-    case = read_case(STOUT)
+    case = load_case(STOUT)
     ids = {
         dataclasses.replace(case, contact=Contact(friction_coefficient=value)).id
         for value in (1, 1.0, np.float64(1), np.float32(1), np.int64(1))
@@ -162,7 +162,7 @@ def test_numbers_of_numpy_and_whole_numbers_make_the_same_case():
 
 
 def test_run_checks_what_no_single_key_can_know(tmp_path):
-    case = read_case(STOUT)
+    case = load_case(STOUT)
     wrong = dataclasses.replace(case.bodies["column"], wall_m=1.0)
     with pytest.raises(InputError, match="bodies.column.wall_m.*outer radius"):
         run(dataclasses.replace(case, bodies={"column": wrong}), tmp_path / "out")
@@ -212,7 +212,7 @@ HUGE = "9" * 5000
 )
 def test_dirt_in_a_case_is_one_line(tmp_path, text, said):
     with pytest.raises(InputError) as caught:
-        case = read_case(_write(tmp_path, f'extends = "{STOUT}"\n{text}\n'))
+        case = load_case(_write(tmp_path, f'extends = "{STOUT}"\n{text}\n'))
         from fecolumn.motions.load import load_motion
 
         load_motion(case.motion, 1e-3, "case.toml")

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from fecolumn import simulation
-from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.cli import main
 from fecolumn.engines.analysis import energy_closure
 from fecolumn.engines.ending import ending_text
@@ -280,7 +280,7 @@ def test_case_with_a_motion_runs_all_of_it(tmp_path):
             f'extends = "{Path("meshes").resolve() / specimen}.toml"\n[motion]\nsource '
             f'= "{source}"\n'
         )
-        assert read_case(tmp_path / f"{specimen}.toml").integration.duration_s == 0
+        assert load_case(tmp_path / f"{specimen}.toml").integration.duration_s == 0
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         warnings.filterwarnings("ignore", ".*between its rows")

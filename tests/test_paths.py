@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fecolumn.case.case import read_case
+from fecolumn.case.case import load_case
 from fecolumn.foundation.schema import InputError
 from fecolumn.study.plan import read_plan
 
@@ -54,7 +54,7 @@ def three(tmp_path):
 
 
 def test_motion_of_a_chain_over_three_folders_is_that_beside_the_file_that_names_it(three):
-    case = read_case(three / "c" / "case.toml")
+    case = load_case(three / "c" / "case.toml")
     assert (
         case.motion.source == str(three / "a" / "motion.csv")
         and case.motion.scale == 0.5
@@ -62,32 +62,32 @@ def test_motion_of_a_chain_over_three_folders_is_that_beside_the_file_that_names
     )
     (three / "b" / "motion.csv").unlink()
     (three / "c" / "motion.csv").unlink()
-    assert read_case(three / "c" / "case.toml").id == case.id
+    assert load_case(three / "c" / "case.toml").id == case.id
     _write(
         three / "b" / "case.toml",
         'extends = "../a/case.toml"\n[motion]\nsource = "own/motion.csv"\n',
     )
-    assert read_case(three / "c" / "case.toml").motion.source == str(
+    assert load_case(three / "c" / "case.toml").motion.source == str(
         three / "b" / "own" / "motion.csv"
     )
 
 
 def test_names_of_records_and_absolute_paths_stay(three):
     _write(three / "a" / "case.toml", COLUMN + '[motion]\nsource = "lick:12"\n')
-    assert read_case(three / "c" / "case.toml").motion.source == "lick:12"
+    assert load_case(three / "c" / "case.toml").motion.source == "lick:12"
     _write(three / "a" / "case.toml", COLUMN + f'[motion]\nsource = "{three}/b/motion.csv"\n')
-    assert read_case(three / "c" / "case.toml").motion.source == str(three / "b" / "motion.csv")
+    assert load_case(three / "c" / "case.toml").motion.source == str(three / "b" / "motion.csv")
 
 
 def test_mesh_of_a_column_and_of_a_body_is_that_beside_the_file_that_names_it(tmp_path):
     cube = _cube(tmp_path / "a" / "meshes" / "cube.vtk")
     _write(tmp_path / "a" / "case.toml", '[column]\nmesh_file = "meshes/cube.vtk"\n')
     _write(tmp_path / "b" / "case.toml", 'extends = "../a/case.toml"\n')
-    assert read_case(tmp_path / "b" / "case.toml").short.column.mesh_file == str(cube)
+    assert load_case(tmp_path / "b" / "case.toml").short.column.mesh_file == str(cube)
     _write(tmp_path / "a" / "meshes" / "bodies.toml", BODIES)
     _write(tmp_path / "b" / "bodies.toml", 'extends = "../a/meshes/bodies.toml"\n')
     _write(tmp_path / "bodies.toml", 'extends = "b/bodies.toml"\n')
-    assert read_case(tmp_path / "bodies.toml").bodies["cube"].mesh_file == str(cube)
+    assert load_case(tmp_path / "bodies.toml").bodies["cube"].mesh_file == str(cube)
 
 
 def test_study_takes_over_a_chain_of_cases_and_another_study(three):
@@ -125,4 +125,4 @@ def test_circle_over_folders_is_told(three):
     with pytest.raises(
         InputError, match="goes in a circle: case.toml -> case.toml -> case.toml -> case.toml"
     ):
-        read_case(three / "c" / "case.toml")
+        load_case(three / "c" / "case.toml")

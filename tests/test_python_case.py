@@ -13,7 +13,7 @@ import pytest
 
 import fecolumn
 from fecolumn.case.bodies import BODY_KINDS
-from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.case.case_tables import COMMON, NAMED
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.schema import InputError, Section
@@ -68,7 +68,7 @@ def scripted(tables):
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_a_case_made_of_classes_is_that_of_its_file(file, monkeypatch):
     monkeypatch.chdir(file.parent)
-    tables, case = read_toml(file), read_case(file)
+    tables, case = read_toml(file), load_case(file)
     if "column" in tables:
         sections = {
             key: table if isinstance(table, str) else made_of(_of_short_form(key), table)
@@ -92,10 +92,10 @@ def _of_short_form(key):
 @pytest.mark.parametrize("defaults", [False, True], ids=["short", "with defaults"])
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_toml_of_a_case_is_that_case(file, full, defaults, tmp_path):
-    case = read_case(file)
+    case = load_case(file)
     path = tmp_path / "again.toml"
     path.write_text(case.to_toml(full, defaults))
-    again = read_case(path)
+    again = load_case(path)
     assert again == case and again.id == case.id
     assert bool(again.short) == (bool(case.short) and not full)
 
@@ -225,7 +225,7 @@ def test_the_file_of_a_rocking_model_states_what_was_stated(tmp_path):
     case = fecolumn.case_from_tables(tables)
     (tmp_path / "block.toml").write_text(case.to_toml())
     assert read_toml(tmp_path / "block.toml").keys() == {"block", "integration"}
-    assert read_case(tmp_path / "block.toml") == case
+    assert load_case(tmp_path / "block.toml") == case
     assert "block: Block" in repr(case)
 
 

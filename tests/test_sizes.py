@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.case.short_form import finished, short_form
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import BASE
@@ -62,7 +62,7 @@ def test_the_estimate_counts_what_is_built(tables):
 
 
 def test_sizes_in_metres_are_taken_as_they_are():
-    case = read_case("meshes/specimen.toml").short
+    case = load_case("meshes/specimen.toml").short
     assert (
         case.mesh.fine_size_m,
         case.mesh.coarse_size_m,

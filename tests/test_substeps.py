@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from fecolumn import simulation
-from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.foundation.schema import InputError
 
@@ -173,7 +173,7 @@ def test_what_would_say_nothing_is_refused(tmp_path, lines, words):
         f'extends = "{Path("meshes/stout.toml").resolve()}"\n{lines}\n'
     )
     with pytest.raises(InputError) as refusal:
-        read_case(tmp_path / "case.toml")
+        load_case(tmp_path / "case.toml")
     assert all(word in str(refusal.value) for word in words)
 
 

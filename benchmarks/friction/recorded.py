@@ -100,7 +100,7 @@ def column(file) -> Iterator[Problem]:
     """Of the column of a case file, standing, shaken, and landing after a release from a small
     tilt, reduced engine.
     """
-    from fecolumn.case.case import read_case
+    from fecolumn.case.case import load_case
     from fecolumn.engines.reduced_engine import engine_of
     from fecolumn.structures.structure import structure_model
 
@@ -108,7 +108,7 @@ def column(file) -> Iterator[Problem]:
         told = partial(print, file=sys.stderr)
         return engine_of(case, structure_model(case, file, told), file)
 
-    case = read_case(file)
+    case = load_case(file)
     yield from recorded(engine_at(case), "column, stands", _still(3), 1)
     yield from recorded(
         engine_at(case),

@@ -10,7 +10,7 @@ import tomllib
 import numpy as np
 
 from benchmarks.fuzz.damage import BYTES, VALUES, cut, displaced, toml
-from fecolumn.case.case import read_case
+from fecolumn.case.case import load_case
 from fecolumn.statistics import profile
 from fecolumn.study.questions import calibrate_command
 
@@ -187,4 +187,4 @@ def use(mutant) -> None:
         assert math.isfinite(value) and low <= value * (1 + 1e-5) and value <= high * (1 + 1e-5)
         assert inner[0] <= value <= inner[1]
     fitted = tomllib.loads((folder / "fit" / "fitted.toml").read_text())
-    assert fitted["extends"] and read_case(folder / "fit" / "fitted.toml").own
+    assert fitted["extends"] and load_case(folder / "fit" / "fitted.toml").own

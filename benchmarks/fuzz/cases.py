@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.fuzz.damage import toml
-from fecolumn.case.case import read_case
+from fecolumn.case.case import load_case
 from fecolumn.motions.load import load_motion
 
 _SPECIMEN = """title = "tube"
@@ -79,7 +79,7 @@ def mutate(rng, folder):
 
 def use(path) -> None:
     """What every command does first."""
-    case = read_case(path)
+    case = load_case(path)
     assert len(case.id) == 12
     if case.motion:
         ground = load_motion(case.motion, case.integration.dt_s, path)

@@ -33,7 +33,7 @@ def prepare(folder) -> None:
     """A study with every kind of axis."""
     cases.prepare(folder)
     (folder / "study.toml").write_text(_STUDY)
-    motion = read_motion(cases.read_case(folder / "case.toml").motion, "")
+    motion = read_motion(cases.load_case(folder / "case.toml").motion, "")
     write_ensemble(Ensemble("two", (motion, motion), {}, {}), folder / "motions.h5")
 
 

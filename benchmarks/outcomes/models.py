@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmarks.outcomes.draws import Drawn, drawn
 from benchmarks.outcomes.motions import stored
-from fecolumn.case.model_sections import WobblingSection
+from fecolumn.case.model_sections import WobblingModel
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.model import OVERTURNED, SAFE
 from fecolumn.engines.rocking.swing import IMPACT_COUNT, PEAK_TILT, rock_all, row_of_block
@@ -70,7 +70,7 @@ def rolling_columns(file: Path, part: int, count: int) -> list[dict]:
     rows = []
     for one in drawn(ROLLING, part, count, ensemble, False):
         one = replace(one, round=True)
-        section = WobblingSection(outer_diameter_m=one.width, height_m=one.height)
+        section = WobblingModel(outer_diameter_m=one.width, height_m=one.height)
         model = Wobbling.of_section(section, "outcomes")
         motion = scale(ensemble.motions[one.motion], one.scale)
         response = model.respond(motion, free_s=FREE_S)

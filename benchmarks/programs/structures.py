@@ -116,9 +116,9 @@ def case_tables(name: str, engine: str, dt: float) -> dict:
 
 
 def _tube(engine: str, dt: float) -> dict:
-    from fecolumn.case.case import read_case
+    from fecolumn.case.case import load_case
 
-    tables = read_case(SPECIMEN).tables()
+    tables = load_case(SPECIMEN).tables()
     tables["integration"] |= dict(engine=engine, dt_s=dt)
     tables["output"] |= dict(history_every_s=0.005, states_every_s=0.0)
     return tables | dict(title="tube", grounds=dict(ground=dict(kind="rigid")))
@@ -206,11 +206,11 @@ def _rise(width: float, height: float) -> float:
 
 
 def _rigid_tube() -> RigidBodies:
-    from fecolumn.case.case import read_case
+    from fecolumn.case.case import load_case
     from fecolumn.mesh.mass import mass_properties
     from fecolumn.mesh.specimen import specimen_mesh
 
-    case = read_case(SPECIMEN).short
+    case = load_case(SPECIMEN).short
     mesh = specimen_mesh(case)
     body = mass_properties(mesh.body, case.material.density_kg_m3)
     radius, height = case.column.outer_diameter_m / 2, case.column.height_m

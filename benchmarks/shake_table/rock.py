@@ -17,7 +17,7 @@ from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.start import of_parts
 from fecolumn.engines.reduced_engine import engine_on
-from fecolumn.structures.model import BodyModel, Joint, Part, StructureModel, Surface
+from fecolumn.structures.model import BodyModel, JointModel, Part, StructureModel, Surface
 
 #: The pose of rest is sought within this angle of the scan's vertical.
 NEAR = np.radians(5)
@@ -212,7 +212,7 @@ def body_of(scan: Path, stone: Stone) -> BodyModel:
 def engine_of(body: BodyModel, stone: Stone, dt: float, alpha: float = -0.05) -> Engine:
     """Engine of the rock alone on rigid ground, standing."""
     part = Part("rock", body, body.center, np.eye(3), 0.0, np.zeros(3), np.zeros(3))
-    joint = Joint(
+    joint = JointModel(
         "rock on table",
         0,
         "foot",

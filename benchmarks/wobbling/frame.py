@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fecolumn.case.model_sections import WobblingFrameSection
+from fecolumn.case.model_sections import WobblingFrameModel
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
 
@@ -32,8 +32,8 @@ PRINTED = {
 
 
 def specimen(**changes) -> WobblingFrame:
-    """The frame, or one with other keys of WobblingFrameSection."""
-    return WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN | changes), "specimen")
+    """The frame, or one with other keys of WobblingFrameModel."""
+    return WobblingFrame.of_section(WobblingFrameModel(**SPECIMEN | changes), "specimen")
 
 
 @dataclass(frozen=True, slots=True)

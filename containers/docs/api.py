@@ -12,7 +12,7 @@ classes are those of a [case](cases.md); the [table of keys](keys.md) has the sa
 #: headings with their names, in the order of the page; a name that is new has to be put below one
 GROUPS = {
     "Cases and analyses": (
-        "Case case_from_tables load_case read_case run load AnalysisResult read_history".split()
+        "Case case_from_tables load_case run load AnalysisResult read_history".split()
     ),
     "Studies and questions": (
         "run_study StudyResult design risk screen calibrate Answer ecdf outcomes".split()

@@ -214,7 +214,7 @@ class Arch(Solid):
 
 
 @section_class(kw_only=True)
-class Meshed(Solid):
+class MeshBody(Solid):
     """kind = "mesh": a body of one's own mesh, where its file has it unless at_m or copies_m says
     otherwise; element_size_m is the length that penalty_factor refers to.
     """
@@ -223,11 +223,6 @@ class Meshed(Solid):
     def section_name(cls) -> str:
         """Other than the table [mesh]."""
         return "mesh body"
-
-    @classmethod
-    def public_name(cls) -> str:
-        """Of a script."""
-        return "MeshBody"
 
     kind: str = parameter("mesh", doc="what the body is", choices=("mesh",))
     at_m: tuple[float, ...] | None = parameter(  # type: ignore[assignment]  # None: as drawn
@@ -374,7 +369,7 @@ BODY_KINDS: dict[str, type[Placed]] = {
     "cone": Cone,
     "prism": Prism,
     "arch": Arch,
-    "mesh": Meshed,
+    "mesh": MeshBody,
     "storeys": Storeys,
     "matrices": Matrices,
 }

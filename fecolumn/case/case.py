@@ -23,8 +23,8 @@ from fecolumn.case.case_text import case_text, toml_of
 from fecolumn.case.check_case import check
 from fecolumn.case.given import NUMBERED, as_of_file
 from fecolumn.case.ground import GROUND_NAME, Ground
-from fecolumn.case.joint import Interface
-from fecolumn.case.link import LinkKeys
+from fecolumn.case.joint import Joint
+from fecolumn.case.link import Link
 from fecolumn.case.mesh_limits import MeshLimits
 from fecolumn.case.reading import fields_of_tables, told_of
 from fecolumn.case.sections import (
@@ -97,8 +97,8 @@ class Case:
 
     bodies: Mapping[str, Placed] = field(default_factory=dict)
     materials: Mapping[str, Material] = field(default_factory=dict)
-    joints: Mapping[str, Interface] = field(default_factory=dict)
-    links: Mapping[str, LinkKeys] = field(default_factory=dict)
+    joints: Mapping[str, Joint] = field(default_factory=dict)
+    links: Mapping[str, Link] = field(default_factory=dict)
     initial: Mapping[str, Initial] = field(default_factory=dict)
     contact: Contact = Contact()
     integration: Integration = Integration()
@@ -423,7 +423,7 @@ def case_of_table(tables: dict[str, Any], file: Path | str, engine: str | None =
     return Case(**fields_of_table(tables, file, engine))
 
 
-def read_case(path: Path | str) -> Case:
+def load_case(path: Path | str) -> Case:
     """Case of a TOML file.
 
     Raises

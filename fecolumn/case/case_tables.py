@@ -8,8 +8,8 @@ from typing import Any
 from fecolumn.case.bodies import BODY_KINDS
 from fecolumn.case.body_keys import Placed
 from fecolumn.case.ground import Ground
-from fecolumn.case.joint import Interface
-from fecolumn.case.link import LinkKeys
+from fecolumn.case.joint import Joint
+from fecolumn.case.link import Link
 from fecolumn.case.mesh_limits import MeshLimits
 from fecolumn.case.sections import (
     Contact,
@@ -28,8 +28,8 @@ NAMED: dict[str, type[Section]] = {
     "bodies": Placed,
     "materials": Material,
     "grounds": Ground,
-    "joints": Interface,
-    "links": LinkKeys,
+    "joints": Joint,
+    "links": Link,
     "initial": Initial,
 }
 #: Sections that a structure's case has in common with a column's.

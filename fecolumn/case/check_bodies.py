@@ -10,7 +10,7 @@ from fecolumn.case.bodies import (
     Block,
     Cone,
     Cylinder,
-    Meshed,
+    MeshBody,
     Plate,
     Prism,
     Storeys,
@@ -102,7 +102,7 @@ def _check_solid(key: str, body: Solid, refuse: Refuse) -> None:
         refuse(f"{key}.centre_m", list(body.centre_m), "must be three numbers: x, y, z")
     if body.inertia_kg_m2:
         _check_inertia(f"{key}.inertia_kg_m2", body.inertia_kg_m2, refuse)
-    if isinstance(body, Meshed):
+    if isinstance(body, MeshBody):
         if body.coarse_size_m is not None:
             refuse(
                 f"{key}.coarse_size_m",

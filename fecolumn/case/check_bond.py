@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fecolumn.case.checked import Refuse
-from fecolumn.case.joint import Interface
+from fecolumn.case.joint import Joint
 
 # Less than any wax: 0.3 MPa written as 0.3
 _LEAST_PA = 100.0
@@ -17,17 +17,17 @@ _OTHERS = (
 _SHEAR = 0.4
 
 
-def cohesion_of(joint: Interface) -> float:
+def cohesion_of(joint: Joint) -> float:
     """Shear strength [Pa] without pressure of a glued joint of these keys."""
     return joint.cohesion_pa or joint.tension_pa
 
 
-def shear_stiffness_of(joint: Interface) -> float:
+def shear_stiffness_of(joint: Joint) -> float:
     """Shear stiffness [N/m3] of the layer of a glued joint of these keys."""
     return joint.bond_shear_stiffness_n_m3 or _SHEAR * joint.bond_stiffness_n_m3
 
 
-def check_bond(key: str, joint: Interface, friction: float, refuse: Refuse) -> None:
+def check_bond(key: str, joint: Joint, friction: float, refuse: Refuse) -> None:
     """Refuse a glued joint without what it needs, and numbers that make no sense together.
 
     friction: Coulomb's coefficient of the joint.

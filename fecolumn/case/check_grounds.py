@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fecolumn.case.checked import CheckedCase, Refuse
 from fecolumn.case.ground import Ground
-from fecolumn.case.joint import Interface
+from fecolumn.case.joint import Joint
 
 #: Keys that say something of some kinds of ground alone, and these.
 OF_KINDS = {
@@ -41,7 +41,7 @@ def check_grounds(case: CheckedCase, refuse: Refuse) -> None:
                 refuse(f"contact.{key}", value, _ON_PAD)
 
 
-def _is_on_pad(case: CheckedCase, joint: Interface) -> bool:
+def _is_on_pad(case: CheckedCase, joint: Joint) -> bool:
     """Whether springs take the place of impacts in a joint."""
     ground = case.grounds.get(joint.on)
     return joint.stiffness_n_m3 is not None or ground is not None and ground.kind == "pad"
@@ -69,7 +69,7 @@ def _check_keys(case: CheckedCase, key: str, ground: Ground, refuse: Refuse) -> 
         refuse(f"{key}.motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
 
 
-def _check_interface(case: CheckedCase, key: str, interface: Interface, refuse: Refuse) -> None:
+def _check_interface(case: CheckedCase, key: str, interface: Joint, refuse: Refuse) -> None:
     on_pad = _is_on_pad(case, interface)
     if interface.stiffness_n_m3 is None:
         for one in ("shear_stiffness_n_m3", "damping_ratio", "yield_pa"):

@@ -6,7 +6,7 @@ import dataclasses
 import math
 
 from fecolumn.case.checked import Refuse
-from fecolumn.case.link import LinkKeys
+from fecolumn.case.link import Link
 
 # What a kind of links cannot do without, stiffness_n_m unless told, with its unit
 _NEEDED = {"dashpot": "damping_n_s_m", "friction": "slip_n"}
@@ -25,14 +25,14 @@ _ONLY = {
     "yield_exponent": (_SLIPPING, ""),
     "breaking_n": (_SLIPPING, ""),
 }
-_SLOW = next(one for one in dataclasses.fields(LinkKeys) if one.name == "linear_below_m_s").default
+_SLOW = next(one for one in dataclasses.fields(Link) if one.name == "linear_below_m_s").default
 
 
 def _told(kind: str) -> str:
     return "friction damper" if kind == "friction" else kind
 
 
-def check_link(key: str, link: LinkKeys, refuse: Refuse) -> None:
+def check_link(key: str, link: Link, refuse: Refuse) -> None:
     """Refuse a link without what its kind needs, or with what says nothing of it."""
     for name in ("point_m", "to_point_m"):
         if len(value := getattr(link, name)) != 3:

@@ -9,8 +9,8 @@ from typing import NoReturn, Protocol
 from fecolumn.case.bodies import Arch
 from fecolumn.case.body_keys import Placed
 from fecolumn.case.ground import Ground
-from fecolumn.case.joint import Interface
-from fecolumn.case.link import LinkKeys
+from fecolumn.case.joint import Joint
+from fecolumn.case.link import Link
 from fecolumn.case.sections import Contact, Initial, Integration, Material, Motion, Overturn
 from fecolumn.foundation.schema import InputError, Section
 
@@ -44,11 +44,11 @@ class CheckedCase(Protocol):
         """By name."""
 
     @property
-    def joints(self) -> Mapping[str, Interface]:
+    def joints(self) -> Mapping[str, Joint]:
         """By name."""
 
     @property
-    def links(self) -> Mapping[str, LinkKeys]:
+    def links(self) -> Mapping[str, Link]:
         """By name."""
 
     @property

@@ -143,13 +143,13 @@ class Base(Section):
 
 
 @section_class()
-class Mesh(Section):
+class MeshSizes(Section):
     """Element sizes."""
 
     @classmethod
-    def public_name(cls) -> str:
-        """Of a script, where MeshBody is another thing."""
-        return "MeshSizes"
+    def section_name(cls) -> str:
+        """Of its table [mesh]."""
+        return "mesh"
 
     fine_size_m: float | None = parameter(
         None,
@@ -204,6 +204,6 @@ class ColumnSections(Section, Upright):
     __slots__ = ()
     column: Column
     base: Base
-    mesh: Mesh
+    mesh: MeshSizes
     flange: Flange | None
     cap: Cap | None

@@ -14,8 +14,8 @@ from fecolumn.case.bodies import Arch
 from fecolumn.case.body_keys import Placed
 from fecolumn.case.checked import CheckedCase
 from fecolumn.case.ground import Ground
-from fecolumn.case.joint import Interface
-from fecolumn.case.link import LinkKeys
+from fecolumn.case.joint import Joint
+from fecolumn.case.link import Link
 from fecolumn.case.sections import located
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.paths import OF_BODIES
@@ -81,7 +81,7 @@ def _sections(
     """Sections by name, each of its class."""
     given = getattr(case, name)
     if not hasattr(given, "items"):
-        one = "Block" if name == "bodies" else kind.public_name()
+        one = "Block" if name == "bodies" else kind.__name__
         told = f'must hold sections by name, such as {{"NAME": {one}(...)}}'
         errors.append(InputError(_HERE, name, given, told))
         return {}
@@ -99,12 +99,12 @@ def _is_of_arch(key: object, section: object, bodies: Mapping[str, object]) -> b
 
 
 def _as_of_file(name: str, key: str, section: _Given, grounds: set[str]) -> _Given:
-    if isinstance(section, Interface):
+    if isinstance(section, Joint):
         return by_two_bodies(section, grounds, _HERE, f"{name}.{key}.")
     if isinstance(section, Ground) and section.motion:
         return dataclasses.replace(section, motion=located("motion", section.motion, _HERE))
-    if isinstance(section, LinkKeys) and type(section) is not LinkKeys:  # a Tendon, say
-        return LinkKeys(**{one.name: getattr(section, one.name) for one in fields(LinkKeys)})
+    if isinstance(section, Link) and type(section) is not Link:  # a Tendon, say
+        return Link(**{one.name: getattr(section, one.name) for one in fields(Link)})
     if not isinstance(section, Placed):
         return section
     return with_files(section, _HERE, f"{name}.{key}.")
@@ -169,9 +169,7 @@ def check_name(
         )
 
 
-def by_two_bodies(
-    interface: Interface, grounds: set[str], file: Path | str, prefix: str
-) -> Interface:
+def by_two_bodies(interface: Joint, grounds: set[str], file: Path | str, prefix: str) -> Joint:
     """The interface with its two bodies as slave and on."""
     if interface.between:
         if interface.slave or interface.on:

@@ -7,20 +7,10 @@ from fecolumn.foundation.section_class import section_class
 
 
 @section_class(kw_only=True)
-class Interface(Section):
+class Joint(Section):
     """A joint: faces of two bodies, or of a body and a ground, that touch at the start, or look at
     one another across a gap; copies each with each. Which body comes first decides nothing.
     """
-
-    @classmethod
-    def section_name(cls) -> str:
-        """As of its table [joints.NAME]."""
-        return "joint"
-
-    @classmethod
-    def public_name(cls) -> str:
-        """Of a script."""
-        return "Joint"
 
     between: tuple[str, ...] = parameter(
         (),

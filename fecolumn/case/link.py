@@ -12,7 +12,7 @@ PUSHING = ("spring", "restrainer", "friction", "strut", "stop")
 
 
 @section_class(kw_only=True)
-class LinkKeys(Section):
+class Link(Section):
     """A tendon, spring, strut, stop, damper or restrainer between two points; of a body with copies
     one at each. Its length is the points' distance.
     """
@@ -21,11 +21,6 @@ class LinkKeys(Section):
     def section_name(cls) -> str:
         """As of its table [links.NAME]."""
         return "link"
-
-    @classmethod
-    def public_name(cls) -> str:
-        """Of a script."""
-        return "Link" if cls is LinkKeys else cls.__name__
 
     kind: str = required(
         doc="tendon: only pulls; spring: pulls and pushes; restrainer: pulls and pushes beyond "

@@ -13,7 +13,7 @@ CRV, CAV = LAWS = ("CRV", "CAV")
 
 
 @section_class(kw_only=True)
-class BlockSection(RockingKeys):
+class BlockModel(RockingKeys):
     """Rectangular rigid block that rocks along x, about the edges of its foot; with depth_m along
     y, too, as if each did not know of the other.
     """
@@ -82,7 +82,7 @@ class BlockSection(RockingKeys):
 
 
 @section_class(kw_only=True)
-class FrameSection(RockingKeys):
+class FrameModel(RockingKeys):
     """Equal rectangular columns that carry a beam and rock along x."""
 
     column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
@@ -98,7 +98,7 @@ class FrameSection(RockingKeys):
 
 
 @section_class(kw_only=True)
-class WobblingSection(RollingKeys):
+class WobblingModel(RollingKeys):
     """Round rigid column that rolls on the rim of its foot."""
 
     density_kg_m3: float = parameter(
@@ -111,7 +111,7 @@ class WobblingSection(RollingKeys):
 
 
 @section_class(kw_only=True)
-class WobblingFrameSection(RollingKeys):
+class WobblingFrameModel(RollingKeys):
     """Slab on equal round columns that roll on their rims; a tendon is anchored in its column and
     the slab.
     """
@@ -122,7 +122,7 @@ class WobblingFrameSection(RollingKeys):
 
 
 @section_class(kw_only=True)
-class PodiumSection(RectangleKeys):
+class PodiumModel(RectangleKeys):
     """Building of equal storeys on a beam on rocking rectangular columns, along x."""
 
     column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
@@ -161,9 +161,9 @@ class PodiumSection(RectangleKeys):
 
 #: Keys of each model's own table, by its name.
 SECTIONS: dict[str, Any] = {
-    "block": BlockSection,
-    "frame": FrameSection,
-    "wobbling": WobblingSection,
-    "wobbling_frame": WobblingFrameSection,
-    "podium": PodiumSection,
+    "block": BlockModel,
+    "frame": FrameModel,
+    "wobbling": WobblingModel,
+    "wobbling_frame": WobblingFrameModel,
+    "podium": PodiumModel,
 }

@@ -21,14 +21,9 @@ class OutlineKeys(Section):
 
     @classmethod
     def section_name(cls) -> str:
-        """The table of a FrameSection is [frame], of a WobblingFrameSection [wobbling_frame]."""
-        words = re.findall("[A-Z][a-z]+", cls.__name__.removesuffix("Section"))
+        """The table of a FrameModel is [frame], of a WobblingFrameModel [wobbling_frame]."""
+        words = re.findall("[A-Z][a-z]+", cls.__name__.removesuffix("Model"))
         return "_".join(words).lower()
-
-    @classmethod
-    def public_name(cls) -> str:
-        """FrameModel of a FrameSection."""
-        return cls.__name__.removesuffix("Section") + "Model"
 
     height_m: float | None = parameter(
         None,

@@ -244,7 +244,7 @@ class Motion(Section):
     units: str = parameter(
         "",
         doc="unit of the file's accelerations; needed where the format does not state it",
-        choices=("", "g", "m/s2", "cm/s2", "mm/s2"),
+        choices=("", "g", "%g", "mg", "m/s2", "cm/s2", "mm/s2", "ft/s2", "in/s2"),
     )
     dt_s: float = parameter(
         0.0, doc="sampling step, for files that do not state it", unit="s", low=0, high=10

@@ -18,7 +18,7 @@ from fecolumn.case import sizes
 from fecolumn.case.check_grounds import OF_KINDS
 from fecolumn.case.check_thin import check_thin_column
 from fecolumn.case.checked import Refuse, refuse_in
-from fecolumn.case.column_keys import Base, Column, ColumnSections, Mesh
+from fecolumn.case.column_keys import Base, Column, ColumnSections, MeshSizes
 from fecolumn.case.model_keys import check_model, check_substeps
 from fecolumn.case.sections import (
     MODEL_ENGINES,
@@ -55,7 +55,7 @@ class ShortForm(ColumnSections):
     column: Column
     base: Base = Base()
     material: Material = Material()
-    mesh: Mesh = Mesh()
+    mesh: MeshSizes = MeshSizes()
     contact: Contact = Contact()
     integration: Integration = Integration()
     initial: Initial = Initial()
@@ -112,7 +112,7 @@ def finished(case: ShortForm, file: Path | str) -> ShortForm:
     Raises
     ------
     InputError
-        as of `read_case`.
+        as of `load_case`.
     """
     sizes.check_shape(case, file)
     check_thin_column(case, refuse_in(file))

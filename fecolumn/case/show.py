@@ -21,8 +21,8 @@ def main(args: argparse.Namespace) -> int:
     """
     import tomli_w
 
-    from fecolumn.case.case import read_case
+    from fecolumn.case.case import load_case
     from fecolumn.case.case_text import full_form
 
-    print(tomli_w.dumps(full_form(read_case(args.case), args.all)), end="")
+    print(tomli_w.dumps(full_form(load_case(args.case), args.all)), end="")
     return 0

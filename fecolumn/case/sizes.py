@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from fecolumn.case.checked import refuse_in
-from fecolumn.case.column_keys import Base, Column, ColumnSections, Mesh
+from fecolumn.case.column_keys import Base, Column, ColumnSections, MeshSizes
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.foundation.content import content
 from fecolumn.foundation.files import is_file
@@ -153,9 +153,9 @@ def sized(
     flange: Flange | None,
     cap: Cap | None,
     base: Base,
-    mesh: Mesh,
+    mesh: MeshSizes,
     mesh_content: str,
-) -> tuple[Column, Base, Mesh]:
+) -> tuple[Column, Base, MeshSizes]:
     """Column, base and mesh sections without open sizes, those of the short form; `mesh_content`
     tells that a file is still the one read before.
     """

@@ -19,7 +19,7 @@ from fecolumn.engines.reduced_engine import begins_unstrained
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.fem.rotation import out_of_frames
-from fecolumn.structures.model import BodyModel, Joint
+from fecolumn.structures.model import BodyModel, JointModel
 from fecolumn.structures.pads import warn_of_grounds
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ class FullAnalysis(OfStructure):
         return self.off_ground(failure, self.system.bases, self.state.grounds, self._foot)
 
     def _foot(
-        self, joint: Joint, _: BodyModel, rows: NDArray[Any]
+        self, joint: JointModel, _: BodyModel, rows: NDArray[Any]
     ) -> tuple[NDArray[Any], NDArray[Any]]:
         """As `off_ground` takes it."""
         bodies, nodes = self.system.bodies, self.meshed[joint.slave].nodes[rows]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.case.case import Case
-from fecolumn.structures.model import Joint, StructureModel
+from fecolumn.structures.model import JointModel, StructureModel
 
 # Range of the key [m]
 _LEAST, _MOST = 0, 1000
@@ -25,7 +25,7 @@ def way_out(case: Case, structure: StructureModel, names: tuple[str, ...]) -> st
     )
 
 
-def _told(case: Case, structure: StructureModel, key: str, joint: Joint) -> str:
+def _told(case: Case, structure: StructureModel, key: str, joint: JointModel) -> str:
     """The allowance of a joint, or what it is where left out: see `meetings.allowance_of`."""
     stated = case.joints[key].allowance_m
     if stated is not None:

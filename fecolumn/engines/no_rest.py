@@ -5,7 +5,7 @@ keys that may help.
 from __future__ import annotations
 
 from fecolumn.case.case import Case
-from fecolumn.case.joint import Interface
+from fecolumn.case.joint import Joint
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 
 # Names of joints that are told, at most
@@ -43,6 +43,6 @@ def _ends(case: Case, end: str) -> tuple[tuple[str, int], ...]:
     return () if end in case.grounds else case.copies_of(end)
 
 
-def _friction(case: Case, joint: Interface) -> float:
+def _friction(case: Case, joint: Joint) -> float:
     own = joint.friction_coefficient
     return case.contact.friction_coefficient if own is None else own

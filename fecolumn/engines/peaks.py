@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from fecolumn.engines.history_columns import glued_names
 from fecolumn.engines.peak_acceleration import peak_acceleration
 from fecolumn.engines.reduced.observe import OF_BOND, OF_LINK
-from fecolumn.structures.model import Link, StructureModel
+from fecolumn.structures.model import LinkModel, StructureModel
 
 # Rounding of the sum of areas that have failed, over all
 _ALL = 1e-9
@@ -85,7 +85,9 @@ def _peaks_of_bond(time: NDArray[Any], rows: dict[str, NDArray[Any]]) -> dict[st
     )
 
 
-def _peaks_of_link(time: NDArray[Any], rows: dict[str, NDArray[Any]], link: Link) -> dict[str, Any]:
+def _peaks_of_link(
+    time: NDArray[Any], rows: dict[str, NDArray[Any]], link: LinkModel
+) -> dict[str, Any]:
     """Extremes of a Link's tension and of its elongation until it breaks, what it has taken, and
     when it first yielded, broke, and was slack after it had been tight; from its columns.
     """

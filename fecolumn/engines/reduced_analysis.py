@@ -37,7 +37,7 @@ from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.foundation._compiled import compiled, interpreted
 from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.atomic import write_bytes
-from fecolumn.structures.model import BodyModel, Joint
+from fecolumn.structures.model import BodyModel, JointModel
 from fecolumn.structures.pads import warn_of_grounds
 from fecolumn.structures.structure import structure_model
 
@@ -188,7 +188,7 @@ class ReducedAnalysis(OfStructure):
         """The Ending of a step that failed because a foot met the edge of its ground, or None."""
         motion = self.engine.motion
 
-        def foot(joint: Joint, model: BodyModel, nodes: Array) -> tuple[Array, Array]:
+        def foot(joint: JointModel, model: BodyModel, nodes: Array) -> tuple[Array, Array]:
             frame, arms = motion.frames[joint.slave], model.arms[nodes]
             turn = motion.rotation[joint.slave].T
             return (

@@ -21,7 +21,7 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import feet_on_springs, least_barrier, stances
 from fecolumn.structures.lost import limits_of
-from fecolumn.structures.model import BodyModel, Joint, StructureModel
+from fecolumn.structures.model import BodyModel, JointModel, StructureModel
 from fecolumn.structures.shaking import accelerations, motions_of
 from fecolumn.structures.structure import standing_of
 
@@ -178,7 +178,7 @@ class OfStructure(Analysis):
         failure: StepFailed,
         bases: Sequence[BasePlate | KnownBase | UnboundedBase],
         grounds: NDArray[Any],
-        foot: Callable[[Joint, BodyModel, NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]],
+        foot: Callable[[JointModel, BodyModel, NDArray[Any]], tuple[NDArray[Any], NDArray[Any]]],
     ) -> Ending | None:
         """The ending of a structure whose step failed because a foot met the edge of its ground,
         one of `bases` and of `grounds` (G,) of GROUND_STATE; None for another failure.

@@ -180,7 +180,7 @@ def _word(kind: typing.Any) -> str:
 def _number_range(metadata: Mapping[str, typing.Any]) -> str:
     unit = "" if metadata["unit"] == "-" else f" [{metadata['unit']}]"
     if metadata["choices"]:
-        return "one of " + ", ".join(metadata["choices"])
+        return "one of " + ", ".join(filter(None, metadata["choices"]))
     if metadata["above"] is not None:
         upper = f" and at most {metadata['high']:g}" if metadata["high"] is not None else ""
         return f"must be greater than {metadata['above']:g}{upper}{unit}"
@@ -302,11 +302,6 @@ class Section:
         """Name of the section in messages, "" of a whole case."""
         return cls.__name__.lower()
 
-    @classmethod
-    def public_name(cls) -> str:
-        """Name by which a script makes one, fecolumn.NAME(...)."""
-        return cls.__name__
-
     def __repr__(self) -> str:
         """The keys that are not at their defaults, as they are given."""
         given = (
@@ -314,7 +309,7 @@ class Section:
             for name, (field, *_) in _kinds(type(self)).items()  # type: ignore[arg-type]
             if (value := getattr(self, name)) != field.default
         )
-        return f"{self.public_name()}({', '.join(given)})"
+        return f"{type(self).__name__}({', '.join(given)})"
 
     def __post_init__(self) -> None:
         """Check every key, and turn numbers into the key's own type.
@@ -349,7 +344,7 @@ class Section:
 
 def a_section(cls: type[Section]) -> str:
     """What a script has to give: "a Joint(...)", "an Integration(...)"."""
-    name = cls.public_name()
+    name = cls.__name__
     return f"{'an' if name[0] in 'AEIO' else 'a'} {name}(...)"
 
 

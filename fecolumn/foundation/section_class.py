@@ -68,7 +68,7 @@ def _by_known_keys(init: typing.Any, cls: typing.Any, kw_only: bool) -> typing.A
         ]
         if values and kw_only:
             first = next(iter([*needed, *names]))
-            told = f"keys are given by name, such as {cls.public_name()}({first}=...)"
+            told = f"keys are given by name, such as {cls.__name__}({first}=...)"
             errors.append(InputError("case", name, values, told))
         errors += [
             InputError("case", prefix + key, None, f"missing; {told}")

@@ -13,6 +13,8 @@ from fecolumn.motions.processing import integrate, resample
 from fecolumn.motions.record import METRES_PER_S2, GroundMotion, Recording
 from fecolumn.motions.spike import spike_in
 
+# Units that a record without one most likely has
+_USUAL = "g", "m/s2", "cm/s2", "mm/s2"
 # [g]: peaks of ground motions that are worth an analysis lie between; none was recorded beyond
 _LIKELY, _RECORDED = (0.005, 3.0), 5.0
 # Of the peak velocity: what may be left at the end of a record without drift
@@ -46,8 +48,8 @@ def peaks_by_unit(recording: Recording) -> str:
     """The peak of a record without a unit in each unit that there is."""
     peak = float(np.abs(recording.values).max())
     told, likely = [], []
-    for unit, metres in METRES_PER_S2.items():
-        in_g = peak * metres / GRAVITY
+    for unit in _USUAL:
+        in_g = peak * METRES_PER_S2[unit] / GRAVITY
         told.append(f"{in_g:.3g} g in {unit}")
         if _LIKELY[0] <= in_g <= _LIKELY[1]:
             likely.append(unit)

@@ -82,6 +82,12 @@ def load_motion(motion: Motion, dt: float, file: Path | str) -> GroundMotion:
     file
         the case's file, for messages.
 
+    Returns
+    -------
+    GroundMotion
+        acceleration: (n, 3) along x, y, z [m/s2], from the step after rest on; dt: `dt` or
+        motion.resample_s [s].
+
     Raises
     ------
     InputError

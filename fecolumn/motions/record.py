@@ -13,7 +13,16 @@ from fecolumn.case.sections import GRAVITY
 # Samples of a motion [-], its step [s] and acceleration [m/s2]: beyond them a file is damaged or
 # its unit is wrong
 MOST_SAMPLES, STEPS_S, _LARGEST = 10_000_000, (1e-6, 10.0), 1e3
-METRES_PER_S2 = {"g": GRAVITY, "m/s2": 1.0, "cm/s2": 1e-2, "mm/s2": 1e-3}
+METRES_PER_S2 = {
+    "g": GRAVITY,
+    "%g": GRAVITY / 100,
+    "mg": GRAVITY / 1000,
+    "m/s2": 1.0,
+    "cm/s2": 1e-2,
+    "mm/s2": 1e-3,
+    "ft/s2": 0.3048,
+    "in/s2": 0.0254,
+}
 
 
 class UnusableRecord(ValueError):

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from fecolumn.engines.scene.scene import Scene
-    from fecolumn.structures.model import Joint, Link, Part, StructureModel
+    from fecolumn.structures.model import JointModel, LinkModel, Part, StructureModel
 
 
 _COLOURS = ("#c67b5c", "#9fb2c1", "#d8c08a", "#7f9a75", "#b58fa8", "#8c8fb5", "#c9a27e", "#86aeb0")
@@ -268,7 +268,7 @@ def _ground(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return low - margin, high + margin
 
 
-def link_ends(link: Link, parts: Sequence[Part]) -> np.ndarray:
+def link_ends(link: LinkModel, parts: Sequence[Part]) -> np.ndarray:
     """Both ends (2, 3) [m] of a link where its parts are."""
 
     def at(place: int, arm: np.ndarray) -> np.ndarray:
@@ -337,7 +337,7 @@ def _fitted(labels: list, most: int) -> tuple[list, list]:
     ], numbers
 
 
-def _meeting_point(structure: StructureModel, joint: Joint) -> np.ndarray:
+def _meeting_point(structure: StructureModel, joint: JointModel) -> np.ndarray:
     """Middle (3,) [m] of a joint's slave surface."""
     part = structure.parts[joint.slave]
     surface = part.model.surfaces[joint.slave_surface]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fecolumn.case.bodies import Block, Cylinder, Meshed, Plate, Tube
+from fecolumn.case.bodies import Block, Cylinder, MeshBody, Plate, Tube
 from fecolumn.case.column_keys import Column
 from fecolumn.case.ground import Ground
 from fecolumn.case.sections import Cap, Flange, Material
@@ -164,7 +164,7 @@ def closed_form_rows(drawing: Drawing) -> list[QualityRow]:
     low = mesh.points[:, 2].min()
     foot = np.flatnonzero(mesh.points[:, 2] < low + 1e-6 * np.ptp(mesh.points[:, 2]))
     rows = list(quality_table(made, SpecimenMesh(mesh, _NOTHING, (), foot)))
-    if isinstance(body, Meshed) and (body.centre_m or body.inertia_kg_m2):
+    if isinstance(body, MeshBody) and (body.centre_m or body.inertia_kg_m2):
         rows = [dataclasses.replace(row, exact=None) for row in rows]
     if body.deforms and not isinstance(body, Plate):
         found, theory, name = _bending(drawing, made)
@@ -219,7 +219,7 @@ def _bending(drawing: Drawing, made: Made) -> tuple[float, float | None, str]:
     from fecolumn.fem.modes import free_modes
 
     shape, name = drawing.shape, f"{made.column.shape} alone"
-    if isinstance(drawing.body, Meshed):
+    if isinstance(drawing.body, MeshBody):
         name = "mesh of the file" + (" with cap" if made.cap else "")
     elif isinstance(drawing.body, Tube | Cylinder | Block) and (made.cap or made.flange):
         bare = dataclasses.replace(drawing.body, cap=None, flange=None)

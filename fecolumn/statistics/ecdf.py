@@ -49,11 +49,17 @@ def ecdf(u_max: ArrayLike, overturned: ArrayLike, confidence: float = 0.95) -> E
     Parameters
     ----------
     u_max
-        (n,) peak displacement of each run; ignored where the run overturned.
+        (n,) peak displacement of each run [m], or of any other unit; ignored where the run
+        overturned.
     overturned
         (n,) True where the column overturned.
     confidence
         level of the band, in (0, 1).
+
+    Returns
+    -------
+    Ecdf
+        the distribution at its m distinct peaks, and its band.
 
     Raises
     ------

@@ -17,7 +17,7 @@ from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import edge_points
 from fecolumn.structures.foot_on_springs import FootOnSprings
-from fecolumn.structures.model import Joint, StructureModel
+from fecolumn.structures.model import JointModel, StructureModel
 from fecolumn.structures.place import Standing, footing, placed, supports_of
 from fecolumn.structures.spring_areas import spring_areas
 
@@ -47,7 +47,7 @@ def stances(structure: StructureModel, standing: list[Standing]) -> dict[int, St
     return found
 
 
-def is_level(standing: Sequence[Standing], joint: Joint) -> bool:
+def is_level(standing: Sequence[Standing], joint: JointModel) -> bool:
     """Whether a body stands on the faces of a joint, rather than beside them."""
     normal = standing[joint.slave].model.surfaces[joint.slave_surface].normal
     return bool(abs(normal[2]) > math.sqrt(0.5))
@@ -55,7 +55,7 @@ def is_level(standing: Sequence[Standing], joint: Joint) -> bool:
 
 def _stance_of(
     places: list[int],
-    joints: list[Joint],
+    joints: list[JointModel],
     standing: list[Standing],
     inertia: NDArray[Any],
     friction: float,
@@ -81,7 +81,7 @@ def _mass_of(standing: Sequence[Standing], places: Sequence[int]) -> tuple[float
     return float(masses.sum()), masses @ centers / masses.sum()
 
 
-def _footing(standing: list[Standing], joint: Joint) -> NDArray[Any]:
+def _footing(standing: list[Standing], joint: JointModel) -> NDArray[Any]:
     """Points (n, 3) [m] where the bodies of a joint touch, over which the upper one tips; of a dome
     on its edge.
     """
@@ -131,7 +131,7 @@ def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
 
 
 def _together(
-    standing: list[Standing], joints: list[Joint]
+    standing: list[Standing], joints: list[JointModel]
 ) -> list[tuple[int, Stance, FootOnSprings | None]]:
     """Places of parts, and stances of each as one rigid body with all that stands on it, wherever
     these can stand together; with what soil or a pad makes of it, None where there is none.
@@ -162,7 +162,7 @@ def _together(
 
 
 def _foot_on_springs(
-    one: Stance, places: list[int], under: list[Joint], standing: list[Standing]
+    one: Stance, places: list[int], under: list[JointModel], standing: list[Standing]
 ) -> FootOnSprings | None:
     """Of parts that move as one rigid body on joints that all have pads; None of others, and of
     those that stand on a dome and on more.

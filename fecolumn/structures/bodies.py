@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Block, Cylinder, Matrices, Meshed, Storeys, Tube
+from fecolumn.case.bodies import Block, Cylinder, Matrices, MeshBody, Storeys, Tube
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import Material
@@ -169,7 +169,7 @@ def drawing(case: Case, name: str, file: Path | str, spots: Sequence[Spot] = ())
             shape,
             mesh=dataclasses.replace(shape.mesh, points=_turned(shape.mesh.points, angle)),
         )
-    if isinstance(body, Meshed) and body.as_drawn:
+    if isinstance(body, MeshBody) and body.as_drawn:
         moved = shape.mesh.points + own_mesh(body.drawn).drawn_at
         shape = dataclasses.replace(shape, mesh=dataclasses.replace(shape.mesh, points=moved))
     faces = plane_faces(shape.mesh)

@@ -10,21 +10,21 @@ from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
 from fecolumn.case.check_bond import cohesion_of, shear_stiffness_of
-from fecolumn.case.joint import Interface
+from fecolumn.case.joint import Joint
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.model import Bond, Joint
+from fecolumn.structures.model import Bond, JointModel
 from fecolumn.structures.place import Standing, touching
 from fecolumn.structures.spring_areas import spring_areas
 
 
 def with_bonds(
     case: Case,
-    joints: list[Joint],
+    joints: list[JointModel],
     standing: list[Standing],
     interfaces: list[str],
     file: Path | str,
-) -> list[Joint]:
+) -> list[JointModel]:
     """The joints, those that are glued with their Bond; interfaces: names of theirs.
 
     Of a joint with two sides that one has it of whose face more lies on the other.
@@ -60,14 +60,14 @@ def with_bonds(
     return found
 
 
-def _share(standing: list[Standing], joint: Joint) -> float:
+def _share(standing: list[Standing], joint: JointModel) -> float:
     """Share of the area of a slave's face that lies on the master."""
     areas = standing[joint.slave].model.surfaces[joint.slave_surface].areas
     share: float = areas[touching(standing, joint)].sum() / areas.sum()
     return share
 
 
-def _glued(joint: Joint, standing: list[Standing], keys: Interface) -> Joint:
+def _glued(joint: JointModel, standing: list[Standing], keys: Joint) -> JointModel:
     areas, rows = spring_areas(standing, joint)
     bond = Bond(
         rows,
@@ -82,7 +82,7 @@ def _glued(joint: Joint, standing: list[Standing], keys: Interface) -> Joint:
 
 
 def pulls_of_bonds(
-    standing: list[Standing], joint: Joint
+    standing: list[Standing], joint: JointModel
 ) -> list[tuple[NDArray[Any], NDArray[Any], float, float]]:
     """Forces [N] that the points of a glued joint may have on the slave at most: place (3,) [m],
     direction (3,), least and most of it.
@@ -98,7 +98,7 @@ def pulls_of_bonds(
     return found
 
 
-def check_starts(joints: list[Joint], standing: list[Standing], file: Path | str) -> None:
+def check_starts(joints: list[JointModel], standing: list[Standing], file: Path | str) -> None:
     """Refuse bodies that lean at the start though they are glued to what they stand on."""
     for joint in joints:
         places = {joint.slave, joint.master} - {GROUND} if joint.bond else ()

@@ -11,19 +11,19 @@ import numpy as np
 from fecolumn.case.body_keys import WithMaterial
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
-from fecolumn.case.joint import Interface
+from fecolumn.case.joint import Joint
 from fecolumn.case.sections import Contact
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.rim import Rim
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import ball_of, hertz
-from fecolumn.structures.model import BodyModel, Joint
+from fecolumn.structures.model import BodyModel, JointModel
 from fecolumn.structures.place import Standing, dome_load, loads
 
 # Keys of [contact] that a joint may have of its own, in their place
 _OWN = {field.name for field in dataclasses.fields(Contact)} & {
-    field.name for field in dataclasses.fields(Interface)
+    field.name for field in dataclasses.fields(Joint)
 } - {"between"}
 
 
@@ -34,7 +34,7 @@ def joint_of(
     places: dict[tuple[str, int], int],
     sizes: dict[str, float],
     file: Path | str,
-) -> Joint:
+) -> JointModel:
     """The joint of one contact of a layout.
 
     Parameters
@@ -87,7 +87,7 @@ def joint_of(
     title = case.names_of(body)[number]
     where = keys.on if master is None else case.names_of(master[0])[master[1]]
     shown = f"{name}, edge" if contact["slave_surface"].endswith(", edge") else name
-    return Joint(
+    return JointModel(
         f"{shown}: {title} on {where}",
         places[body, number],
         contact["slave_surface"],
@@ -107,8 +107,8 @@ def joint_of(
 
 
 def with_hertz(
-    case: Case, joints: list[Joint], standing: list[Standing], copies: list[tuple[str, int]]
-) -> list[Joint]:
+    case: Case, joints: list[JointModel], standing: list[Standing], copies: list[tuple[str, int]]
+) -> list[JointModel]:
     """The joints, domes with the compliance of a sphere on what they stand on, linear about what
     they carry at rest; none in the rigid engine, nor on a pad, which spreads the force.
     """

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fecolumn.case.case import Case
 from fecolumn.case.link import PULLING, PUSHING
 from fecolumn.contact.points import GROUND
-from fecolumn.structures.model import Link
+from fecolumn.structures.model import LinkModel
 from fecolumn.structures.place import Standing
 from fecolumn.structures.store import (
     shape_at,
@@ -22,7 +22,7 @@ from fecolumn.structures.store import (
 
 def links_at_copies(
     case: Case, name: str, places: dict[tuple[str, int], int], standing: list[Standing]
-) -> Iterator[Link]:
+) -> Iterator[LinkModel]:
     """The links of a name, one at each copy of its body; points as the bodies stand."""
     keys = case.links[name]
     body, numbers = case.meant_by(keys.body)
@@ -41,7 +41,7 @@ def links_at_copies(
         if other != GROUND and standing[other].held >= 0:
             other, ground = GROUND, standing[other].held
         pulls, pushes = keys.kind in PULLING, keys.kind in PUSHING
-        yield Link(
+        yield LinkModel(
             name if len(numbers) == 1 else f"{name} {number + 1}",
             keys.kind,
             a,
@@ -65,8 +65,8 @@ def links_at_copies(
 
 
 def with_shapes(
-    link: Link, copies: list[tuple[str, int]], standing: list[Standing], keys: dict[str, str]
-) -> Link:
+    link: LinkModel, copies: list[tuple[str, int]], standing: list[Standing], keys: dict[str, str]
+) -> LinkModel:
     """A link with the shapes of the modes at its ends; keys: of the bodies in `store`."""
 
     def shape(place: int, arm: NDArray[Any]) -> NDArray[Any] | None:

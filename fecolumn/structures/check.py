@@ -23,7 +23,7 @@ from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.bonds import pulls_of_bonds
 from fecolumn.structures.meetings import Meeting
-from fecolumn.structures.model import Joint, StructureModel
+from fecolumn.structures.model import JointModel, StructureModel
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.place import Standing, footing
 
@@ -218,7 +218,7 @@ def _to_surface(drawing: Drawing, point: NDArray[Any]) -> float:
     return min((abs(face.normal @ point - face.offset) for face in drawing.faces), default=0.0)
 
 
-def check_joints(joints: list[Joint], standing: list[Standing], file: Path | str) -> None:
+def check_joints(joints: list[JointModel], standing: list[Standing], file: Path | str) -> None:
     """Refuse slaves that hardly have a place at which they stand on their master."""
     count: Counter[frozenset[int]] = Counter()
     for joint in joints:
@@ -235,10 +235,10 @@ def check_joints(joints: list[Joint], standing: list[Standing], file: Path | str
 
 
 def tell_of_gaps(
-    joints: list[Joint], standing: list[Standing], grounds: Sequence[str], file: Path | str
+    joints: list[JointModel], standing: list[Standing], grounds: Sequence[str], file: Path | str
 ) -> None:
     """Warn of joints that begin open, once for all pairs of a joint; grounds: their names."""
-    pairs: dict[str, list[Joint]] = {}
+    pairs: dict[str, list[JointModel]] = {}
     for joint in joints:
         if joint.gap and joint.pair < 0:
             pairs.setdefault(joint.name.partition(":")[0], []).append(joint)

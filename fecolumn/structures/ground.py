@@ -23,7 +23,7 @@ from fecolumn.foundation.lock import alone
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.base_plate import depths, plate_line
 from fecolumn.structures.feet import edge_points
-from fecolumn.structures.model import BodyModel, Joint, Part
+from fecolumn.structures.model import BodyModel, JointModel, Part
 from fecolumn.structures.place import Standing
 from fecolumn.structures.store import key_of
 
@@ -53,7 +53,7 @@ class Sized:
 def bases_of(
     case: Case,
     standing: Sequence[Standing],
-    joints: Sequence[Joint],
+    joints: Sequence[JointModel],
     reach: NDArray[Any],
     file: Path | str,
     say: Callable[[str], None] = lambda text: None,
@@ -77,7 +77,7 @@ def bases_of(
 
 
 def feet_on(
-    standing: Sequence[Standing | Part], joints: Iterable[Joint], ground: int
+    standing: Sequence[Standing | Part], joints: Iterable[JointModel], ground: int
 ) -> list[NDArray[Any]]:
     """Places (n, 3) [m] of the nodes of each foot on a ground; of a dome middle and edge."""
     return [
@@ -87,7 +87,7 @@ def feet_on(
     ]
 
 
-def _foot_arms(model: BodyModel, joint: Joint) -> NDArray[Any]:
+def _foot_arms(model: BodyModel, joint: JointModel) -> NDArray[Any]:
     """Arms (n, 3) [m] of the nodes of a foot; of a dome those of its middle and of its edge."""
     arms: NDArray[Any] = model.arms[model.surfaces[joint.slave_surface].nodes]
     if joint.ball is None or not joint.on_dome:

@@ -30,8 +30,8 @@ class ContactPair:
     """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the
     copy), None of the ground.
 
-    pair, outlines, gap: as of `model.Joint`, place among the contacts and sides [m] in the drawings
-    of the bodies, of plain lists.
+    pair, outlines, gap: as of `model.JointModel`, place among the contacts and sides [m] in the
+    drawings of the bodies, of plain lists.
     """
 
     interface: str

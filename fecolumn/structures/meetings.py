@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
-from fecolumn.case.joint import Interface
+from fecolumn.case.joint import Joint
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import SAME_PLANE, Face, any_over, triangles_of
 from fecolumn.structures.feet import ball_of
@@ -164,7 +164,7 @@ def _across_gaps(gaps: list[_Gap]) -> list[Meeting]:
 def _refuse(
     case: Case,
     name: str,
-    interface: Interface,
+    interface: Joint,
     gaps: list[_Gap],
     near: bool,
     faces: dict[str, list[Face]],

@@ -202,7 +202,7 @@ class Bond:
 
 
 @dataclass(frozen=True)
-class Joint:
+class JointModel:
     """A surface of one body on a surface of another, or on the ground: it may open, slide and roll.
 
     slave: place among the parts of the body whose nodes are the contact points, slave_surface of it
@@ -249,7 +249,7 @@ class Joint:
 
 
 @dataclass(frozen=True)
-class Link:
+class LinkModel:
     """A tendon, spring, strut, stop, restrainer, dashpot or friction damper between a point of one
     part and a point of another or of the ground.
 
@@ -334,8 +334,8 @@ class StructureModel:
     """
 
     parts: tuple[Part, ...]
-    joints: tuple[Joint, ...]
-    links: tuple[Link, ...]
+    joints: tuple[JointModel, ...]
+    links: tuple[LinkModel, ...]
     base: BasePlate | KnownBase | UnboundedBase
     observed: tuple[int, str]
     more: tuple[BasePlate | KnownBase | UnboundedBase, ...] = ()

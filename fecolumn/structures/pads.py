@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
 from fecolumn.case.ground import Ground
-from fecolumn.case.joint import Interface
+from fecolumn.case.joint import Joint
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.pad import pad_below
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.model import Joint, StructureModel
+from fecolumn.structures.model import JointModel, StructureModel
 from fecolumn.structures.place import Standing, dome_load, loads
 from fecolumn.structures.spring_areas import spring_areas, stiffer_in_rocking
 
@@ -29,7 +29,7 @@ FEWEST_STEPS, FEW_STEPS = 4, 10
 ROCKS_AMISS = 0.03
 
 
-def pad_keys(case: Case, interface: str) -> tuple[Interface | Ground | None, str]:
+def pad_keys(case: Case, interface: str) -> tuple[Joint | Ground | None, str]:
     """Where the keys of the pad below an interface are stated, and their names' beginning: the
     interface's own, or its ground; None, "" without a pad.
     """
@@ -44,11 +44,11 @@ def pad_keys(case: Case, interface: str) -> tuple[Interface | Ground | None, str
 
 def with_pads(
     case: Case,
-    joints: list[Joint],
+    joints: list[JointModel],
     standing: list[Standing],
     interfaces: list[str],
     file: Path | str,
-) -> list[Joint]:
+) -> list[JointModel]:
     """The joints, those on a pad with its springs; interfaces: names of theirs.
 
     One relaxation time for all joints of a pad: that at which the dashpots give what the pad
@@ -97,9 +97,9 @@ def with_pads(
 
 def _areas_below(
     standing: list[Standing],
-    joint: Joint,
+    joint: JointModel,
     load: float,
-    pad: tuple[Interface | Ground | None, str],
+    pad: tuple[Joint | Ground | None, str],
     file: Path | str,
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """As `spring_areas`; of a dome the area of the circle in which it touches at rest.
@@ -141,7 +141,7 @@ def _areas_below(
 
 def _tell_of_few_points(
     standing: list[Standing],
-    joint: Joint,
+    joint: JointModel,
     areas: NDArray[Any],
     rows: NDArray[Any],
     where: str,
@@ -161,7 +161,7 @@ def _tell_of_few_points(
         )
 
 
-def _area_below(standing: list[Standing], joints: list[Joint], joint: Joint) -> float:
+def _area_below(standing: list[Standing], joints: list[JointModel], joint: JointModel) -> float:
     """Area [m2] of all faces with which the slave of a joint stands on the master."""
     area = 0.0
     for one in joints:
@@ -171,7 +171,7 @@ def _area_below(standing: list[Standing], joints: list[Joint], joint: Joint) -> 
     return area
 
 
-def _own_mass(standing: list[Standing], joint: Joint, areas: NDArray[Any]) -> float:
+def _own_mass(standing: list[Standing], joint: JointModel, areas: NDArray[Any]) -> float:
     """Mass over area [kg/m2] of the bodies of a joint that carries nothing at rest."""
     masses = [standing[joint.slave].model.mass]
     masses += [standing[joint.master].model.mass] if joint.master != GROUND else []

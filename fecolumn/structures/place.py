@@ -23,7 +23,7 @@ from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation._compiled import interpreted
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import over
-from fecolumn.structures.model import BodyModel, Joint, StructureModel
+from fecolumn.structures.model import BodyModel, JointModel, StructureModel
 from fecolumn.structures.outlines import corners_of_overlap, inwards
 
 # Over the size of a body: places that several supports give it must agree this well
@@ -32,7 +32,7 @@ _AGREE = 1e-6
 # equally far ahead
 _UPRIGHT, _EDGE = 1e-12, 1e-9
 #: What a part stands on, GROUND or the places of parts, each with the joints between.
-Supports = list[tuple[int, list[Joint]]]
+Supports = list[tuple[int, list[JointModel]]]
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Placement:
     spin: NDArray[Any]
 
 
-def touching(standing: Sequence[Standing], joint: Joint) -> NDArray[Any]:
+def touching(standing: Sequence[Standing], joint: JointModel) -> NDArray[Any]:
     """Rows among the nodes of a joint's slave surface (k,) that have the master below them as the
     bodies stand.
     """
@@ -85,7 +85,7 @@ def touching(standing: Sequence[Standing], joint: Joint) -> NDArray[Any]:
 
 
 def placed(
-    standing: Sequence[Standing], joints: Sequence[Joint], file: Path | str
+    standing: Sequence[Standing], joints: Sequence[JointModel], file: Path | str
 ) -> list[Placement]:
     """Places of all parts at the start.
 
@@ -134,11 +134,11 @@ def _turn(start: Initial | None) -> NDArray[Any]:
     return rotation_matrix(start.tilt_rad * np.array([-np.sin(direction), np.cos(direction), 0.0]))
 
 
-def supports_of(standing: Sequence[Standing], joints: Iterable[Joint]) -> list[Supports]:
+def supports_of(standing: Sequence[Standing], joints: Iterable[JointModel]) -> list[Supports]:
     """Of each part what it stands on, GROUND or a part, and the joints between; a fixed part stands
     by itself, and across a gap nothing stands on anything.
     """
-    found: list[dict[int, list[Joint]]] = [{} for _ in standing]
+    found: list[dict[int, list[JointModel]]] = [{} for _ in standing]
     for joint in joints:
         down = standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]
         upper = joint.slave if down < 0 else joint.master
@@ -151,7 +151,7 @@ def supports_of(standing: Sequence[Standing], joints: Iterable[Joint]) -> list[S
     return [list(one.items()) for one in found]
 
 
-def loads(standing: Sequence[Standing], joints: Sequence[Joint]) -> list[float]:
+def loads(standing: Sequence[Standing], joints: Sequence[JointModel]) -> list[float]:
     """Force [N] that each joint carries at rest: what a part and all on it weigh, in equal shares
     on what it stands on.
     """
@@ -169,7 +169,7 @@ def loads(standing: Sequence[Standing], joints: Sequence[Joint]) -> list[float]:
     return [found[id(joint)] for joint in joints]
 
 
-def dome_load(standing: Sequence[Standing], joint: Joint, load: float) -> float:
+def dome_load(standing: Sequence[Standing], joint: JointModel, load: float) -> float:
     """Force [N] about which the compliance of a dome is taken: `load`, what the joint carries at
     rest, or the weight of its own body where that begins above what it will stand on.
     """
@@ -195,7 +195,7 @@ def _from_below(supports: list[Supports]) -> list[int]:
 
 def _on(
     standing: Sequence[Standing],
-    joints: list[Joint],
+    joints: list[JointModel],
     upper: int,
     below: int,
     turns: list[NDArray[Any]],
@@ -220,7 +220,7 @@ def _on(
 
 
 def _rolled(
-    standing: Sequence[Standing], joint: Joint, pivot: NDArray[Any], turn: NDArray[Any]
+    standing: Sequence[Standing], joint: JointModel, pivot: NDArray[Any], turn: NDArray[Any]
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """Where a slave that is turned by (3, 3) touches (3,) [m], and its way (3,) there from the
     pivot, in its own frame: a ball about the pivot has rolled there.
@@ -247,8 +247,8 @@ def _rolled(
 
 
 def _pivot(
-    standing: Sequence[Standing], joints: list[Joint], ahead: NDArray[Any]
-) -> tuple[NDArray[Any], Joint]:
+    standing: Sequence[Standing], joints: list[JointModel], ahead: NDArray[Any]
+) -> tuple[NDArray[Any], JointModel]:
     """Point (3,) [m] of joints farthest in the direction `ahead`, as the bodies stand, and its
     joint; of a round rim on its circle, of an edge its middle.
 
@@ -273,7 +273,7 @@ def _pivot(
 
 
 def _farthest(
-    standing: Sequence[Standing], joint: Joint, ahead: NDArray[Any], leans: bool
+    standing: Sequence[Standing], joint: JointModel, ahead: NDArray[Any], leans: bool
 ) -> NDArray[Any]:
     """As `_pivot`, of one joint; ahead: unit vector (3,) where it leans."""
     slave = standing[joint.slave]
@@ -298,7 +298,7 @@ def _farthest(
 
 
 def _region(
-    standing: Sequence[Standing], joint: Joint
+    standing: Sequence[Standing], joint: JointModel
 ) -> tuple[list[Rim | None], list[NDArray[Any]], float, NDArray[Any]]:
     """Of a joint with two sides, with the roles exchanged: the circles of its outlines or None,
     these as sides (m, 2, 2) [m] in the plane of the slave's face, the height of that, and the
@@ -315,7 +315,7 @@ def _region(
     return circles, outlines, height, corners_of_overlap(outlines[0], outlines[1], slack)
 
 
-def footing(standing: Sequence[Standing], joint: Joint) -> NDArray[Any]:
+def footing(standing: Sequence[Standing], joint: JointModel) -> NDArray[Any]:
     """Places (n, 3) [m] where the bodies of a joint touch at the start: nodes of the slave on the
     master, and of a joint with two sides corners of the region in which both faces overlap.
     """
@@ -331,7 +331,9 @@ def footing(standing: Sequence[Standing], joint: Joint) -> NDArray[Any]:
     return np.concatenate([nodes, corners[apart > _AGREE * np.ptp(outlines[0], axis=(0, 1)).max()]])
 
 
-def _end_of_region(standing: Sequence[Standing], joint: Joint, ahead: NDArray[Any]) -> NDArray[Any]:
+def _end_of_region(
+    standing: Sequence[Standing], joint: JointModel, ahead: NDArray[Any]
+) -> NDArray[Any]:
     """Point (3,) [m] farthest in the direction `ahead` of the region in which the faces of a joint
     with two sides overlap, of an edge its middle; joint: with the roles exchanged.
 

@@ -19,7 +19,7 @@ from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
-from fecolumn.structures.model import BodyModel, HullOutline, Joint, StructureModel
+from fecolumn.structures.model import BodyModel, HullOutline, JointModel, StructureModel
 from fecolumn.structures.place import Standing, loads
 from fecolumn.structures.size import LARGE, largest_side
 
@@ -82,7 +82,7 @@ def tell_of_lengths(case: Case, file: Path | str) -> None:
 
 
 def tell_of_restitution(
-    case: Case, joints: list[Joint], standing: list[Standing], file: Path | str
+    case: Case, joints: list[JointModel], standing: list[Standing], file: Path | str
 ) -> None:
     """Warn of restitution where more than it decides how a body rebounds: on ground that gives, and
     of elastic bodies in steps that are shorter than their slowest vibration.

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Block, Cone, Cylinder, Meshed, Plate, Prism, Storeys, Tube
+from fecolumn.case.bodies import Block, Cone, Cylinder, MeshBody, Plate, Prism, Storeys, Tube
 from fecolumn.case.polygon import signed_area
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.foundation.schema import InputError
@@ -46,7 +46,7 @@ _ACROSS = 8
 #: Bodies with a round section, those whose elements are made here, and all that have elements.
 Round = Tube | Cylinder | Cone
 Gridded = Round | Block | Plate | Prism | Storeys
-Meshable = Gridded | Meshed
+Meshable = Gridded | MeshBody
 #: Low x, high x, low y, high y and size [m] in the drawing of a plate where another body meets it.
 Spot = tuple[float, float, float, float, float]
 
@@ -98,7 +98,7 @@ def _shape_of(key: str, body: Meshable, file: Path | str, spots: Sequence[Spot])
         return Shape(*tied_mesh(key, body, file))
     # by the word, so that a kind that comes from the class of another one has to be named here
     match body:
-        case Meshed(kind="mesh"):
+        case MeshBody(kind="mesh"):
             return _own(key, body, file)
         case Plate(kind="plate" | "slab") | Storeys(kind="storeys"):
             return _plate(body, spots)
@@ -139,7 +139,7 @@ def counts_of(
     """
     if is_tied(body):
         return tied_counts(body)
-    if isinstance(body, Meshed):
+    if isinstance(body, MeshBody):
         shape = _own(key, body, file)
         return len(shape.mesh.cells), own_mesh(body.drawn).counts(shape.order)[0]
     if isinstance(body, (Plate, Storeys)):
@@ -198,7 +198,7 @@ def _counts(
     )
 
 
-def _own(key: str, body: Meshed, file: Path | str) -> Shape:
+def _own(key: str, body: MeshBody, file: Path | str) -> Shape:
     try:
         own = own_mesh(body.drawn)
     except InputError as error:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Block, Meshed, Plate, Prism, Storeys, half_sides
+from fecolumn.case.bodies import Block, MeshBody, Plate, Prism, Storeys, half_sides
 from fecolumn.case.case import Case
 from fecolumn.case.short_form import in_short_form
 from fecolumn.foundation.schema import InputError
@@ -132,7 +132,7 @@ def _cheaper(case: Case, dofs: Mapping[str, int]) -> str:
     body = case.bodies.get(name)
     table = f"grounds.{name}" if body is None else f"bodies.{name}"
     size = f"{table}.element_size_m"
-    if isinstance(body, Meshed):
+    if isinstance(body, MeshBody):
         size = f"{table}.mesh_size_m" if body.drawn.kind != "elements" else ""
     if case.short:
         size = "mesh.fine_size_m" if body is None else in_short_form(size)
@@ -161,7 +161,7 @@ def _feet(case: Case, ground: str) -> list[NDArray[Any]]:
 
 def extent_in_plan(body: Meshable) -> tuple[NDArray[Any], NDArray[Any]]:
     """Lowest and highest corner (2,) [m] of the foot of a body that is not of matrices."""
-    if isinstance(body, Meshed):
+    if isinstance(body, MeshBody):
         own = own_mesh(body.drawn)
         points = own.mesh.points + (own.drawn_at if body.as_drawn else np.zeros(3))
         foot = points[points[:, 2] < points[:, 2].min() + 1e-6 * np.ptp(points[:, 2]), :2]
@@ -206,7 +206,7 @@ def refuse_too_large(
         f'of "{name}"), '
         f"mesh.limit_dofs allows {limit:,}"
     )
-    if isinstance(body, Meshed):
+    if isinstance(body, MeshBody):
         raise InputError(
             file,
             f"{key}.mesh_file",

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.structures.model import Joint, Surface
+from fecolumn.structures.model import JointModel, Surface
 from fecolumn.structures.outlines import cross_product
 from fecolumn.structures.place import Standing, touching
 
@@ -27,7 +27,9 @@ LEAST_SHARE = 0.3
 _INDEPENDENT = 1e-6
 
 
-def spring_areas(standing: Sequence[Standing], joint: Joint) -> tuple[NDArray[Any], NDArray[Any]]:
+def spring_areas(
+    standing: Sequence[Standing], joint: JointModel
+) -> tuple[NDArray[Any], NDArray[Any]]:
     """Areas (k,) [m2] of the points of a joint's slave, and rows (n,) of those that have the master
     below them as the bodies stand.
 
@@ -43,7 +45,7 @@ def spring_areas(standing: Sequence[Standing], joint: Joint) -> tuple[NDArray[An
 
 
 def stiffer_in_rocking(
-    standing: Sequence[Standing], joint: Joint, areas: NDArray[Any], rows: NDArray[Any]
+    standing: Sequence[Standing], joint: JointModel, areas: NDArray[Any], rows: NDArray[Any]
 ) -> float:
     """Ratio of the second moment of `spring_areas` to that of the region in which the faces of a
     joint touch, about the axis through its centre for which it is farthest from 1.
@@ -72,7 +74,7 @@ def _places(surface: Surface, part: Standing) -> NDArray[Any]:
 
 
 def _touching_region(
-    standing: Sequence[Standing], joint: Joint, rows: NDArray[Any]
+    standing: Sequence[Standing], joint: JointModel, rows: NDArray[Any]
 ) -> NDArray[Any]:
     """Triangles (r, 3, 2) [m] of the region in which the faces of a joint touch, along the tangents
     of the slave's; rows: of its points there.

@@ -29,7 +29,7 @@ from fecolumn.structures.check_soil import check_soil
 from fecolumn.structures.ground import bases_of
 from fecolumn.structures.hulls import found_contact
 from fecolumn.structures.made_layout import layout_on_disk
-from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel
+from fecolumn.structures.model import BodyModel, JointModel, LinkModel, Part, StructureModel
 from fecolumn.structures.pads import with_pads
 from fecolumn.structures.place import Standing, placed
 from fecolumn.structures.sense import (
@@ -155,7 +155,9 @@ def assembled(
     return structure
 
 
-def _airborne(standing: list[Standing], joints: list[Joint], links: tuple[Link, ...]) -> set[int]:
+def _airborne(
+    standing: list[Standing], joints: list[JointModel], links: tuple[LinkModel, ...]
+) -> set[int]:
     """Places of the parts that no joint without a gap, and no link, ties to a ground."""
     pairs = [(joint.slave, joint.master) for joint in joints if not joint.gap]
     pairs += [(link.a, link.b) for link in links if link.stiffness]

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeGuard
 
-from fecolumn.case.bodies import Block, Cylinder, Meshed, Tube
+from fecolumn.case.bodies import Block, Cylinder, MeshBody, Tube
 from fecolumn.case.body_keys import WithMaterial
-from fecolumn.case.column_keys import Base, Column, Mesh
+from fecolumn.case.column_keys import Base, Column, MeshSizes
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.case.sizes import sized
 from fecolumn.foundation.content import content
@@ -23,7 +23,7 @@ from fecolumn.mesh.tie import Tie
 from fecolumn.mesh.upright import Upright
 
 #: Bodies that may have two grids.
-OfGrids = Tube | Cylinder | Block | Meshed
+OfGrids = Tube | Cylinder | Block | MeshBody
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,14 +31,14 @@ class Built(Upright):
     """Sections of the short form that say what a column is built of."""
 
     column: Column
-    mesh: Mesh
+    mesh: MeshSizes
     flange: Flange | None
     cap: Cap | None
 
 
 def is_tied(body: WithMaterial) -> TypeGuard[OfGrids]:
     """Whether a body is of two grids, or has a plate that its own grid cannot have."""
-    if isinstance(body, Meshed):
+    if isinstance(body, MeshBody):
         return body.cap is not None
     if getattr(body, "fine_height_m", None) is not None:
         return True
@@ -56,7 +56,7 @@ def built_of(body: OfGrids) -> Built:
         a kind that is none of mesh, block, cylinder and tube.
     """
     match body:
-        case Meshed(kind="mesh"):
+        case MeshBody(kind="mesh"):
             if not own_mesh(body.drawn).has_foot:
                 raise InputError(
                     body.mesh_file, "cap", None, "must be left out of a mesh without a flat foot"
@@ -85,7 +85,7 @@ def built_of(body: OfGrids) -> Built:
             )
         case _:
             raise ValueError(f"no mesh of two grids, or with a plate, of kind {body.kind!r}")
-    mesh = Mesh(
+    mesh = MeshSizes(
         fine_size_m=body.element_size_m,
         coarse_size_m=body.coarse_size_m,
         cap_size_m=body.cap_size_m,

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Meshed
+from fecolumn.case.bodies import MeshBody
 from fecolumn.case.body_keys import Solid, WithMaterial
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import BrickMesh
@@ -28,7 +28,7 @@ def weighed(body: WithMaterial, found: MassProperties) -> MassProperties:
     if isinstance(body, Solid):
         if body.centre_m:
             centre = np.array(body.centre_m)
-            if isinstance(body, Meshed) and body.as_drawn:
+            if isinstance(body, MeshBody) and body.as_drawn:
                 centre = centre - np.array(own_mesh(body.drawn).drawn_at)
         if body.inertia_kg_m2:
             inertia = tensor(body.inertia_kg_m2)

@@ -70,7 +70,7 @@ def main(args: argparse.Namespace) -> int:
     InputError
         the case cannot be analysed, or is a model that takes no steps of a mesh.
     """
-    from fecolumn.case.case import read_case
+    from fecolumn.case.case import load_case
     from fecolumn.case.sections import MODEL_ENGINES
     from fecolumn.engines.pace import cheaper
     from fecolumn.foundation.progress import clock
@@ -80,7 +80,7 @@ def main(args: argparse.Namespace) -> int:
     if not _RANGE[0] <= args.seconds <= _RANGE[1]:
         allowed = f"must lie between {_RANGE[0]:g} and {_RANGE[1]:g}"
         raise InputError(_COMMAND, "--seconds", args.seconds, allowed)
-    case = read_case(args.case)
+    case = load_case(args.case)
     if case.integration.engine in MODEL_ENGINES:
         allowed = "is a model of rigid bodies: its analysis takes seconds, and no key makes it less"
         raise InputError(args.case, "integration.engine", case.integration.engine, allowed)

@@ -130,8 +130,8 @@ def _of_structures() -> list[Table]:
     from fecolumn.case.bodies import BODY_KINDS, Footed
     from fecolumn.case.body_keys import Placed, Solid, WithMaterial
     from fecolumn.case.ground import Ground
-    from fecolumn.case.joint import Interface
-    from fecolumn.case.link import LinkKeys
+    from fecolumn.case.joint import Joint
+    from fecolumn.case.link import Link
     from fecolumn.case.mesh_limits import MeshLimits
     from fecolumn.case.sections import Cap, Flange, Initial, Material, Motion
 
@@ -163,8 +163,8 @@ def _of_structures() -> list[Table]:
         "materials.NAME": Material,
         "grounds.NAME": Ground,
         "grounds.NAME.motion": Motion,
-        "joints.NAME": Interface,
-        "links.NAME": LinkKeys,
+        "joints.NAME": Joint,
+        "links.NAME": Link,
         "initial.NAME": Initial,
         "mesh": MeshLimits,
     }

@@ -20,7 +20,14 @@ from fecolumn.engines.reduced.engine import Engine
 from fecolumn.engines.reduced.start import of_parts
 from fecolumn.engines.reduced_engine import engine_on
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.structures.model import BodyModel, Joint, Link, Part, StructureModel, Surface
+from fecolumn.structures.model import (
+    BodyModel,
+    JointModel,
+    LinkModel,
+    Part,
+    StructureModel,
+    Surface,
+)
 
 # each point gives way by this [m/N]
 GIVES = 1e-10
@@ -113,10 +120,10 @@ def joint(
     on: str = "head",
     friction: float = 0.7,
     restitution: float = 0.0,
-) -> Joint:
+) -> JointModel:
     """Joint of body `slave` on body `master`, or on GROUND; `model`: the slave's BodyModel."""
     n = len(model.surfaces[surface].nodes)
-    return Joint(
+    return JointModel(
         f"{slave} on {master}",
         slave,
         surface,
@@ -131,8 +138,8 @@ def joint(
 
 def engine(
     parts: Sequence[Part],
-    joints: Sequence[Joint],
-    links: Sequence[Link] = (),
+    joints: Sequence[JointModel],
+    links: Sequence[LinkModel] = (),
     dt: float = 1e-3,
     alpha: float = -0.05,
     stands: bool = True,

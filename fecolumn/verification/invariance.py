@@ -32,7 +32,7 @@ from matplotlib.figure import Figure
 from mpi4py import MPI
 
 from fecolumn import simulation
-from fecolumn.case.case import read_case
+from fecolumn.case.case import load_case
 from fecolumn.engines.dynamics.checkpoint import read_checkpoint, write_checkpoint
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.dynamics.system import State
@@ -189,7 +189,7 @@ def resumed(engine: str, motion: np.ndarray, parts: int) -> np.ndarray:
         # looks for Ctrl-C wherever it writes
         half = len(motion) // 2
         case, out = (
-            read_case(
+            load_case(
                 _case_file(
                     Path(folder),
                     engine,

@@ -29,7 +29,7 @@ from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas
 from fecolumn.structures.faces import plane_faces
 from fecolumn.structures.layout import Layout
-from fecolumn.structures.model import BodyModel, Joint, Part, StructureModel, Surface
+from fecolumn.structures.model import BodyModel, JointModel, Part, StructureModel, Surface
 from fecolumn.structures.reduction import bare_model
 from fecolumn.structures.shapes import Shape
 from fecolumn.verification import REDUCED
@@ -122,12 +122,14 @@ def on_ground(
     damping_ratio
         of the elastic modes.
     joint
-        what is not nil of the Joint: round, restitution.
+        what is not nil of the joint: round, restitution.
     """
     part = Part("column", model, model.center, np.eye(3), damping_ratio, np.zeros(3), np.zeros(3))
     law = np.zeros((len(model.surfaces["foot"].nodes), 3))
     given = {"round": False, "restitution": 0.0} | joint
-    joints = (Joint("foot: column on ground", 0, "foot", GROUND, None, friction, law, **given),)
+    joints = (
+        JointModel("foot: column on ground", 0, "foot", GROUND, None, friction, law, **given),
+    )
     return StructureModel((part,), joints, (), base, (0, "top"))
 
 

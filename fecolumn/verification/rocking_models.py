@@ -31,7 +31,7 @@ from typing import Any
 
 import numpy as np
 
-from fecolumn.case.model_sections import BlockSection, FrameSection
+from fecolumn.case.model_sections import BlockModel, FrameModel
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.frame import RockingFrame
@@ -78,7 +78,7 @@ def _impacts() -> Iterator[Row]:
             5e-4,
             scale=1.0,
         )
-    block = RockingBlock.of_section(BlockSection(width_m=0.4, height_m=1.2), "block").planes[0]
+    block = RockingBlock.of_section(BlockModel(width_m=0.4, height_m=1.2), "block").planes[0]
     yield Row(
         "p of a box, sqrt(3 g/(4 R)) [rad/s] (R, Eq. 2)",
         math.sqrt(3 * GRAVITY / (4 * math.hypot(0.2, 0.6))),
@@ -105,7 +105,7 @@ def _impacts() -> Iterator[Row]:
 def _roof() -> Iterator[Row]:
     mass, roof, h, width = 2000.0 * 0.6 * 3.0, 800.0, 1.5, 0.6
     plane = RockingBlock.of_section(
-        BlockSection(width_m=width, height_m=2 * h, roof_mass_kg=roof), "wall"
+        BlockModel(width_m=width, height_m=2 * h, roof_mass_kg=roof), "wall"
     ).planes[0]
     radius, top = math.hypot(width / 2, h), math.hypot(width / 2, 2 * h)
     yield Row(
@@ -124,10 +124,10 @@ def _roof() -> Iterator[Row]:
 
 def _frames() -> Iterator[Row]:
     bent = RockingFrame.of_section(
-        FrameSection(width_m=1.6, height_m=9.6, column_mass_kg=1e5, beam_mass_kg=8e5), "bent"
+        FrameModel(width_m=1.6, height_m=9.6, column_mass_kg=1e5, beam_mass_kg=8e5), "bent"
     )
     column = RockingFrame.of_section(
-        FrameSection(width_m=1.6, height_m=9.6, column_mass_kg=1e5, beam_mass_kg=0.0), "column"
+        FrameModel(width_m=1.6, height_m=9.6, column_mass_kg=1e5, beam_mass_kg=0.0), "column"
     )
     p, p_hat = (math.sqrt(one.plane.p2[0]) for one in (column, bent))
     yield Row("bent 2h 9.6 m, 2b 1.6 m: p of the column [rad/s] (M, 9)", 1.23, p, 0.005, scale=1.0)
@@ -172,11 +172,11 @@ def _frames() -> Iterator[Row]:
         "bent: 6 g tan(alpha) [g] (M, 9)", 1.0, 6 * math.tan(bent.slenderness), 5e-3, scale=1.0
     )
     trilith = RockingFrame.of_section(
-        FrameSection(width_m=0.22, height_m=0.8, column_mass_kg=305.0, beam_mass_kg=265.0),
+        FrameModel(width_m=0.22, height_m=0.8, column_mass_kg=305.0, beam_mass_kg=265.0),
         "trilith",
     )
     alone = RockingFrame.of_section(
-        FrameSection(width_m=0.22, height_m=0.8, column_mass_kg=305.0, beam_mass_kg=0.0), "column"
+        FrameModel(width_m=0.22, height_m=0.8, column_mass_kg=305.0, beam_mass_kg=0.0), "column"
     )
     for words, printed, found, digits in (
         ("alpha [deg]", 15.38, math.degrees(trilith.slenderness), 5e-3),
@@ -228,8 +228,8 @@ def _restrained_frame() -> Iterator[Row]:
         beam_mass_kg=94350 / GRAVITY,
     )
     frame, free = (
-        RockingFrame.of_section(FrameSection(**keys, tendon_n_m=1.72e6), ""),
-        RockingFrame.of_section(FrameSection(**keys), ""),
+        RockingFrame.of_section(FrameModel(**keys, tendon_n_m=1.72e6), ""),
+        RockingFrame.of_section(FrameModel(**keys), ""),
     )
     slope, slope_free = (float(np.diff(one.linear_pushover([0, 1]))[0]) for one in (frame, free))
     b, h = (0.5 * 1.463 * of(0.1359) for of in (math.sin, math.cos))

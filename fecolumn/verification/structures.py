@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 
 from fecolumn.case.case import Case, case_from_tables
-from fecolumn.case.model_sections import CRV, WobblingFrameSection
+from fecolumn.case.model_sections import CRV, WobblingFrameModel
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
@@ -51,7 +51,7 @@ def run(engine: str, long: bool = False) -> CaseRows:
 
 def frame_model(**keys: Any) -> WobblingFrame:
     """The tested frame [W] as the model with two degrees of freedom."""
-    return WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN | keys), "specimen")
+    return WobblingFrame.of_section(WobblingFrameModel(**SPECIMEN | keys), "specimen")
 
 
 def rolling_start(frame: WobblingFrame, tilt: float, turn: float = 0.0) -> dict:

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fecolumn.case.model_sections import WobblingFrameSection
+from fecolumn.case.model_sections import WobblingFrameModel
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
@@ -60,7 +60,7 @@ _TURNS = (0.0, 1e-3, 0.3, 1.5)
 
 def run(engine: str, long: bool = False) -> CaseRows:
     """All rows."""
-    frame = WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN), "specimen")
+    frame = WobblingFrame.of_section(WobblingFrameModel(**SPECIMEN), "specimen")
     paths = {turn: free(frame, 0.05, turn) for turn in _TURNS}
     return CaseRows(
         [
@@ -99,7 +99,7 @@ def free(
 def _statics(frame: WobblingFrame) -> Iterator[Row]:
     values, radius = frame.describe(), frame.body[0]
     loose = WobblingFrame.of_section(
-        WobblingFrameSection(**SPECIMEN | {"tendon_n_m": 0.0}), "specimen"
+        WobblingFrameModel(**SPECIMEN | {"tendon_n_m": 0.0}), "specimen"
     ).describe()
     for words, exact, found, digits in (
         ("b [m]", 0.0991, radius, 5e-5),

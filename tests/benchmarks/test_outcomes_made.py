@@ -6,7 +6,7 @@ import pytest
 from benchmarks.outcomes import bodies, models
 from benchmarks.outcomes.draws import drawn
 from benchmarks.outcomes.motions import along_x, measures, motions, motions_file, stored
-from fecolumn.case.model_sections import BlockSection
+from fecolumn.case.model_sections import BlockModel
 from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.motions.intensity import intensity_measures
@@ -30,7 +30,7 @@ def test_a_row_of_a_planar_block_is_that_block_s_response(file):
     ensemble = stored(file)
     rows = models.planar_blocks(file, 0, 12)
     for row, one in zip(rows, drawn(models.BLOCK, 0, 12, ensemble, True)):
-        section = BlockSection(
+        section = BlockModel(
             width_m=row["width_m"],
             height_m=row["height_m"],
             restitution=min(one.restitution * housner_restitution(one.slenderness), 1.0),

@@ -10,7 +10,7 @@ from benchmarks.soak.hypercube import Draw, hypercube
 from benchmarks.soak.motions import write_motions
 from benchmarks.soak.report import growth, histogram, rows_of, toml
 from benchmarks.soak.specimens import specimens
-from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, load_case
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +74,7 @@ def test_a_case_is_the_same_from_the_file_that_is_written_for_it(plan, tmp_path)
         text = toml(analysis.case.as_stated())
         assert case_from_tables(tomllib.loads(text), "x").id == analysis.id
     (tmp_path / "one.toml").write_text(text)
-    assert read_case(tmp_path / "one.toml").id == analysis.id
+    assert load_case(tmp_path / "one.toml").id == analysis.id
 
 
 def test_growth_is_that_of_the_floor_and_not_of_spikes():

@@ -11,7 +11,7 @@ import pyvista
 
 from fecolumn import __version__
 from fecolumn.case import manual, templates
-from fecolumn.case.case import read_case
+from fecolumn.case.case import load_case
 from fecolumn.case.short_form import ShortForm
 from fecolumn.cli import main
 from fecolumn.study import key_tables as keys
@@ -98,7 +98,7 @@ def test_new_writes_a_case_and_a_study_that_are_accepted_and_overwrites_nothing(
         box.save(tmp_path / "box.stl")
         more = ["--from", str(tmp_path / "box.stl")]
     assert main(["new", kind, str(folder), *more]) == 0
-    read_case(folder / "case.toml")
+    load_case(folder / "case.toml")
     assert len(read_plan(folder / "study.toml").analyses) == 20
     before = {file: file.read_bytes() for file in folder.iterdir()}
     (folder / "study.toml").unlink()

@@ -22,7 +22,7 @@ from fecolumn.fem.corotated import Corotated
 from fecolumn.fem.effective import blocks, unit_loads
 from fecolumn.fem.free_body import FreeBody
 from fecolumn.fem.modes import elastic_modes
-from fecolumn.structures.model import BodyModel, Joint, Part, StructureModel, Surface
+from fecolumn.structures.model import BodyModel, JointModel, Part, StructureModel, Surface
 from fecolumn.verification.models import box
 
 GRAVITY = np.array([0.0, 0.0, -9.81])
@@ -123,7 +123,7 @@ class Structure:
     joints
         (slave, its surface, master, its surface).
     links
-        of Link.
+        of LinkModel.
     """
 
     def __init__(self, bodies, joints, links=(), friction=0.7):
@@ -143,7 +143,7 @@ class Structure:
         for slave, surface, master, other in self.meets:
             law = np.zeros((len(parts[slave].model.surfaces[surface].nodes), 3))
             joints.append(
-                Joint(
+                JointModel(
                     f"{slave} on {master}",
                     slave,
                     surface,

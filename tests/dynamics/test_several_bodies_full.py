@@ -16,7 +16,7 @@ from fecolumn.engines.dynamics.hht import HHT
 from fecolumn.engines.dynamics.stage import Stage
 from fecolumn.engines.reduced.observe import ENERGY, PER_BODY, WIDTH
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.structures.model import Link
+from fecolumn.structures.model import LinkModel
 
 G = 9.81
 # Difference by which the engines may part, displacement [m] and tilt [rad]: ten times what steps of
@@ -241,7 +241,7 @@ def tie(**settings):
         yield_n=np.inf,
         breaking_n=np.inf,
     )
-    return Link(**{**values, **settings})
+    return LinkModel(**{**values, **settings})
 
 
 def tied(link):

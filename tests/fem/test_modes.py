@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fecolumn.case.case import read_case
+from fecolumn.case.case import load_case
 from fecolumn.fem.modes import free_modes
 from fecolumn.mesh.bending import free_free_bending_frequency
 from fecolumn.structures.bodies import drawing
@@ -12,7 +12,7 @@ from fecolumn.structures.reduction import body_of
 
 @pytest.fixture(scope="module")
 def specimen():
-    return read_case("meshes/stout.toml")
+    return load_case("meshes/stout.toml")
 
 
 def _body(case):

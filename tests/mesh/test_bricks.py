@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial import cKDTree
 from small_specimen import TABLES, small_case
 
-from fecolumn.case.case import read_case
+from fecolumn.case.case import load_case
 from fecolumn.case.short_form import short_form
 from fecolumn.contact.rim import Rim
 from fecolumn.mesh.base_plate import GROWTH, base_mesh, growing_steps
@@ -135,7 +135,7 @@ def test_a_block_has_its_own_sides_and_finer_bricks_below():
 
 
 def test_tube_of_the_study_is_one_brick_thick_with_three_fine_bricks_on_a_coarse_one():
-    mesh = column_mesh(read_case(Path(__file__).parents[2] / "meshes/stout.toml").short)
+    mesh = column_mesh(load_case(Path(__file__).parents[2] / "meshes/stout.toml").short)
     foot, joint = boundary_faces(mesh, LOWER, 0, 1e-9), boundary_faces(mesh, UPPER, 0.05, 1e-9)
     # Mean circumference 303.5 mm: 20 bricks of 15 mm, 60 of 5 mm.
     assert (len(foot), len(joint)) == (60, 20)

@@ -103,7 +103,8 @@ def test_a_step_that_fails_after_some_of_its_halves_leaves_what_was_before_it():
     engine, grounds = sliding("reduced", max_cuts=2), np.zeros((20, 3))
     grounds[12, 2] = 1e7
     with pytest.raises(
-        StepFailed, match="motion and contact forces did not converge .step cut 2 times to 0.00025 s"
+        StepFailed,
+        match="motion and contact forces did not converge .step cut 2 times to 0.00025 s",
     ):
         engine.advance(grounds)
     assert len(engine.made) == 12 and engine.motion.time == engine.made[-1, 0]

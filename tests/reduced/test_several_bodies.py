@@ -11,7 +11,7 @@ from fecolumn.engines.reduced.observe import ENERGY, OF_BODY, WIDTH
 from fecolumn.engines.reduced.start import of_parts
 from fecolumn.engines.reduced_engine import GRAVITY_DOWN
 from fecolumn.fem.rotation import rotation_matrix
-from fecolumn.structures.model import Link
+from fecolumn.structures.model import LinkModel
 from fecolumn.verification.boxes import (
     block_on_a_heavy_one,
     box_model,
@@ -236,7 +236,7 @@ def tie(**settings):
         yield_n=np.inf,
         breaking_n=np.inf,
     )
-    return Link(**{**values, **settings})
+    return LinkModel(**{**values, **settings})
 
 
 def tied(link, steps=600, push=8.0):

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from fecolumn.case.case import case_from_tables, case_of_table, read_case
+from fecolumn.case.case import case_from_tables, case_of_table, load_case
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
 from fecolumn.foundation.schema import InputError
@@ -124,7 +124,7 @@ duration_s = 0.35
 n_modes = 10
 """
     )
-    stated, tilts = read_case(tmp_path / "block.toml"), {}
+    stated, tilts = load_case(tmp_path / "block.toml"), {}
     for engine in ("full", "reduced", "rigid", "housner"):
         changes = {"integration.engine": engine}
         folder = tmp_path / engine

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from fecolumn.case.model_sections import BlockSection
+from fecolumn.case.model_sections import BlockModel
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.impact import (
@@ -23,7 +23,7 @@ TALL = dict(width_m=0.4, height_m=1.2, density_kg_m3=2700.0)
 
 
 def block(**keys):
-    return RockingBlock.of_section(BlockSection(**{**TALL, **keys}), "block.toml")
+    return RockingBlock.of_section(BlockModel(**{**TALL, **keys}), "block.toml")
 
 
 def still(duration, dt=1e-3):
@@ -76,7 +76,7 @@ def test_density_of_a_free_block_changes_no_motion():
 @pytest.mark.parametrize("alpha, radius", [(0.1, 0.5), (0.3, 2.0)])
 def test_slenderness_and_half_diagonal_make_the_block_of_that_width_and_height(alpha, radius):
     found = RockingBlock.of_section(
-        BlockSection(slenderness_rad=alpha, half_diagonal_m=radius), "block.toml"
+        BlockModel(slenderness_rad=alpha, half_diagonal_m=radius), "block.toml"
     ).describe()
     assert found["slenderness alpha"][0] == pytest.approx(alpha) and found["R"][0] == pytest.approx(
         radius

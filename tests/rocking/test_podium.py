@@ -9,7 +9,7 @@ import pytest
 from scipy.signal import StateSpace, lsim
 
 from benchmarks.podium.ensemble import batches, gathered, responses
-from fecolumn.case.model_sections import CAV, CRV, LAWS, PodiumSection
+from fecolumn.case.model_sections import CAV, CRV, LAWS, PodiumModel
 from fecolumn.engines.rocking.podium import Podium, study_podium
 from fecolumn.engines.rocking.podium_impact import kinetic_energy_kept
 from fecolumn.engines.rocking.podium_motion import (
@@ -143,12 +143,12 @@ def test_both_sides_are_alike():
 def test_stout_columns_that_cav_would_throw_back_are_refused():
     with pytest.raises(InputError, match="podium.impact = 'CAV'"):
         Podium.of_section(
-            PodiumSection(**SECTION | dict(slenderness_rad=0.35, storeys=9, impact=CAV)),
+            PodiumModel(**SECTION | dict(slenderness_rad=0.35, storeys=9, impact=CAV)),
             "podium.toml",
         )
     assert (
         Podium.of_section(
-            PodiumSection(**SECTION | dict(slenderness_rad=0.35, storeys=9)), "podium.toml"
+            PodiumModel(**SECTION | dict(slenderness_rad=0.35, storeys=9)), "podium.toml"
         ).restitution
         > 0
     )

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
-from fecolumn.case.model_sections import BlockSection, FrameSection
+from fecolumn.case.model_sections import BlockModel, FrameModel
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.block import RockingBlock
 from fecolumn.engines.rocking.frame import RockingFrame
@@ -29,7 +29,7 @@ TESTED = dict(
 
 
 def frame(**keys):
-    return RockingFrame.of_section(FrameSection(**{**TESTED, **keys}), "frame.toml")
+    return RockingFrame.of_section(FrameModel(**{**TESTED, **keys}), "frame.toml")
 
 
 @pytest.mark.parametrize("gamma", [0.0, 0.434, 4.0, 1e6])
@@ -44,7 +44,7 @@ def test_frame_rocks_as_a_larger_block_of_its_slenderness(gamma):
     kept = frame_restitution(alpha, gamma)
     assert kept <= housner_restitution(alpha)
     block = RockingBlock.of_section(
-        BlockSection(slenderness_rad=alpha, half_diagonal_m=larger, restitution=kept), ""
+        BlockModel(slenderness_rad=alpha, half_diagonal_m=larger, restitution=kept), ""
     )
     motion = sample(Pulse("antisymmetric_ricker", 0.45 * GRAVITY, 0.6), 2e-3, tail=2.0)
     assert found.respond(motion).tilt == pytest.approx(block.respond(motion).tilt, abs=1e-12)
@@ -134,7 +134,7 @@ def test_trilith_of_pena_does_not_lift_in_its_plane():
     planar rocking.
     """
     trilith = RockingFrame.of_section(
-        FrameSection(width_m=0.22, height_m=0.8, column_mass_kg=305.0, beam_mass_kg=265.0), ""
+        FrameModel(width_m=0.22, height_m=0.8, column_mass_kg=305.0, beam_mass_kg=265.0), ""
     )
     time = np.arange(0, 3, 1e-3)
     shaking = 0.005 * (2 * math.pi * 3.3) ** 2 * np.sin(2 * math.pi * 3.3 * time)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.case.model_names import TABLES
 from fecolumn.case.model_sections import SECTIONS
 from fecolumn.cli import main
@@ -75,7 +75,7 @@ def test_a_podium_runs_as_any_case_and_gives_what_the_rocking_command_gives(fold
 
 
 def test_case_id_knows_the_building_and_neither_title_nor_output(folder):
-    case = read_case(folder / "podium.toml")
+    case = load_case(folder / "podium.toml")
     assert (
         case.replace({"podium.impact": "CAV"}).id
         != case.id
@@ -122,7 +122,7 @@ def test_studies_vary_the_keys_of_a_models_table(folder):
 def test_what_does_not_fit_is_told_in_a_line(folder, text, said):
     (folder / "podium.toml").write_text(PODIUM + PULSE + text)
     with pytest.raises(InputError) as told:
-        read_case(folder / "podium.toml")
+        load_case(folder / "podium.toml")
     assert said in str(told.value) and "\n" not in str(told.value)
 
 

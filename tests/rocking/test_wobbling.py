@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import trapezoid
 
 from fecolumn.case.case import case_from_tables
-from fecolumn.case.model_sections import WobblingFrameSection, WobblingSection
+from fecolumn.case.model_sections import WobblingFrameModel, WobblingModel
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.block import PlanarBody, RockingBlock, body_plane
 from fecolumn.engines.rocking.of_bodies import model_of
@@ -31,7 +31,7 @@ COLUMNS = {
 
 
 def column(name="marble drum", **keys):
-    return Wobbling.of_section(WobblingSection(**COLUMNS[name] | keys), "column.toml")
+    return Wobbling.of_section(WobblingModel(**COLUMNS[name] | keys), "column.toml")
 
 
 def shaken(seed, peak, dt=2e-3, steps=3000, vertical=0.0):
@@ -95,7 +95,7 @@ def test_in_a_plane_it_is_the_planar_column_without_loss(stiffness):
 
 
 def test_a_small_spin_turns_the_plane_and_a_planar_motion_keeps_it():
-    frame = WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN), "")
+    frame = WobblingFrame.of_section(WobblingFrameModel(**SPECIMEN), "")
     straight, passages, _ = free(frame, 0.05, 0.0, 5.0)
     assert len(passages) > 3 and np.abs(np.sin(straight[:, 2])).max() < 1e-12
     turned, passages, _ = free(frame, 0.05, 1e-3, 5.0)
@@ -133,7 +133,7 @@ def test_a_column_released_beyond_its_critical_tilt_overturns_and_within_it_not(
 
 def test_tendons_raise_the_critical_tilt_and_stiff_ones_always_right_the_frame():
     frames = [
-        WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN | {"tendon_n_m": stiffness}), "")
+        WobblingFrame.of_section(WobblingFrameModel(**SPECIMEN | {"tendon_n_m": stiffness}), "")
         for stiffness in (0.0, 1.72e6, 1e8)
     ]
     tilts = [frame.critical_tilt for frame in frames]
@@ -141,7 +141,7 @@ def test_tendons_raise_the_critical_tilt_and_stiff_ones_always_right_the_frame()
 
 
 def test_pushover_of_the_frame_is_virtual_work_and_slender_at_small_displacement():
-    frame = WobblingFrame.of_section(WobblingFrameSection(**SPECIMEN), "")
+    frame = WobblingFrame.of_section(WobblingFrameModel(**SPECIMEN), "")
     u, force = frame.pushover(1e-5)
     assert force == pytest.approx(float(frame.planar.linear_pushover(u)), rel=0.1359**2)
     displacement, force = np.array(
@@ -173,7 +173,7 @@ def test_of_a_case_it_has_mass_and_inertia_of_the_mesh_and_refuses_a_block():
 )
 def test_keys_that_do_not_fit_are_named(keys, words):
     with pytest.raises(InputError, match=words):
-        Wobbling.of_section(WobblingSection(**keys), "column.toml")
+        Wobbling.of_section(WobblingModel(**keys), "column.toml")
 
 
 def test_more_friction_than_there_is_is_told():

@@ -7,7 +7,7 @@ import time
 import pytest
 from small_structures import BLOCK, STONE, block, frame, stack, structure
 
-from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures import layout
 from fecolumn.structures.bodies import drawing
@@ -184,7 +184,7 @@ def test_limit_is_a_key_that_makes_no_other_case(tmp_path):
     with pytest.raises(
         InputError, match="mesh.fine_size_m = 0.1: unknown key; known keys: limit_dofs"
     ):
-        read_case(tmp_path / "case.toml")
+        load_case(tmp_path / "case.toml")
 
 
 def test_every_copy_counts_in_full_order():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from small_structures import BLOCK, FOOT, RIGID, STONE, block, frame, stack, structure
 
-from fecolumn.case.case import case_from_tables, read_case
+from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.toml_file import merge
 from fecolumn.structures.structure import structure_model
@@ -451,14 +451,14 @@ def test_mesh_file_of_a_body_counts_by_content_and_from_the_cases_folder(tmp_pat
         '[bodies.cube]\nkind = "mesh"\nmesh_file = "cube.vtk"\nrigid = '
         'true\n[joints.foot]\nslave = "cube"\non = "ground"\n'
     )
-    case = read_case(tmp_path / "case.toml")
+    case = load_case(tmp_path / "case.toml")
     assert structure_model(case).parts[0].model.mass == pytest.approx(7850 * 0.027)
     before = case.id
     meshio.Mesh(2 * points, [("hexahedron", [list(range(8))])]).write(tmp_path / "cube.vtk")
-    assert read_case(tmp_path / "case.toml").id != before
+    assert load_case(tmp_path / "case.toml").id != before
     (tmp_path / "cube.vtk").unlink()
     with pytest.raises(InputError, match="no such file"):
-        read_case(tmp_path / "case.toml")
+        load_case(tmp_path / "case.toml")
 
 
 def test_coarse_plate_on_columns_stands_on_their_heads_whichever_is_named_first():

@@ -16,7 +16,7 @@ from fecolumn.engines.dynamics.links import LINK
 from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
-    from fecolumn.structures.model import Joint, StructureModel, Surface
+    from fecolumn.structures.model import JointModel, StructureModel, Surface
 
 # Length of a link of a bond over the way at which it has failed
 LONG = 2e3
@@ -60,7 +60,7 @@ def bond_links(model: StructureModel) -> BondLinks:
     return BondLinks(np.concatenate(links).astype(LINK), shapes)
 
 
-def _links_of_point(model: StructureModel, joint: Joint, point: Array, area: float) -> Array:
+def _links_of_point(model: StructureModel, joint: JointModel, point: Array, area: float) -> Array:
     """Three links (3,) of LINK at a point (3,) [m] of the slave that stands for an area [m2]."""
     bond, rows = joint.bond, np.zeros(3, LINK)
     assert bond is not None
@@ -98,7 +98,7 @@ def _face(model: StructureModel, place: int, name: str | None) -> Surface:
     return model.parts[place].model.surfaces[name]
 
 
-def _shapes_below(model: StructureModel, joint: Joint, points: Array) -> list:
+def _shapes_below(model: StructureModel, joint: JointModel, points: Array) -> list:
     """Shapes (3, m) of the master's modes below points (n, 3) [m] of the slave; None of a
     ground.
     """

@@ -12,7 +12,7 @@ from typing import ClassVar, NamedTuple, TypedDict, Unpack
 
 import numpy as np
 
-from fecolumn.case.model_sections import BlockSection
+from fecolumn.case.model_sections import BlockModel
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.impact import body_restitution, one_sided_restitution
 from fecolumn.engines.rocking.plane import PlanarModel, Plane
@@ -35,7 +35,7 @@ class RockingBlock(PlanarModel):
     planes: tuple[Plane, ...]
 
     @classmethod
-    def of_section(cls, section: BlockSection, file: Path | str) -> RockingBlock:
+    def of_section(cls, section: BlockModel, file: Path | str) -> RockingBlock:
         """Block of its table.
 
         Raises
@@ -190,7 +190,7 @@ def body_plane(
     )
 
 
-def _plane(section: BlockSection, axis: int, sides: tuple[float, float], mass: float) -> Plane:
+def _plane(section: BlockModel, axis: int, sides: tuple[float, float], mass: float) -> Plane:
     """Plane of a block of these sides: width and height [m]."""
     (width, height), roof, off = sides, section.roof_mass_kg, section.roof_eccentricity_m
     total = mass + roof
@@ -233,7 +233,7 @@ def _plane(section: BlockSection, axis: int, sides: tuple[float, float], mass: f
     )
 
 
-def _refuse_fallen(plane: Plane, file: Path | str, section: BlockSection) -> None:
+def _refuse_fallen(plane: Plane, file: Path | str, section: BlockModel) -> None:
     for side in plane.sides:
         if not plane.restoring(0.0, side) > 0:
             raise InputError(

@@ -7,14 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from fecolumn.case.bodies import Block, Cylinder, Meshed, Plate, Storeys, Tube
+from fecolumn.case.bodies import Block, Cylinder, MeshBody, Plate, Storeys, Tube
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.foundation.schema import InputError
 
 # Kinds of bodies whose mass, inertia and foot are known here, as of rigid bodies
 _KNOWN_FEET = ("tube", "cylinder", "block", "plate", "slab", "storeys", "mesh")
-_CLASSES = (Tube, Cylinder, Block, Plate, Storeys, Meshed)
+_CLASSES = (Tube, Cylinder, Block, Plate, Storeys, MeshBody)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ def rigid_body(case: Case, name: str, file: Path | str) -> RigidColumn:
     density = material_of(body, case.materials).density_kg_m3
     flange, cap = getattr(body, "flange", None), getattr(body, "cap", None)
     seat = flange.thickness_m if flange else 0.0
-    if isinstance(body, Meshed):
+    if isinstance(body, MeshBody):
         own = own_mesh(body.drawn)
         if not own.has_foot:
             raise InputError(

@@ -16,7 +16,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fecolumn.case.model_sections import FrameSection
+from fecolumn.case.model_sections import FrameModel
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.block import described
 from fecolumn.engines.rocking.impact import frame_restitution
@@ -53,7 +53,7 @@ class RockingFrame(PlanarModel):
     planes: tuple[Plane, ...]
 
     @classmethod
-    def of_section(cls, section: FrameSection, file: Path | str) -> RockingFrame:
+    def of_section(cls, section: FrameModel, file: Path | str) -> RockingFrame:
         """Frame of its table.
 
         Raises

@@ -12,7 +12,7 @@ from fecolumn.case.bodies import Block, Cylinder, Storeys, Tube
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.ground import GROUND_NAME
-from fecolumn.case.joint import Interface
+from fecolumn.case.joint import Joint
 from fecolumn.case.model_keys import UNKNOWN_KEYS
 from fecolumn.case.model_table import Start
 from fecolumn.case.sections import Initial
@@ -204,7 +204,7 @@ class _Reader:
             pairs |= {pair for a in own for b in others for pair in ((a, b), (b, a))}
         return pairs
 
-    def _sides(self, joint: Interface) -> tuple[set[str], set[str]]:
+    def _sides(self, joint: Joint) -> tuple[set[str], set[str]]:
         """Bodies on both sides of a joint, or GROUND_NAME."""
         one, other = (
             {GROUND_NAME}

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from fecolumn.case.model_sections import CRV, PodiumSection
+from fecolumn.case.model_sections import CRV, PodiumModel
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.model import ModelResponse, balanced
 from fecolumn.engines.rocking.podium_impact import podium_restitution
@@ -54,7 +54,7 @@ class Podium:
     inertia: float = 4 / 3
 
     @classmethod
-    def of_section(cls, section: PodiumSection, file: Path | str) -> Podium:
+    def of_section(cls, section: PodiumModel, file: Path | str) -> Podium:
         """Podium of its table.
 
         Raises

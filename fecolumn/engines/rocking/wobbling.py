@@ -16,7 +16,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fecolumn.case.model_sections import WobblingSection
+from fecolumn.case.model_sections import WobblingModel
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.column import RigidColumn
@@ -65,7 +65,7 @@ class Wobbling:
     friction: float = math.inf
 
     @classmethod
-    def of_section(cls, section: WobblingSection, file: Path | str) -> Wobbling:
+    def of_section(cls, section: WobblingModel, file: Path | str) -> Wobbling:
         """Column of its table.
 
         Raises

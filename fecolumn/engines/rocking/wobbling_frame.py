@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from fecolumn.case.model_sections import WobblingFrameSection
+from fecolumn.case.model_sections import WobblingFrameModel
 from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
@@ -29,7 +29,7 @@ class WobblingFrame(Wobbling):
 
     @classmethod
     def of_section(  # type: ignore[override]  # each model has a table of its own
-        cls, section: WobblingFrameSection, file: Path | str
+        cls, section: WobblingFrameModel, file: Path | str
     ) -> WobblingFrame:
         """Frame of its table.
 

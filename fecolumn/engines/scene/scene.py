@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from mpi4py import MPI
 
     from fecolumn.engines.reduced.states import Snapshot
-    from fecolumn.structures.model import BodyModel, Link
+    from fecolumn.structures.model import BodyModel, LinkModel
 
 
 class ElasticGround(Protocol):
@@ -207,7 +207,7 @@ class Scene:
     give
         makes what its `plates` are.
     links
-        of `structures.model.Link`.
+        of `structures.model.LinkModel`.
     mass
         MassProperties of a body that stands alone, where it stands upright; else None.
     other_sides
@@ -221,7 +221,7 @@ class Scene:
     of_cells: dict[str, NDArray[Any]]
     expand: Callable[[Scene], SceneFields]
     give: Callable[[], list[tuple[ElasticGround, int]]]
-    links: tuple[Link, ...] = ()
+    links: tuple[LinkModel, ...] = ()
     mass: MassProperties | None = None
     other_sides: frozenset[int] = frozenset()
     planes: dict[int, float] = field(default_factory=dict)

@@ -24,7 +24,7 @@ from fecolumn.mesh.bricks import BASE, FACES, outer_faces
 from fecolumn.mesh.mass import MassProperties
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.feet import ball_of
-from fecolumn.structures.model import BodyModel, Joint, Part, StructureModel
+from fecolumn.structures.model import BodyModel, JointModel, Part, StructureModel
 from fecolumn.structures.storeys import building_of
 
 if TYPE_CHECKING:
@@ -225,7 +225,7 @@ def floor_boxes(body: Storeys) -> NDArray[Any]:
     )
 
 
-def _contact(joint: Joint, shown: _Shown, part: Part, first: NDArray[Any]) -> JointFace:
+def _contact(joint: JointModel, shown: _Shown, part: Part, first: NDArray[Any]) -> JointFace:
     surface = part.model.surfaces[joint.slave_surface]
     # the second tangent of a face that looks down is -y
     axes = surface.axes * [1.0, -1.0 if surface.normal[2] < 0 else 1.0, 1.0]

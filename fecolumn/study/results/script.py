@@ -14,9 +14,10 @@ from fecolumn.study.results.study import StudyResult
 def run_study(
     file: Case | str | Path,
     folder: str | Path,
-    workers: int = 1,
+    jobs: int = 1,
     quiet: bool = False,
     axes: Mapping[str, Sequence[Any]] | None = None,
+    workers: int | None = None,
 ) -> StudyResult:
     """Do what is missing of a study, as `fecolumn study` does, with its tables and its figure in
     the folder.
@@ -33,12 +34,19 @@ def run_study(
         beside the folder, as NAME-study.toml and NAME-case.toml.
     folder
         of its results.
-    workers
-        analyses at a time.
+    jobs
+        analyses at a time, each in a process of its own.
     quiet
         no progress on stderr.
     axes
         values by dotted key, each with each, such as {"contact.friction_coefficient": [0.3, 0.6]}.
+    workers
+        the name of `jobs` until 1.0.
+
+    Returns
+    -------
+    StudyResult
+        what the folder holds, as `fecolumn.load` gives it.
 
     Raises
     ------
@@ -51,12 +59,16 @@ def run_study(
     """
     import io
 
+    from fecolumn.foundation.deprecated import warn_of_older_name
     from fecolumn.study.plan import read_plan
     from fecolumn.study.run import complete_study as work_off
     from fecolumn.study.table import write_figure, write_tables
 
+    if workers is not None:
+        warn_of_older_name("script", "workers of run_study", "jobs")
+        jobs = workers
     plan = read_plan(_study_file(file, folder, axes))
-    rows = work_off(plan, folder, workers=workers, stream=io.StringIO() if quiet else sys.stderr)
+    rows = work_off(plan, folder, workers=jobs, stream=io.StringIO() if quiet else sys.stderr)
     write_tables(plan, rows, folder)
     write_figure(plan, rows, folder)
     return StudyResult(folder)
