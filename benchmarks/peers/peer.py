@@ -44,7 +44,9 @@ class Peer:
         function that gives the command which prints the version where the peer can run, and fails
         elsewhere; None for this project's engines.
     elements
-        a finite-element program.
+        another finite-element program.
+    modes
+        of a body that moves in so many, 0 of a rigid one; None where all nodes move.
     steps
         it makes unless asked for a long run; 0 for all.
     step_share
@@ -56,6 +58,7 @@ class Peer:
     start: Callable
     version: Callable[[], list[str]] | None = None
     elements: bool = False
+    modes: int | None = 0
     steps: int = 0
     step_share: float = 1.0
 
@@ -116,8 +119,8 @@ def _mujoco():
 
 
 PEERS = (
-    Peer("full", "fecolumn, full order, corotated", _engine),
-    Peer("reduced", "fecolumn, reduced, 30 modes", _engine),
+    Peer("full", "fecolumn, full order, corotated", _engine, modes=None),
+    Peer("reduced", "fecolumn, reduced, 30 modes", _engine, modes=30),
     Peer("rigid", "fecolumn, rigid", _engine),
     Peer(
         "getfem",
@@ -125,9 +128,18 @@ PEERS = (
         _script("getfem.py", SYSTEM_PYTHON),
         _debian("python3-getfem", "getfem"),
         elements=True,
+        modes=None,
         steps=240,
     ),
-    Peer("calculix", "CalculiX", _ccx, lambda: ["ccx", "-v"], elements=True, steps=50),
+    Peer(
+        "calculix",
+        "CalculiX",
+        _ccx,
+        lambda: ["ccx", "-v"],
+        elements=True,
+        modes=None,
+        steps=50,
+    ),
     Peer("mujoco", "MuJoCo, rigid, dt 1e-3", _script("mujoco.py", mujoco_python, "1e-3"), _mujoco),
     Peer(
         "mujoco-fine",
@@ -181,13 +193,8 @@ def run_peer(
     says so in the result.
     """
     bodies = len(given.mesh.body.points)
-    dofs = (
-        3 * (bodies + len(given.mesh.base.points))
-        if peer.version is None
-        else 3 * bodies
-        if peer.elements
-        else 6
-    )
+    nodes = bodies if peer.elements else bodies + len(given.mesh.base.points)
+    dofs = 3 * nodes if peer.modes is None else 6 + peer.modes
     steps = given.steps if long or not peer.steps else min(peer.steps, given.steps)
     run = Run(peer, given, dofs, round(steps / peer.step_share))
     try:
