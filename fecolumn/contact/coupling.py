@@ -238,15 +238,27 @@ def times(coupling: Coupling, forces: Array) -> Array:
 def motion_by(coupling: Coupling, forces: Array) -> Array:
     """Motion (nb, w) of the bodies, V^T r, by forces (n, 3) of points that have levers."""
     levers, bodies, width = coupling.levers, coupling.bodies, coupling.levers.shape[2] // 2
-    motion = np.zeros((len(coupling.blocks.of), width))
-    for i in range(len(forces)):
-        for side in range(2):
-            b = bodies[i, side]
-            if b >= 0:
-                for a in range(3):
-                    row, force, target = levers[i, a], forces[i, a], motion[b]
-                    for c in range(width):
-                        target[c] += row[width * side + c] * force
+    motion, both, i, n = (
+        np.zeros((len(coupling.blocks.of), width)),
+        np.empty(2 * width),
+        0,
+        len(forces),
+    )
+    while i < n:
+        # the points between the same two bodies, whose columns are beside each other
+        slave, master = bodies[i, 0], bodies[i, 1]
+        both[:] = 0.0
+        while i < n and bodies[i, 0] == slave and bodies[i, 1] == master:
+            x, y, z = forces[i, 0], forces[i, 1], forces[i, 2]
+            first, second, third = levers[i, 0], levers[i, 1], levers[i, 2]
+            for c in range(2 * width):
+                both[c] += x * first[c] + y * second[c] + z * third[c]
+            i += 1
+        for c in range(width):
+            if slave >= 0:
+                motion[slave, c] += both[c]
+            if master >= 0:
+                motion[master, c] += both[width + c]
     return motion
 
 

@@ -21,7 +21,8 @@ import numpy as np
 
 from fecolumn.contact.arrays import largest
 from fecolumn.contact.blocks import eliminate
-from fecolumn.contact.coupling import columns_used, motion_by, moved_by, slips_under
+from fecolumn.contact.coupling import motion_by, moved_by, slips_under
+from fecolumn.contact.curvature import curvature, motion_of_rows, rows_of_motion
 from fecolumn.contact.tolerances import (
     FROZEN_FARTHEST,
     FROZEN_MORE,
@@ -202,19 +203,16 @@ def _newton_step(
     coupling: Coupling, rest: Array, impulses: Array, slopes: Array
 ) -> tuple[bool, Array]:
     """Whether Newton's equations at a gradient `rest` (nb, w) are regular, and its step (nb, w)."""
-    blocks, width, step = coupling.blocks, coupling.levers.shape[2] // 2, np.zeros_like(rest)
-    matrix, right = _curvature(coupling, impulses, slopes), np.empty(blocks.first[-1])
-    for b in range(len(rest)):
-        if blocks.of[b] >= 0:
-            for c in range(width):
-                right[blocks.first[blocks.of[b]] + c] = -rest[b, c]
-    if not eliminate(matrix, right, blocks.first, blocks.coupled):
-        return False, step
-    for b in range(len(rest)):
-        if blocks.of[b] >= 0:
-            for c in range(width):
-                step[b, c] = right[blocks.first[blocks.of[b]] + c]
-    return True, step
+    acts = np.empty(len(impulses), np.bool_)
+    for i in range(len(impulses)):
+        acts[i] = impulses[i, 2] > 0
+    matrix, right = curvature(coupling, acts, slopes), rows_of_motion(coupling, rest)
+    solved = eliminate(matrix, right, coupling.blocks.first, coupling.blocks.coupled)
+    step = motion_of_rows(coupling, right)
+    for b in range(len(step)):
+        for c in range(step.shape[1]):
+            step[b, c] = -step[b, c]
+    return solved, step
 
 
 @njit
@@ -334,46 +332,3 @@ def _nearest(
     slope[0, 2] = slope[2, 0] = mu * u / size / give
     slope[1, 2] = slope[2, 1] = mu * v / size / give
     slope[2, 2] = 1 / size / give
-
-
-@njit
-def _curvature(coupling: Coupling, impulses: Array, slopes: Array) -> Array:
-    """Second derivatives (m, m): 1 + V^T slopes V, bodies in their order of elimination."""
-    bodies, blocks, levers = coupling.bodies, coupling.blocks, coupling.levers
-    rows, columns, n, begin = blocks.first[-1], columns_used(coupling), len(levers), 0
-    width, matrix = levers.shape[2] // 2, np.zeros((rows, rows))
-    left, right = np.empty((3 * n, columns)), np.empty((3 * n, columns))
-    for j in range(rows):
-        matrix[j, j] = 1.0
-    while begin < n:
-        # the points between the same two bodies
-        one, end, count = bodies[begin], begin, 0
-        while end < n and bodies[end, 0] == one[0] and bodies[end, 1] == one[1]:
-            if impulses[end, 2] > 0:
-                _times_slope(levers[end], slopes[end], left[count : count + 3])
-                right[count : count + 3] = levers[end, :, :columns]
-                count += 3
-            end += 1
-        begin = end
-        if count == 0:
-            continue
-        block = right[:count].T @ left[:count]
-        for side in range(2):
-            for other in range(2):
-                if one[side] < 0 or one[other] < 0:
-                    continue
-                top = blocks.first[blocks.of[one[side]]]
-                first = blocks.first[blocks.of[one[other]]]
-                for a in range(width):
-                    for c in range(width):
-                        matrix[top + a, first + c] += block[width * side + a, width * other + c]
-    return matrix
-
-
-@njit
-def _times_slope(levers: Array, slope: Array, target: Array) -> None:
-    """Target (3, c): slope (3, 3) times the first c columns of levers (3, 2 w)."""
-    for a in range(3):
-        x, y, z = slope[a, 0], slope[a, 1], slope[a, 2]
-        for c in range(target.shape[1]):
-            target[a, c] = x * levers[0, c] + y * levers[1, c] + z * levers[2, c]

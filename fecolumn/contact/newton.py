@@ -9,7 +9,8 @@ import numpy as np
 from fecolumn.contact.arrays import put
 from fecolumn.contact.blocks import FEW_UNKNOWNS, eliminate, solve_columns
 from fecolumn.contact.coulomb import violation
-from fecolumn.contact.coupling import columns_used, slips_by_whole, slips_under
+from fecolumn.contact.coupling import motion_by, moved_by, slips_by_whole, slips_under
+from fecolumn.contact.curvature import curvature, motion_of_rows, rows_of_motion
 from fecolumn.contact.tolerances import SINGULAR
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
@@ -90,13 +91,29 @@ def newton_step(
     e. Linearised in r_t, r_n and the slip s_t, its equations leave (1 - c) y + rho c e.s_t = 0, c =
     mu r_n / |trial|: two unknowns, three for a sticking point.
     """
-    n, by_levers = len(q), len(coupling.whole) == 0
-    # unknown u multiplies basis[u] (3,) of the force on point[u], where it is guess[u] now, and its
-    # equation is the slip or gap along test[u]
+    if len(coupling.whole):
+        return _by_whole(coupling, q, forces, relative, friction, rho, give)
+    return _by_levers(coupling, forces, relative, friction, rho, give)
+
+
+@njit
+def _by_whole(
+    coupling: Coupling,
+    q: Array,
+    forces: Array,
+    relative: Array,
+    friction: Array,
+    rho: Array,
+    give: float,
+) -> tuple[Array, bool]:
+    """`newton_step` by the whole matrix."""
+    n = len(q)
+    # unknown u multiplies basis[u] (3,) of the force on point[u], its equation is the slip or gap
+    # along test[u]
     point, basis, test = np.empty(3 * n, np.int64), np.zeros((3 * n, 3)), np.zeros((3 * n, 3))
-    guess, stiffening, count = np.zeros(3 * n), np.zeros(3 * n), 0
+    stiffening, count = np.zeros(3 * n), 0
     for j in range(n):
-        i = j if by_levers else coupling.blocks.order[j]
+        i = coupling.blocks.order[j]
         t0, t1, normal = (
             forces[i, 0] - rho[i] * relative[i, 0],
             forces[i, 1] - rho[i] * relative[i, 1],
@@ -107,13 +124,12 @@ def newton_step(
         mu = friction[i]
         if mu == 0.0:
             point[count], basis[count, 2], test[count, 2] = i, 1.0, 1.0
-            guess[count] = forces[i, 2]
             count += 1
             continue
         length = np.sqrt(t0 * t0 + t1 * t1)
         if length <= mu * normal:
             for a in range(3):
-                point[count], guess[count] = i, forces[i, a]
+                point[count] = i
                 basis[count, a] = test[count, a] = 1.0
                 count += 1
             continue
@@ -121,7 +137,6 @@ def newton_step(
         share = min(mu * max(forces[i, 2], 0.0) / length, 1.0)
         point[count] = point[count + 1] = i
         basis[count, 0], basis[count, 1], basis[count, 2] = mu * x, mu * y, 1.0
-        guess[count], guess[count + 1] = forces[i, 2], x * forces[i, 1] - y * forces[i, 0]
         test[count, 2] = 1.0
         basis[count + 1, 0], basis[count + 1, 1] = -y, x
         # scaled to the size of the other equations
@@ -131,19 +146,14 @@ def newton_step(
     updated = np.zeros((n, 3))
     if count == 0:
         return updated, True
-    point, basis, test, stiffening, guess = (
+    point, basis, test, stiffening = (
         point[:count],
         basis[:count],
         test[:count],
         stiffening[:count],
-        guess[:count],
     )
-    solved, regular = (
-        _by_levers(coupling, q, forces, relative, give, point, basis, test, stiffening, guess)
-        if by_levers
-        else _by_whole(
-            coupling.whole, coupling.blocks, q, forces, give, point, basis, test, stiffening
-        )
+    solved, regular = _solve_whole(
+        coupling.whole, coupling.blocks, q, forces, give, point, basis, test, stiffening
     )
     if regular:
         for u in range(count):
@@ -153,7 +163,7 @@ def newton_step(
 
 
 @njit
-def _by_whole(
+def _solve_whole(
     W: Array,
     blocks: Blocks,
     q: Array,
@@ -223,136 +233,115 @@ def _by_whole(
 @njit
 def _by_levers(
     coupling: Coupling,
-    q: Array,
     forces: Array,
     relative: Array,
+    friction: Array,
+    rho: Array,
     give: float,
-    point: Array,
-    basis: Array,
-    test: Array,
-    stiffening: Array,
-    guess: Array,
 ) -> tuple[Array, bool]:
-    """As `_by_whole`, by the formula of Woodbury (1950): (D + L R^T) y = b with D of each point
-    alone and w columns of L and R a body leaves equations of the bodies, 1 + R^T D^-1 L.
+    """`newton_step` by the formula of Woodbury (1950): of each point alone the change of its force
+    is h - G V x, x the motion of the bodies by the changes of all, so that (1 + V^T G V) x = V^T h.
 
-    Solved for the change of the unknowns from their guess (count,), so that rounding, which grows
-    with L R^T over D, is that of a change that becomes small.
+    Rounding, which grows with V over what a point gives, is that of changes, which become small.
     """
-    bodies, blocks, count = coupling.bodies, coupling.blocks, len(point)
-    start, same = np.zeros((len(q), 3)), True
-    for u in range(count):
+    n = len(forces)
+    changes, slopes, acts = np.empty((n, 3)), np.zeros((n, 3, 3)), np.empty(n, np.bool_)
+    for i in range(n):
+        acts[i], regular = _alone(
+            coupling.own[i],
+            forces[i],
+            relative[i],
+            friction[i],
+            rho[i],
+            give,
+            changes[i],
+            slopes[i],
+        )
+        if not regular:
+            return changes, False
+    matrix = curvature(coupling, acts, slopes)
+    right = rows_of_motion(coupling, motion_by(coupling, changes))
+    if len(right) and not eliminate(matrix, right, coupling.blocks.first, coupling.blocks.coupled):
+        return changes, False
+    moved = moved_by(coupling, motion_of_rows(coupling, right))
+    for i in range(n):
+        x, y, z = moved[i, 0], moved[i, 1], moved[i, 2]
         for a in range(3):
-            start[point[u], a] += guess[u] * basis[u, a]
-    for i in range(len(q)):
-        for a in range(3):
-            same &= start[i, a] == forces[i, a]
-    if not same:
-        relative = slips_under(coupling, q, start)
-    width, columns = coupling.levers.shape[2] // 2, columns_used(coupling)
-    solved, left, across = np.empty(count), np.empty((count, columns)), np.empty((count, columns))
-    for u in range(count):
-        i = point[u]
-        solved[u] = -stiffening[u] * guess[u]
-        for a in range(3):
-            solved[u] -= test[u, a] * (relative[i, a] + give * (start[i, a] - forces[i, a]))
-        _along(coupling.levers[i], test[u], left[u])
-        _along(coupling.levers[i], basis[u], across[u])
-    if not _divide(coupling, give, point, basis, test, stiffening, solved, left):
-        return solved, False
-    rows, begin = blocks.first[-1], 0
-    matrix, right = np.zeros((rows, rows)), np.zeros(rows)
-    for j in range(rows):
-        matrix[j, j] = 1.0
-    while begin < count:
-        # the unknowns of points between the same two bodies
-        one, end = bodies[point[begin]], begin + 1
-        while end < count and bodies[point[end], 0] == one[0] and bodies[point[end], 1] == one[1]:
-            end += 1
-        block = across[begin:end].T @ left[begin:end]
-        along = across[begin:end].T @ solved[begin:end]
-        for side in range(2):
-            if one[side] < 0:
-                continue
-            top = blocks.first[blocks.of[one[side]]]
-            for a in range(width):
-                right[top + a] += along[width * side + a]
-                for t in range(2):
-                    if one[t] >= 0:
-                        first = blocks.first[blocks.of[one[t]]]
-                        for c in range(width):
-                            matrix[top + a, first + c] += block[width * side + a, width * t + c]
-        begin = end
-    if rows and not eliminate(matrix, right, blocks.first, blocks.coupled):
-        return solved, False
-    for u in range(count):
-        solved[u] += guess[u]
-        for side in range(2):
-            b = bodies[point[u], side]
-            if b >= 0:
-                first = blocks.first[blocks.of[b]]
-                for c in range(width):
-                    solved[u] -= left[u, width * side + c] * right[first + c]
-    return solved, True
+            changes[i, a] += forces[i, a]
+            if acts[i]:
+                changes[i, a] -= slopes[i, a, 0] * x + slopes[i, a, 1] * y + slopes[i, a, 2] * z
+    return changes, True
 
 
 @njit
-def _along(levers: Array, direction: Array, target: Array) -> None:
-    """Target (c,): the first c columns of levers (3, 2 w) along a direction (3,)."""
-    x, y, z = direction[0], direction[1], direction[2]
-    for c in range(len(target)):
-        target[c] = x * levers[0, c] + y * levers[1, c] + z * levers[2, c]
-
-
-@njit
-def _divide(
-    coupling: Coupling,
+def _alone(
+    own: Array,
+    force: Array,
+    relative: Array,
+    mu: float,
+    rho: float,
     give: float,
-    point: Array,
-    basis: Array,
-    test: Array,
-    stiffening: Array,
-    right: Array,
-    left: Array,
-) -> bool:
-    """Divide right (count,) and left (count, 2 w) by what each point gives alone: False where one
-    gives nothing.
+    change: Array,
+    slope: Array,
+) -> tuple[bool, bool]:
+    """Put the change (3,) of the force of one point alone, and by how much less it is for a motion
+    of the point by others: slope (3, 3), nil at first. Whether the point carries, and whether it
+    gives at all.
     """
-    own, D, first = coupling.own, np.empty((2, 2)), 0
-    while first < len(point):
-        i, last = point[first], first + 1
-        while last < len(point) and point[last] == i:
-            last += 1
-        if last == first + 2:
-            # of a point that slips: along its force, and across
-            for u in range(2):
-                for v in range(2):
-                    D[u, v] = stiffening[first + u] if u == v else 0.0
-                    for a in range(3):
-                        D[u, v] += test[first + u, a] * basis[first + v, a] * (own[i, a] + give)
-            size = D[0, 0] * D[1, 1] - D[0, 1] * D[1, 0]
-            if size == 0.0:
-                return False
-            x, y = right[first], right[last - 1]
-            right[first] = (D[1, 1] * x - D[0, 1] * y) / size
-            right[last - 1] = (D[0, 0] * y - D[1, 0] * x) / size
-            for c in range(left.shape[1]):
-                x, y = left[first, c], left[last - 1, c]
-                left[first, c] = (D[1, 1] * x - D[0, 1] * y) / size
-                left[last - 1, c] = (D[0, 0] * y - D[1, 0] * x) / size
-        else:
-            for u in range(first, last):
-                alone = give
-                for a in range(3):
-                    alone += test[u, a] * basis[u, a] * own[i, a]
-                if alone == 0.0:
-                    return False
-                right[u] /= alone
-                inverse = 1 / alone
-                for c in range(left.shape[1]):
-                    left[u, c] *= inverse
-        first = last
-    return True
+    t0, t1, normal = (
+        force[0] - rho * relative[0],
+        force[1] - rho * relative[1],
+        force[2] - rho * relative[2],
+    )
+    for a in range(3):
+        change[a] = -force[a]
+    if not normal > 0:
+        return False, True
+    along = own[2] + give
+    if along == 0.0:
+        return True, False
+    length = np.sqrt(t0 * t0 + t1 * t1)
+    if length <= mu * normal and mu > 0.0:
+        for a in range(3):
+            alone = own[a] + give
+            if alone == 0.0:
+                return True, False
+            slope[a, a] = 1 / alone
+            change[a] = -relative[a] / alone
+        return True, True
+    slope[2, 2] = 1 / along
+    change[2] = -relative[2] / along
+    if mu == 0.0:
+        return True, True
+    # it slips: r_t = mu r_n d + y e, d = (x, y), e across it
+    x, y = t0 / length, t1 / length
+    share = min(mu * max(force[2], 0.0) / length, 1.0)
+    across = x * force[1] - y * force[0]
+    # to the direction of the trial force, before it changes
+    turned0, turned1 = (
+        mu * x * force[2] - y * across - force[0],
+        mu * y * force[2] + x * across - force[1],
+    )
+    stiff = (1 - share) / rho
+    o0, o1 = own[0] + give, own[1] + give
+    least = share * (y * y * o0 + x * x * o1) + stiff
+    if least == 0.0:
+        return True, False
+    mixed = share * mu * x * y * (o1 - o0)
+    rest = -stiff * across - share * (
+        x * (relative[1] + o1 * turned1) - y * (relative[0] + o0 * turned0)
+    )
+    more = (rest - mixed * change[2]) / least
+    change[0] = turned0 + mu * x * change[2] - y * more
+    change[1] = turned1 + mu * y * change[2] + x * more
+    # of the motion (u, v, w): r_n gives -w / along, y the rest
+    slope[0, 2] = mu * x / along + y * mixed / (least * along)
+    slope[1, 2] = mu * y / along - x * mixed / (least * along)
+    slope[0, 0] = y * y * share / least
+    slope[0, 1] = -x * y * share / least
+    slope[1, 0] = -x * y * share / least
+    slope[1, 1] = x * x * share / least
+    return True, True
 
 
 @njit
