@@ -26,6 +26,7 @@ from fecolumn.study.store import FAILED
 _COLOURS = (BLACK, BLUE, SKY, GREEN, ORANGE, VERMILION, GREY, GREY)
 #: Edges of the classes of PGV in which shares are drawn [m/s]
 _CLASSES = np.geomspace(0.15, 2.5, 7)
+_TICKS = 0.2, 0.5, 1, 2
 
 
 def draw(found: dict[str, list[dict]], path):
@@ -52,6 +53,9 @@ def draw(found: dict[str, list[dict]], path):
             xlabel="PGV [m/s]",
             ylabel="median residual shift of those that stand [m]",
         )
+        for axes in (left, right):
+            axes.set_xticks(_TICKS, [f"{one:g}" for one in _TICKS])
+            axes.set_xticks([], minor=True)
         return save(figure, path)
 
 
