@@ -9,7 +9,10 @@ import re
 import types
 from pathlib import Path
 
+import pytest
+
 import fecolumn
+from fecolumn.foundation.deprecated import warn_of_older_name
 
 FILE = Path(__file__).with_name("public_interface.txt")
 
@@ -55,6 +58,18 @@ def test_public_names_and_signatures_are_those_that_are_written_down():
 
 def test_every_public_name_has_a_docstring():
     assert [name for name in fecolumn.__all__ if not getattr(fecolumn, name).__doc__] == []
+
+
+def test_public_classes_and_functions_have_their_public_names():
+    assert [n for n in fecolumn.__all__ if getattr(fecolumn, n).__name__ != n] == []
+
+
+def test_older_names_are_read_and_say_which_to_write():
+    warn_of_older_name.cache_clear()
+    with pytest.warns(DeprecationWarning, match="write fecolumn.load_case"):
+        assert fecolumn.read_case is fecolumn.load_case
+    with pytest.warns(DeprecationWarning, match="write jobs"), pytest.raises(fecolumn.InputError):
+        fecolumn.run_study("missing.toml", "missing", workers=2)
 
 
 if __name__ == "__main__":
