@@ -14,6 +14,7 @@ from fecolumn.contact.tolerances import (
     BALANCED_AT_LEAST,
     HASTEN_FROM,
     HASTEN_TRIES,
+    HOLDS_FROM,
     LEAST_FIRM,
     REST_WAY,
     SLIDES_KEPT,
@@ -230,9 +231,9 @@ class Settling:
         held = held[held >= 0]
         tied = np.isin(points["slave"], held) | np.isin(points["master"], held)
         loose = slides & ~tied
-        if (self.structure.interfaces["edge"][:, 0] > 0).any():
-            # a dome rolls to its place by Newton's steps alone: what sticks elsewhere in a joint
-            # holds points that slide as faces spread
+        if (self.structure.interfaces["edge"][:, 0] > 0).any() or self.steps > HOLDS_FROM:
+            # a dome rolls to its place by Newton's steps alone, and others creep there for ever:
+            # what sticks elsewhere in a joint holds points that slide as faces spread
             sticks = points["interface"][(force[:, 2] > 0) & ~slides]
             loose &= ~np.isin(points["interface"], sticks)
         return bool(loose.any())
