@@ -203,16 +203,12 @@ def _newton_step(
     coupling: Coupling, rest: Array, impulses: Array, slopes: Array
 ) -> tuple[bool, Array]:
     """Whether Newton's equations at a gradient `rest` (nb, w) are regular, and its step (nb, w)."""
-    acts = np.empty(len(impulses), np.bool_)
-    for i in range(len(impulses)):
-        acts[i] = impulses[i, 2] > 0
-    matrix, right = curvature(coupling, acts, slopes), rows_of_motion(coupling, rest)
+    matrix, right = (
+        curvature(coupling, impulses[:, 2] > 0, slopes),
+        rows_of_motion(coupling, -rest),
+    )
     solved = eliminate(matrix, right, coupling.blocks.first, coupling.blocks.coupled)
-    step = motion_of_rows(coupling, right)
-    for b in range(len(step)):
-        for c in range(step.shape[1]):
-            step[b, c] = -step[b, c]
-    return solved, step
+    return solved, motion_of_rows(coupling, right)
 
 
 @njit

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from fecolumn.contact.coupling import Coupling
 
 
+# Of a point, by its trial force; _PRESSES: without friction
+_OPEN, _PRESSES, _STICKS, _SLIPS = range(4)
+
+
 class NewtonLimits(NamedTuple):
     """How Newton steps are made, and when they end.
 
@@ -97,6 +101,26 @@ def newton_step(
 
 
 @njit
+def _trial(force: Array, relative: Array, mu: float, rho: float) -> tuple[int, float, float, float]:
+    """What the trial force of a point says: its state, and where it slips direction (x, y) of the
+    trial force and share c of it.
+    """
+    t0, t1, normal = (
+        force[0] - rho * relative[0],
+        force[1] - rho * relative[1],
+        force[2] - rho * relative[2],
+    )
+    if not normal > 0:
+        return _OPEN, 0.0, 0.0, 0.0
+    if mu == 0.0:
+        return _PRESSES, 0.0, 0.0, 0.0
+    length = np.sqrt(t0 * t0 + t1 * t1)
+    if length <= mu * normal:
+        return _STICKS, 0.0, 0.0, 0.0
+    return _SLIPS, t0 / length, t1 / length, min(mu * max(force[2], 0.0) / length, 1.0)
+
+
+@njit
 def _by_whole(
     coupling: Coupling,
     q: Array,
@@ -114,27 +138,20 @@ def _by_whole(
     stiffening, count = np.zeros(3 * n), 0
     for j in range(n):
         i = coupling.blocks.order[j]
-        t0, t1, normal = (
-            forces[i, 0] - rho[i] * relative[i, 0],
-            forces[i, 1] - rho[i] * relative[i, 1],
-            forces[i, 2] - rho[i] * relative[i, 2],
-        )
-        if not normal > 0:
-            continue
         mu = friction[i]
-        if mu == 0.0:
+        state, x, y, share = _trial(forces[i], relative[i], mu, rho[i])
+        if state == _OPEN:
+            continue
+        if state == _PRESSES:
             point[count], basis[count, 2], test[count, 2] = i, 1.0, 1.0
             count += 1
             continue
-        length = np.sqrt(t0 * t0 + t1 * t1)
-        if length <= mu * normal:
+        if state == _STICKS:
             for a in range(3):
                 point[count] = i
                 basis[count, a] = test[count, a] = 1.0
                 count += 1
             continue
-        x, y = t0 / length, t1 / length
-        share = min(mu * max(forces[i, 2], 0.0) / length, 1.0)
         point[count] = point[count + 1] = i
         basis[count, 0], basis[count, 1], basis[count, 2] = mu * x, mu * y, 1.0
         test[count, 2] = 1.0
@@ -288,20 +305,15 @@ def _alone(
     of the point by others: slope (3, 3), nil at first. Whether the point carries, and whether it
     gives at all.
     """
-    t0, t1, normal = (
-        force[0] - rho * relative[0],
-        force[1] - rho * relative[1],
-        force[2] - rho * relative[2],
-    )
+    state, x, y, share = _trial(force, relative, mu, rho)
     for a in range(3):
         change[a] = -force[a]
-    if not normal > 0:
+    if state == _OPEN:
         return False, True
     along = own[2] + give
     if along == 0.0:
         return True, False
-    length = np.sqrt(t0 * t0 + t1 * t1)
-    if length <= mu * normal and mu > 0.0:
+    if state == _STICKS:
         for a in range(3):
             alone = own[a] + give
             if alone == 0.0:
@@ -311,11 +323,9 @@ def _alone(
         return True, True
     slope[2, 2] = 1 / along
     change[2] = -relative[2] / along
-    if mu == 0.0:
+    if state == _PRESSES:
         return True, True
     # it slips: r_t = mu r_n d + y e, d = (x, y), e across it
-    x, y = t0 / length, t1 / length
-    share = min(mu * max(force[2], 0.0) / length, 1.0)
     across = x * force[1] - y * force[0]
     # to the direction of the trial force, before it changes
     turned0, turned1 = (
