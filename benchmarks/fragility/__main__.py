@@ -2,9 +2,10 @@
 a trilith and a frame in near-fault motions, rigid and elastic, with exact friction.
 
     ./containers/run python -m benchmarks.fragility [STRUCTURE ...] [-n MOTIONS] [-j N] [--dt S]
-        [-o DIR] [--report]
+        [-o DIR] [--report] [--keep]
 
-Each structure is a study of its own in DIR; the same command goes on where it was stopped. A motion
+Each structure is a study of its own in DIR; the same command goes on where it was stopped. What
+benchmarks/tables/fragility holds is not computed again; --keep writes what is done there. A motion
 depends on its number alone, and all structures have the same ones. Writes outcomes.csv and
 fragility.png (and .pdf) and prints two tables. Structures by name in quotes, such as "4 drums";
 none means all. Elastic ones take ten times as long as rigid ones: they run in the first
@@ -20,7 +21,7 @@ from pathlib import Path
 
 from benchmarks.fragility.figure import draw
 from benchmarks.fragility.report import markdown
-from benchmarks.fragility.run import COLUMNS, rows_of
+from benchmarks.fragility.run import COLUMNS, STEP_S, keep, rows_of
 from benchmarks.fragility.structures import ELASTIC, NAMES
 from fecolumn.foundation.atomic import write_csv
 
@@ -46,13 +47,18 @@ def main(arguments=None) -> int:
         "-j", "--jobs", type=int, default=os.cpu_count() or 1, help="analyses at a time"
     )
     parser.add_argument(
-        "--dt", type=float, default=2e-3, help="time step [s] (default: %(default)s)"
+        "--dt", type=float, default=STEP_S, help="time step [s] (default: %(default)s)"
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, default=Path("results/fragility")
     )
     parser.add_argument("--report", action="store_true", help="compute nothing, tell what is done")
+    parser.add_argument(
+        "--keep", action="store_true", help="write rows into benchmarks/tables/fragility"
+    )
     args = parser.parse_args(arguments)
+    if args.keep and args.dt != STEP_S:
+        parser.error(f"--dt {args.dt:g}: rows are kept of steps of {STEP_S:g} s only")
     if unknown := set(args.structures) - set(NAMES):
         parser.error(f"{', '.join(sorted(unknown))}: must be of {', '.join(NAMES)}")
     if min(args.n, args.elastic, args.jobs) < 1:
@@ -64,6 +70,8 @@ def main(arguments=None) -> int:
         found[name] = rows_of(
             name, args.output, args.n, most, args.dt, 0 if args.report else args.jobs
         )
+        if args.keep and found[name]:
+            keep(name, found[name])
     rows = [[row[key] for key in COLUMNS] for rows in found.values() for row in rows]
     write_csv(args.output / "outcomes.csv", [COLUMNS, *rows])
     print(markdown(found))

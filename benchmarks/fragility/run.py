@@ -7,6 +7,7 @@ from pathlib import Path
 from benchmarks.fragility.motions import ensemble_file, parameters
 from benchmarks.fragility.structures import case_of
 from benchmarks.soak.analysis import ENTRY
+from benchmarks.tables.runs import MOTION, read_runs, write_runs
 from fecolumn.engines.ending import SLID_OFF
 from fecolumn.study.plan import Plan, PlannedAnalysis
 from fecolumn.study.run import complete_study
@@ -34,6 +35,8 @@ REST_S = 2.0
 #: place on another: it is lost.
 _LEFT = "left the part of the face below it"
 _KEYS = ("motion.source",)
+#: Steps [s] of the analyses whose rows come with the repository
+STEP_S = 2e-3
 
 
 def plan_of(name: str, file: Path, count: int, dt: float) -> Plan:
@@ -54,34 +57,43 @@ def plan_of(name: str, file: Path, count: int, dt: float) -> Plan:
     return Plan(Path("benchmarks.fragility"), name, {_KEYS[0]: sources}, tuple(analyses), {})
 
 
+def kept_name(name: str) -> str:
+    """Of the rows of a structure in benchmarks/tables."""
+    return f"fragility/{name.replace(' ', '-')}"
+
+
+def keep(name: str, rows: list[dict]) -> None:
+    """Have the rows of a structure come with the repository."""
+    runs = {row[MOTION]: {key: row[key] for key in COLUMNS[2:]} for row in rows}
+    title = f"{name}: outcomes in drawn near-fault motions, steps of {STEP_S:g} s"
+    write_runs(kept_name(name), runs, title, f'python -m benchmarks.fragility "{name}" --keep')
+
+
 def rows_of(name: str, folder: Path, made: int, count: int, dt: float, workers: int) -> list[dict]:
-    """Rows of COLUMNS of a structure in the first `count` of `made` motions; those that the folder
-    does not hold are computed.
+    """Rows of COLUMNS of a structure in the first `count` of `made` motions; those that neither the
+    repository nor the folder holds are computed, by no workers none.
     """
+    kept = read_runs(kept_name(name)) if dt == STEP_S else {}
+    rows = {number: dict(structure=name, motion=number, **row) for number, row in kept.items()}
     file = ensemble_file(folder, made)
+    plan = plan_of(name, file, count, dt)
+    missing = {one.id for number, one in enumerate(plan.analyses, 1) if number not in rows}
     drawn = parameters(file)
-    ledger = complete_study(
-        plan_of(name, file, count, dt),
-        folder / f"{name.replace(' ', '-')}-{count}-{dt:g}",
-        workers=max(workers, 1),
-        entry=ENTRY,
-        only=None if workers else set(),
-    )
-    rows = []
-    for place, entry in enumerate(ledger):
+    into = folder / f"{name.replace(' ', '-')}-{count}-{dt:g}"
+    only = missing if workers else set()
+    ledger = complete_study(plan, into, workers=max(workers, 1), entry=ENTRY, only=only)
+    for number, entry in enumerate(ledger, 1):
         summary = entry["summary"] if entry["state"] == DONE else None
-        if summary is None and entry["state"] != FAILED:
+        if number in rows or summary is None and entry["state"] != FAILED:
             continue
-        rows.append(
-            {
-                "structure": name,
-                "motion": place + 1,
-                **{key: float(values[place]) for key, values in drawn.items()},
-                **(_outcome(summary) if summary else dict.fromkeys(COLUMNS[8:], float("nan"))),
-                "outcome": summary["outcome"] if summary else _fate(entry["reason"]),
-            }
-        )
-    return rows
+        rows[number] = {
+            "structure": name,
+            "motion": number,
+            **{key: float(values[number - 1]) for key, values in drawn.items()},
+            **(_outcome(summary) if summary else dict.fromkeys(COLUMNS[8:], float("nan"))),
+            "outcome": summary["outcome"] if summary else _fate(entry["reason"]),
+        }
+    return [rows[number] for number in sorted(rows) if number <= count]
 
 
 def _fate(reason: str) -> str:

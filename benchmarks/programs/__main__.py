@@ -3,6 +3,7 @@ of the Lick ensemble, and how far the programs' distributions are apart.
 
     ./containers/run python -m benchmarks.programs [--structure NAME ...] [--program NAME ...]
         [--motions N] [--reference NAME] [-j JOBS] [-o DIR] [--trial]
+        [--report] [--keep]
 
 Structures: tube (three dimensions), block, drums and trilith (in their plane). Programs: housner
 (closed form of the block), judge (the planar program of this repository, not of the tube), mujoco,
@@ -21,7 +22,9 @@ from, at rows of 5 ms, over the energy that overturns; its error: of our sum of 
 fecolumn that of its balance.
 
 Prints two tables: results, and settings. Each analysis is a file of its own below DIR: what was
-stopped goes on with the same command. --trial prints what the peers' settings err by, by which the
+stopped goes on with the same command. What benchmarks/tables/programs holds is not computed again
+(of a peer while its scripts and settings are the same); --keep writes what is done there, --report
+computes nothing. --trial prints what the peers' settings err by, by which the
 best were chosen (`benchmarks.programs.trial`).
 """
 
@@ -36,8 +39,9 @@ from benchmarks.peers import peer as peers
 from benchmarks.planar import peer as planar_peer
 from benchmarks.programs import analysis, course, structures, table, trial
 from benchmarks.programs.programs import BY_NAME, PROGRAMS, Program
+from benchmarks.tables.runs import read_runs, write_runs
 from fecolumn import __version__
-from fecolumn.foundation.sources import digest_of
+from fecolumn.foundation.sources import PHYSICS, digest_of
 from fecolumn.study.plan import Plan, plan_of
 from fecolumn.study.run import ENTRY, StudyError, complete_study, stop_code
 from fecolumn.study.store import DONE
@@ -75,22 +79,48 @@ def plan(structure: str, program: Program, folder: Path) -> Plan:
     return plan_of(dict(title=title, case=tables, axes=axes), Path("benchmarks.programs"))
 
 
+def kept_name(structure: str, program: Program) -> str:
+    """Of a program's runs in benchmarks/tables."""
+    return f"programs/{structure}-{folder_of(program, Path()).name}"
+
+
 def runs_of(structure: str, program: Program, args) -> dict[int, dict]:
-    """Summaries by motion of those that are done; makes what is missing of the first motions."""
+    """What is measured of each of the first motions, by motion: that which comes with the
+    repository, and what is done below `args.output`; makes what is missing unless `args.report`.
+    """
+    kept = read_runs(kept_name(structure, program))
+    found = {number: run for number, run in kept.items() if number <= args.motions}
+    if len(found) == args.motions:
+        return found
     folder = Path(args.output) / structure
     whole, into = plan(structure, program, folder), folder_of(program, folder)
-    only = {one.id for one in whole.analyses[: args.motions]}
+    todo = dict(enumerate(whole.analyses[: args.motions], 1))
+    only = {one.id for number, one in todo.items() if number not in kept}
     rows = complete_study(
-        whole, into, workers=args.jobs, entry=program.entry, retry_failed=True, only=only
+        whole,
+        into,
+        workers=args.jobs,
+        entry=program.entry,
+        retry_failed=not args.report,
+        only=set() if args.report else only,
     )
-    found = {}
     for number, row in enumerate(rows, 1):
         if row["id"] in only and row["state"] == DONE:
             place = into / "analyses" / row["id"]
-            found[number] = table.with_energy(structure, row["summary"], place)
-        elif row["id"] in only:
+            found[number] = table.measured(structure, row["summary"], place)
+        elif row["id"] in only and not args.report:
             print(f"motion {number}: {row['state']}: {row['reason']}", file=sys.stderr)
-    return found
+    return dict(sorted(found.items()))
+
+
+def keep(structure: str, program: Program, runs: dict[int, dict], version: str) -> None:
+    """Have the runs of a program come with the repository."""
+    own = program.entry == ENTRY
+    said = program.label if own else f"{program.label}, version {version}"
+    title = f"{structure} in {said}, steps of {program.dt:g} s: what became of it in each motion"
+    command = f"python -m benchmarks.programs --structure {structure} --program {program.name}"
+    physics = PHYSICS if own else "none"
+    write_runs(kept_name(structure, program), runs, title, f"{command} --keep", physics=physics)
 
 
 def versions(names) -> dict[str, str]:
@@ -121,6 +151,8 @@ def arguments(given=None):
     parser.add_argument("-j", "--jobs", type=int, default=1, metavar="N")
     parser.add_argument("-o", "--output", default="results/programs", metavar="DIR")
     parser.add_argument("--trial", action="store_true")
+    parser.add_argument("--report", action="store_true")
+    parser.add_argument("--keep", action="store_true")
     args = parser.parse_args(given)
     if not 1 <= args.motions <= structures.MOTIONS:
         parser.error(f"--motions {args.motions}: must be in [1, {structures.MOTIONS}]")
@@ -146,7 +178,9 @@ def main(given=None) -> int:
     for place, (structure, program) in enumerate(todo, 1):
         print(f"{place} of {len(todo)}: {structure}, {program.label}", file=sys.stderr, flush=True)
         try:
-            found[structure][program.name] = runs_of(structure, program, args)
+            runs = found[structure][program.name] = runs_of(structure, program, args)
+            if args.keep and runs:
+                keep(structure, program, runs, there[program.name])
         except (KeyboardInterrupt, StudyError) as error:
             return stop_code(error)
     chosen = {one: args.reference or name for one, name in table.REFERENCES.items()}

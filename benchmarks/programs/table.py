@@ -72,7 +72,7 @@ def cells(
                 f"{100 * closure:.1g}",
             )
         ),
-        str(sum(run.get("unsolved", 0) for run in each)),
+        str(sum(run["unsolved"] for run in each)),
         cost(each),
     )
 
@@ -122,9 +122,14 @@ def tables(
     )
 
 
-def with_energy(structure: str, summary: dict, folder: Path) -> dict:
-    """The summary of an analysis of the package, with what contact has fed in."""
-    if "fed_in" in summary:
-        return summary
-    barrier = rigid_bodies(structure).barrier
-    return summary | dict(fed_in=fed_in_of_history(folder / "history.h5", barrier))
+#: What is told of a run
+_MEASURED = "overturned", "slid_off", "u_max_m", "fed_in", "energy_closure_rel", "unsolved", "cpu_s"
+
+
+def measured(structure: str, summary: dict, folder: Path) -> dict[str, Any]:
+    """What is told of an analysis, of the package's with what contact has fed in."""
+    said = dict(slid_off=False, unsolved=0) | summary
+    if "fed_in" not in summary:
+        barrier = rigid_bodies(structure).barrier
+        said["fed_in"] = fed_in_of_history(folder / "history.h5", barrier)
+    return {key: said[key] for key in _MEASURED}

@@ -91,13 +91,15 @@ def names() -> list[str]:
     return sorted(file.stem for file in FOLDER.glob("*.csv") if file.stem != QUOTED)
 
 
-def write(name: str, columns, rows, title: str, command: str) -> None:
+def write(name: str, columns, rows, title: str, command: str, physics: int | str = PHYSICS) -> None:
     """Write a table as measured by this code, now, on this machine."""
-    about = (title, command, __version__, commit(), date.today().isoformat(), _machine(), PHYSICS)
+    about = (title, command, __version__, commit(), date.today().isoformat(), _machine(), physics)
     text = io.StringIO()
     text.writelines(f"# {key}: {value}\n" for key, value in zip(HEADER, about))
     csv.writer(text, lineterminator="\n").writerows([columns, *rows])
-    (FOLDER / f"{name}.csv").write_text(text.getvalue(), encoding="utf-8")
+    file = FOLDER / f"{name}.csv"
+    file.parent.mkdir(exist_ok=True)
+    file.write_text(text.getvalue(), encoding="utf-8")
 
 
 def from_markdown(text: str) -> list[list[list[str]]]:
@@ -118,7 +120,7 @@ def commit() -> str:
         found = subprocess.run(
             [*git, "rev-parse", "--short", "HEAD"], capture_output=True, text=True
         )
-        kept = ("benchmarks/tables/*.csv", "benchmarks/RESULTS.md")
+        kept = ("benchmarks/tables/*.csv", "benchmarks/tables/*/*.csv", "benchmarks/RESULTS.md")
         others = [":/", *(f":(exclude,top){one}" for one in kept)]
         changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", *others]).returncode
     except FileNotFoundError:
