@@ -98,7 +98,7 @@ def write(name: str, columns, rows, title: str, command: str, physics: int | str
     text.writelines(f"# {key}: {value}\n" for key, value in zip(HEADER, about))
     csv.writer(text, lineterminator="\n").writerows([columns, *rows])
     file = FOLDER / f"{name}.csv"
-    file.parent.mkdir(exist_ok=True)
+    file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(text.getvalue(), encoding="utf-8")
 
 

@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
+from benchmarks import tables
 from benchmarks.fragility.__main__ import main
 from benchmarks.fragility.motions import PGV, drawn_motion, ensemble_file, parameters, peak_velocity
 from benchmarks.fragility.report import beside, half_lost, markdown, pairs_of, surface
 from benchmarks.fragility.structures import COLUMN, NAMES, case_of
+from benchmarks.tables.runs import read_runs, write_runs
 from fecolumn.study.store import FAILED
 
 
@@ -81,17 +83,38 @@ def test_tables_tell_shares_shifts_and_failures():
     assert "| monolith and 2 drums | 399 |" in said
 
 
-def test_two_motions_of_a_monolith_are_kept_and_told(tmp_path, capsys):
-    """Motions of few seconds; the command tells them again without computing."""
-    command = ["monolith", "-n", "2", "-j", "1", "-o", str(tmp_path)]
-    assert main([*command, "--report"]) == 0
+def test_two_motions_of_a_monolith_are_kept_and_told(tmp_path, capsys, monkeypatch):
+    """Motions of few seconds; the command tells them again without computing, from its folder or
+    from the rows that come with the repository.
+    """
+    monkeypatch.setattr(tables, "FOLDER", tmp_path / "tables")
+    command = ["monolith", "-n", "2", "-j", "1", "-o"]
+    here, elsewhere = str(tmp_path / "here"), str(tmp_path / "elsewhere")
+    assert main([*command, here, "--report"]) == 0
     assert "| monolith | 0 |" in capsys.readouterr().out
-    assert main(command) == 0
+    assert main([*command, here]) == 0
     said = capsys.readouterr().out
     assert "| monolith | 2 | 0.000 |" in said
-    assert main([*command, "--report"]) == 0
+    assert main([*command, here, "--report", "--keep"]) == 0
     assert capsys.readouterr().out == said
-    assert (tmp_path / "fragility.png").stat().st_size > 10_000
+    assert (tmp_path / "here/fragility.png").stat().st_size > 10_000
+    assert main([*command, elsewhere]) == 0
+    assert capsys.readouterr().out.replace("elsewhere", "here") == said
     assert not list(tmp_path.glob("**/history.h5"))
+    assert not list(tmp_path.glob("elsewhere/**/summary.json"))
     with pytest.raises(SystemExit):
         main(["5 drums"])
+    with pytest.raises(SystemExit):
+        main([*command, here, "--dt", "1e-3", "--keep"])
+
+
+def test_rows_of_other_physics_are_not_taken(tmp_path, monkeypatch):
+    monkeypatch.setattr(tables, "FOLDER", tmp_path)
+    runs = {2: dict(u=0.25, lost=True, word="at rest", none=None), 1: dict(u=1e-9, lost=False)}
+    runs[1] |= dict(word="overturned", none=3)
+    write_runs("set/one", runs, "T.", "python -m x")
+    assert read_runs("set/one") == runs and read_runs("set/other") == {}
+    write_runs("set/one", runs, "T.", "python -m x", physics="none")
+    assert read_runs("set/one") == runs
+    write_runs("set/one", runs, "T.", "python -m x", physics=1)
+    assert read_runs("set/one") == {}

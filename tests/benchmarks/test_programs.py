@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from benchmarks import tables
 from benchmarks.peers import peer as peers
 from benchmarks.planar import ensembles
 from benchmarks.planar.bodies import GRAVITY
@@ -96,7 +97,8 @@ def test_top_and_tilt_of_a_block_that_leans():
     assert way_of_top(BLOCK, course)[0] == pytest.approx([0.6 * math.sin(0.1), 0.0])
 
 
-def test_planar_program_and_housner_agree_and_what_is_done_is_kept(tmp_path, capsys):
+def test_planar_program_and_housner_agree_and_what_is_done_is_kept(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(tables, "FOLDER", tmp_path / "tables")
     given = ["--structure", "block", "--program", "housner", "judge", "--motions", "2"]
     given += ["-o", str(tmp_path), "-j", "1"]
     assert command.main(given) == 0
@@ -113,6 +115,11 @@ def test_planar_program_and_housner_agree_and_what_is_done_is_kept(tmp_path, cap
     before = [file.stat().st_mtime_ns for file in files]
     assert len(files) == 4 and command.main(given) == 0
     assert [file.stat().st_mtime_ns for file in files] == before
+    capsys.readouterr()
+    assert command.main([*given, "--report", "--keep"]) == 0
+    said = capsys.readouterr().out
+    assert command.main([*given[:-3], str(tmp_path / "elsewhere")]) == 0
+    assert capsys.readouterr().out == said and not (tmp_path / "elsewhere").exists()
 
 
 @pytest.mark.parametrize("name", ["mujoco", "siconos"])
