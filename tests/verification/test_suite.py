@@ -1,5 +1,7 @@
 """Every verification case holds in every engine; what the suite says at its end."""
 
+from dataclasses import replace
+
 import pytest
 
 from fecolumn.cli import main
@@ -12,7 +14,8 @@ from fecolumn.verification.suite import Finding, finding_lines, run_case, tasks,
 @pytest.mark.parametrize("case, engine", tasks())
 def test_case_holds(case, engine):
     finding = run_case(case, engine)
-    assert finding.ok, "\n" + finding_lines(finding)
+    missed = tuple(row for row in finding.rows if not row.ok)
+    assert finding.ok, "\n" + finding_lines(replace(finding, rows=missed))
 
 
 HOLDS, MISSES, UNKNOWN = (
