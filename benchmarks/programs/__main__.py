@@ -8,9 +8,9 @@ of the Lick ensemble, and how far the programs' distributions are apart.
 Structures: tube (three dimensions), block, drums and trilith (in their plane). Programs: housner
 (closed form of the block), judge (the planar program of this repository, not of the tube), mujoco,
 siconos and, of the tube, siconos-tube at their best settings, mujoco-defaults, siconos-defaults,
-and fecolumn's engines rigid, reduced and full; full takes hours and runs only where it is named. A
-program that is not installed is said and left out: `python -m benchmarks.peers --install` installs
-them.
+and fecolumn's engines rigid, rigid-fine (shorter steps), reduced and full; full takes hours and
+runs only where it is named. A program that is not installed is said and left out:
+`python -m benchmarks.peers --install` installs them.
 
 All have the same bodies, friction, motions (straight lines between their samples) and rest after
 these; no restitution. Bodies that do not deform touch at their corners or on their rim; elastic
@@ -43,7 +43,7 @@ from benchmarks.tables.runs import read_runs, write_runs
 from fecolumn import __version__
 from fecolumn.foundation.sources import PHYSICS, digest_of
 from fecolumn.study.plan import Plan, plan_of
-from fecolumn.study.run import ENTRY, StudyError, complete_study, stop_code
+from fecolumn.study.run import StudyError, complete_study, stop_code
 from fecolumn.study.store import DONE
 
 _HERE = Path(__file__).parent
@@ -61,7 +61,7 @@ _SCRIPTS = {
 
 def folder_of(program: Program, folder: Path) -> Path:
     """Of the program's results: of a peer, another one for other sources or settings."""
-    if program.entry == ENTRY:
+    if program.ours:
         return folder / program.name
     own = [Path(module.__file__) for module in (analysis, course, structures)]
     made_by = digest_of([*own, *_SCRIPTS[program.name.partition("-")[0]]])
@@ -115,11 +115,10 @@ def runs_of(structure: str, program: Program, args) -> dict[int, dict]:
 
 def keep(structure: str, program: Program, runs: dict[int, dict], version: str) -> None:
     """Have the runs of a program come with the repository."""
-    own = program.entry == ENTRY
-    said = program.label if own else f"{program.label}, version {version}"
+    said = program.label if program.ours else f"{program.label}, version {version}"
     title = f"{structure} in {said}, steps of {program.dt:g} s: what became of it in each motion"
     command = f"python -m benchmarks.programs --structure {structure} --program {program.name}"
-    physics = PHYSICS if own else "none"
+    physics = PHYSICS if program.ours else "none"
     write_runs(kept_name(structure, program), runs, title, f"{command} --keep", physics=physics)
 
 

@@ -48,10 +48,14 @@ class Program:
     asked: bool = False
 
     @property
+    def ours(self) -> bool:
+        """Whether it is an engine of the package."""
+        return self.name in ("rigid", "rigid-fine", "reduced", "full")
+
+    @property
     def entry(self) -> str:
         """Function of an analysis."""
-        ours = self.name in ("rigid", "reduced", "full")
-        return ENTRY if ours else f"benchmarks.programs.analysis:{self.name.replace('-', '_')}"
+        return ENTRY if self.ours else f"benchmarks.programs.analysis:{self.name.replace('-', '_')}"
 
 
 def mujoco_settings(dt: float, solref: float = 2.0, ratio: float = 100.0, more: str = "") -> dict:
@@ -131,6 +135,13 @@ PROGRAMS = (
         1e-3,
         "as is",
         "defaults",
+    ),
+    Program(
+        "rigid-fine",
+        "fecolumn, rigid, short steps",
+        2.5e-4,
+        "as is",
+        "tells what of a difference is the step's",
     ),
     Program(
         "reduced",
