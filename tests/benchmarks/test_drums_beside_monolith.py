@@ -7,6 +7,7 @@ from benchmarks import tables
 from benchmarks.fragility.__main__ import main
 from benchmarks.fragility.motions import PGV, drawn_motion, ensemble_file, parameters, peak_velocity
 from benchmarks.fragility.report import beside, half_lost, markdown, pairs_of, surface
+from benchmarks.fragility.run import kept_name
 from benchmarks.fragility.structures import COLUMN, NAMES, case_of
 from benchmarks.tables.runs import read_runs, write_runs
 from fecolumn.study.store import FAILED
@@ -106,6 +107,15 @@ def test_two_motions_of_a_monolith_are_kept_and_told(tmp_path, capsys, monkeypat
         main(["5 drums"])
     with pytest.raises(SystemExit):
         main([*command, here, "--dt", "1e-3", "--keep"])
+
+
+def test_rows_that_come_with_the_repository_are_of_these_structures_and_physics():
+    kept = {f"fragility/{file.stem}" for file in (tables.FOLDER / "fragility").glob("*.csv")}
+    assert kept and kept <= {kept_name(name) for name in NAMES}
+    assert all(tables.read(name).current for name in kept)
+    drawn = drawn_motion(7)[1]
+    row = read_runs(kept_name("monolith"))[7]
+    assert {key: row[key] for key in drawn} == pytest.approx(drawn)
 
 
 def test_rows_of_other_physics_are_not_taken(tmp_path, monkeypatch):

@@ -207,6 +207,17 @@ def test_other_settings_have_another_folder(tmp_path):
     assert best != defaults and best == command.folder_of(BY_NAME["mujoco"], tmp_path)
 
 
+def test_rows_that_come_with_the_repository_are_of_these_scripts_and_settings():
+    names = {
+        command.kept_name(structure, program)
+        for program in PROGRAMS
+        for structure in program.structures
+    }
+    kept = {f"programs/{file.stem}" for file in (tables.FOLDER / "programs").glob("*.csv")}
+    assert kept and kept <= names, "others are of older scripts: run their programs again"
+    assert all(tables.read(name).current for name in kept)
+
+
 def test_history_of_the_package_tells_what_contact_fed_in(tmp_path):
     import h5py
 
