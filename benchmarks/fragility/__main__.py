@@ -73,6 +73,7 @@ def main(arguments=None) -> int:
         if args.keep and found[name]:
             keep(name, found[name])
     rows = [[row[key] for key in COLUMNS] for rows in found.values() for row in rows]
+    args.output.mkdir(parents=True, exist_ok=True)
     write_csv(args.output / "outcomes.csv", [COLUMNS, *rows])
     print(markdown(found))
     print("\nwrote", *draw(found, args.output / "fragility"))

@@ -75,6 +75,9 @@ def rows_of(name: str, folder: Path, made: int, count: int, dt: float, workers: 
     """
     kept = read_runs(kept_name(name)) if dt == STEP_S else {}
     rows = {number: dict(structure=name, motion=number, **row) for number, row in kept.items()}
+    whole = range(1, count + 1)
+    if rows.keys() >= set(whole):
+        return [rows[number] for number in whole]
     file = ensemble_file(folder, made)
     plan = plan_of(name, file, count, dt)
     missing = {one.id for number, one in enumerate(plan.analyses, 1) if number not in rows}
@@ -93,7 +96,7 @@ def rows_of(name: str, folder: Path, made: int, count: int, dt: float, workers: 
             **(_outcome(summary) if summary else dict.fromkeys(COLUMNS[8:], float("nan"))),
             "outcome": summary["outcome"] if summary else _fate(entry["reason"]),
         }
-    return [rows[number] for number in sorted(rows) if number <= count]
+    return [rows[number] for number in whole if number in rows]
 
 
 def _fate(reason: str) -> str:

@@ -28,7 +28,10 @@ def read_runs(name: str) -> dict[int, dict[str, Any]]:
 def write_runs(
     name: str, runs: dict[int, dict[str, Any]], title: str, command: str, **more
 ) -> None:
-    """Write rows by motion, all of the same keys; more: as of `tables.write`."""
+    """Write rows by motion, all of the same keys; rows of other motions that are there, as of
+    `read_runs`, stay. more: as of `tables.write`.
+    """
+    runs = read_runs(name) | runs
     columns = list(next(iter(runs.values())))
     rows = [[motion, *map(_cell, runs[motion].values())] for motion in sorted(runs)]
     tables.write(name, [MOTION, *columns], rows, title, command, **more)

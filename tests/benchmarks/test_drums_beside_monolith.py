@@ -124,6 +124,8 @@ def test_rows_of_other_physics_are_not_taken(tmp_path, monkeypatch):
     runs[1] |= dict(word="overturned", none=3)
     write_runs("set/one", runs, "T.", "python -m x")
     assert read_runs("set/one") == runs and read_runs("set/other") == {}
+    write_runs("set/one", {1: runs[1]}, "T.", "python -m x")  # of fewer motions
+    assert read_runs("set/one") == runs
     write_runs("set/one", runs, "T.", "python -m x", physics="none")
     assert read_runs("set/one") == runs
     write_runs("set/one", runs, "T.", "python -m x", physics=1)
