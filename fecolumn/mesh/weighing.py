@@ -9,6 +9,8 @@ from fecolumn.mesh.mass import element_moments
 
 # Steps of Newton's method, and of halving one of them; relative error of the moments at its end
 _STEPS, _HALVINGS, _ERROR = 200, 60, 1e-12
+# Rounding of the value that they make least, over it: a sum of elements' shares of 1
+_ROUNDING = 1e-14
 # Largest exponent of a density over the mean: e^12 is no matter any more
 _STEEPEST = 12.0
 
@@ -81,9 +83,11 @@ def _of_largest_entropy(terms: np.ndarray, wanted: np.ndarray, shares: np.ndarra
         if np.abs(slope).max() < _ERROR:
             break
         step = -np.linalg.lstsq((terms * weights) @ terms.T, slope, rcond=None)[0]
+        # near its end a step gains less than the value is rounded by: it is Newton's then
         length, before = 1.0, value(factors)
+        allowed = before + _ROUNDING * (1 + abs(before))
         for _ in range(_HALVINGS):
-            if value(factors + length * step) <= before + 1e-4 * length * (slope @ step):
+            if value(factors + length * step) <= allowed + 1e-4 * length * (slope @ step):
                 break
             length /= 2
         factors = factors + length * step

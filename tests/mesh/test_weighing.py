@@ -33,6 +33,17 @@ def test_a_hollow_body_has_the_moments_that_are_stated(made):
     assert found.inertia == pytest.approx(inertia, rel=1e-7, abs=1e-12)
 
 
+@pytest.mark.parametrize("made", [bricks, tetrahedra], ids=["bricks", "tetrahedra"])
+def test_moments_that_differ_a_little_are_found_whatever_is_rounded(made):
+    rng = np.random.default_rng(0)
+    for _ in range(400):
+        mass = VOLUME * (1 + 1e-3 * rng.normal())
+        centre = [0, 0, 0.2] + 1e-4 * rng.normal(size=3)
+        inertia = mass / VOLUME * OWN * (1 + 1e-3 * rng.normal(size=3))
+        _, found = weighed(made, mass, centre, inertia)
+        assert found.inertia == pytest.approx(inertia, rel=1e-7, abs=1e-12)
+
+
 def test_even_density_is_left_even():
     shares, _ = weighed(bricks, VOLUME, [0, 0, 0.2], OWN)
     assert shares == pytest.approx(np.ones(72), rel=1e-9)

@@ -113,6 +113,28 @@ def test_full_order_has_the_same_devices(tmp_path):
             np.testing.assert_allclose(one, other, rtol=0, atol=1e-4 * largest, err_msg=name)
 
 
+@pytest.mark.parametrize("rounding", np.arange(8) * 1e-14)
+def test_a_flat_slab_that_nothing_holds_is_at_rest_whatever_is_rounded(rounding, tmp_path):
+    tables = merge(
+        block(density_kg_m3=1000 * (1 + rounding), length_m=1.0, width_m=1.0, height_m=0.1),
+        dict(
+            links=dict(
+                damper=dict(
+                    kind="dashpot",
+                    body="block",
+                    point_m=[0, 0, 0.05],
+                    to_point_m=[-5, 0, 0.05],
+                    damping_n_s_m=80.0,
+                )
+            ),
+            contact=dict(friction_coefficient=0.0, interior_points=0),
+            integration=dict(dt_s=1e-3, duration_s=2e-3, engine="rigid"),
+        ),
+    )
+    summary = run(structure(**tables), tmp_path / "run", quiet=True)
+    assert summary["residual_slide_m"] == pytest.approx(0, abs=1e-9)
+
+
 def test_a_block_on_a_viscous_damper_of_a_power_slows_by_its_closed_form(tmp_path):
     """Sliding without friction: m v' = -c v^a, v^(1-a) = v0^(1-a) - (1-a) c t / m."""
     mass, c, a, v0 = 100.0, 80.0, 0.5, 0.5

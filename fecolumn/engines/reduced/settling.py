@@ -170,9 +170,10 @@ class Settling:
     def _done(self) -> float:
         """What the last step returns."""
         rests = REST_WAY * self.height
-        # bodies go on by what contact may miss, in any number of steps
+        # bodies go to and fro between places that contact takes for the same, in any number of
+        # steps: each may be off by what it allows, a step by twice as much
         missed = self.engine.work.problem.allowed.max(initial=0.0)
-        if not self.moved < max(rests, missed):
+        if not self.moved < max(rests, 2 * missed):
             self._yardstick, self._halved_at = np.inf, self.steps
         if self.unbalanced < self._yardstick / 2:
             self._yardstick, self._halved_at = self.unbalanced, self.steps
