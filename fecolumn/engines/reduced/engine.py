@@ -112,7 +112,7 @@ class Engine:
             self.motion_at_rest(),
             self.motion_at_rest(),
         )
-        self._schemes: dict[HHT, tuple[Any, ...]] = {}
+        self._schemes: dict[tuple[HHT, bool], tuple[Any, ...]] = {}
         self.spent_s = 0.0  # processor time of compiled steps [s]
         self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
         upright = np.tile(np.eye(3), (len(view.center), 1, 1))
@@ -304,21 +304,25 @@ class Engine:
         return rows, False
 
     def _steps(
-        self, hht: HHT, grounds: Array, rows: Array, steepest: Array, rest: tuple[float, float]
+        self,
+        hht: HHT,
+        grounds: Array,
+        rows: Array,
+        steepest: Array,
+        rest: tuple[float, float],
+        rolls: bool = True,
     ) -> tuple[int, int]:
         arguments = self._arguments(
-            self._schemes_of(hht), self.motion, self.spare, grounds, steepest, rest, rows
+            self._schemes_of(hht, rolls), self.motion, self.spare, grounds, steepest, rest, rows
         )
         began = time.process_time()
         made, answer = advance(*arguments)
         self.spent_s += time.process_time() - began
         if answer == ROLLS_FAST:
-            parts = (
-                scheme(self.structure, self.points, HHT(hht.dt / 2**k, hht.alpha))
-                for k in range(1, LENGTHS)
-            )
-            self._schemes[hht] = (*self._schemes[hht][:1], *parts)
-            more, answer = self._steps(hht, grounds[made:], rows[made:], steepest[made:], rest)
+            parts = (self._scheme(HHT(hht.dt / 2**k, hht.alpha), rolls) for k in range(1, LENGTHS))
+            self._schemes[hht, rolls] = (*self._schemes[hht, rolls][:1], *parts)
+            left = grounds[made:], rows[made:], steepest[made:]
+            more, answer = self._steps(hht, *left, rest, rolls)
             made += more
         return made, answer
 
@@ -350,7 +354,8 @@ class Engine:
         Raises
         ------
         StepFailed
-            a half failed after `max_cuts` halvings; motion and ledger are as before.
+            a half failed after `max_cuts` halvings, also with rims that do not roll; motion and
+            ledger are as before.
         """
         saved, booked, row = (
             self.motion_at_rest(),
@@ -359,9 +364,19 @@ class Engine:
         )
         motions.copy(self.motion, saved)
 
-        def take(_: None, target: Array, hht: HHT) -> None:
-            while (answer := self._steps(hht, target[None], row, _NO_END, _NO_REST)[1]) == FAR_BASE:
+        shortest = 1.01 * self.hht.dt / 2**self.max_cuts
+
+        def answer_of(target: Array, hht: HHT, rolls: bool) -> int:
+            one = target[None], row, _NO_END, _NO_REST, rolls
+            while (answer := self._steps(hht, *one)[1]) == FAR_BASE:
                 self.extend_base(self.spare)
+            return answer
+
+        def take(_: None, target: Array, hht: HHT) -> None:
+            answer = answer_of(target, hht, rolls=True)
+            if answer in (CONTACT_FAILED, ITERATIONS_SPENT) and hht.dt < shortest:
+                # the last way: in so short a step a rim rolls by little
+                answer = answer_of(target, hht, rolls=False)
             if answer == NO_ROOM:
                 raise NoRoom
             if answer not in (OK, ENDED):
@@ -404,11 +419,14 @@ class Engine:
     def _count_cut(self) -> None:
         self.counts[N_CUTS] += 1
 
-    def _schemes_of(self, hht: HHT) -> tuple:
+    def _schemes_of(self, hht: HHT, rolls: bool = True) -> tuple:
         """Schemes of steps and of their parts, which are made when they are needed."""
-        if hht not in self._schemes:
-            self._schemes[hht] = (scheme(self.structure, self.points, hht),) * LENGTHS
-        return self._schemes[hht]
+        if (hht, rolls) not in self._schemes:
+            self._schemes[hht, rolls] = (self._scheme(hht, rolls),) * LENGTHS
+        return self._schemes[hht, rolls]
+
+    def _scheme(self, hht: HHT, rolls: bool) -> Scheme:
+        return scheme(self.structure, self.points, hht)._replace(rolls=rolls)
 
     def extend_base(self, motion: MotionState) -> None:
         """Make the grounds' compliance known under the feet and two rows of its nodes around."""

@@ -49,7 +49,8 @@ class Structure(NamedTuple):
 class Scheme(NamedTuple):
     """HHT-alpha coefficients of one step size; `half` is dt^2 / 2 [s2], `shrink`: (nb, m) s of each
     mode, here with its damping, dynamic: (3 N, 3 n) [m/N] modal and static compliance of the nodes
-    within a step; springs: of the points alone.
+    within a step; springs: of the points alone. rolls: whether the points of round rims may go
+    along with the lowest one; else they stay, as those of a polygon.
     """
 
     dt: float
@@ -60,6 +61,7 @@ class Scheme(NamedTuple):
     shrink: Array
     dynamic: Array
     springs: Springs
+    rolls: bool = True
 
 
 def scheme(structure: Structure, points: Array, hht: HHT) -> Scheme:

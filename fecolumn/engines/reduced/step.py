@@ -62,7 +62,7 @@ def step(
     """
     booked, interfaces, weight = ledger.copy(), structure.interfaces, 0.0
     move_grounds(start.grounds, ground, scheme.dt, end.grounds)
-    rolled = place_points_of_step(structure, scheme.dt, work, start, end, True)
+    rolled = place_points_of_step(structure, scheme.dt, work, start, end, scheme.rolls)
     if lay_found(structure, scheme.dt, work, start, end) != OK:
         return NO_ROOM
     answer, contact_work = _advance_without_impact(
