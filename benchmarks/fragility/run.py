@@ -32,8 +32,8 @@ COLUMNS = (
 #: Longest time followed after the motion, unless all is at rest before [s].
 REST_S = 2.0
 #: What an analysis says that ends because a body slid or walked by `structures.SLIDES` from its
-#: place on another: it is lost.
-_LEFT = "left the part of the face below it"
+#: place on another, or because columns of a frame fell against each other: it is lost.
+_LOST = ("left the part of the face below it", "came through each other")
 _KEYS = ("motion.source",)
 #: Steps [s] of the analyses whose rows come with the repository
 STEP_S = 2e-3
@@ -100,7 +100,7 @@ def rows_of(name: str, folder: Path, made: int, count: int, dt: float, workers: 
 
 
 def _fate(reason: str) -> str:
-    return SLID_OFF if _LEFT in reason else FAILED
+    return SLID_OFF if any(words in reason for words in _LOST) else FAILED
 
 
 def _outcome(summary: dict) -> dict[str, float]:
