@@ -424,13 +424,18 @@ class Analysis:
         return self.write_results(ending, dofs, of_steps | self.results(ending))
 
     def _step_doubt(self) -> str | None:
-        """Of the summary: what is doubtful of a step that the user states, in words."""
+        """Of the summary: what is doubtful of a step, in words; of one that was chosen by trials
+        what these do not see.
+        """
+        from fecolumn.engines.joined_landings import joined_landings
         from fecolumn.engines.step_doubt import step_doubt
 
+        rows = self.history.arrays()
+        joined = joined_landings(rows, self.dt_s)
         if self.dt_chosen:
-            return None
-        return step_doubt(
-            self.history.arrays(),
+            return joined
+        doubt = step_doubt(
+            rows,
             self.dt_s,
             self.rigid_loss_share(),
             self.barrier_j,
@@ -438,6 +443,7 @@ class Analysis:
             len(self.case.bodies) <= 1,
             self.case.integration.engine == "rigid",
         )
+        return "; ".join(said for said in (doubt, joined) if said) or None
 
     def write_results(self, ending: Ending, dofs: int, more: dict[str, Any]) -> dict[str, Any]:
         """Write the last history and the summary of any engine, with `more` entries of this one;

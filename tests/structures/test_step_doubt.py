@@ -5,6 +5,7 @@ import pytest
 from small_structures import block, structure
 
 from fecolumn.cli import main
+from fecolumn.engines.joined_landings import joined_landings
 from fecolumn.engines.step_doubt import step_doubt
 from fecolumn.simulation import run
 
@@ -44,6 +45,33 @@ def test_nothing_is_said_of_what_hardly_rocks_or_of_bodies_that_land_by_turns():
         step_doubt({**rows, "energy/impact": 0 * rows["time"]}, 0.02, None, 100.0, 0.3, True, False)
         is None
     )
+
+
+def _columns(apart, dt, together=False):
+    """Two columns that rock at 1 Hz, one of them `apart` [s] later; each passage takes 1 J."""
+    time = np.arange(round(3.1 / dt) + 1) * dt
+    turns = [
+        np.outer(0.1 * np.sin(2 * np.pi * (time - 0.1003 - late)), [0.0, 1.0, 0.0])
+        for late in (0.0, apart)
+    ]
+    beam = np.outer(1e-6 * np.cos(300 * time), [0.0, 1.0, 0.0])
+    took = -np.floor(2 * (time - 0.1003)) - np.floor(2 * (time - 0.1003 - apart))
+    names = ("body/left/rotation", "body/right/rotation", "body/beam/rotation")
+    return {"time": time, "energy/impact": took, **dict(zip(names, (*turns, beam)))}
+
+
+def test_columns_that_land_one_after_another_within_a_step_are_told_with_a_step():
+    said = joined_landings(_columns(2e-4, 1e-3), 1e-3)
+    assert "0.0002 s apart" in said and "100 % of what impacts took" in said
+    assert float(said.split("dt_s = ")[1].split(" s")[0]) == pytest.approx(4e-5)
+    assert joined_landings(_columns(2e-4, 4e-5), 4e-5) is None
+
+
+def test_columns_that_land_together_or_apart_and_one_body_are_as_the_step_has_them():
+    assert joined_landings(_columns(0.0, 1e-3), 1e-3) is None
+    assert joined_landings(_columns(0.1, 1e-3), 1e-3) is None
+    one = {name: rows for name, rows in _columns(2e-4, 1e-3).items() if "right" not in name}
+    assert joined_landings(one, 1e-3) is None
 
 
 @pytest.mark.parametrize("dt, told", [(0.05, True), (1e-3, False)])
