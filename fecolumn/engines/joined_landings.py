@@ -40,19 +40,22 @@ def joined_landings(rows: dict[str, NDArray[Any]], dt: float) -> str | None:
     time = rows["time"]
     if len(turns) < 2 or len(time) < 3 or abs(time[1] - time[0] - dt) > 1e-6 * dt:
         return None
-    before = np.array(turns)[:, :-1, :2]
-    ways = np.array(turns)[:, 1:, :2] - before
+    took = np.maximum(-np.diff(rows["energy/impact"]), 0.0)
+    steps = np.flatnonzero(took)
+    took = took[steps]
+    before = np.array([turn[steps, :2] for turn in turns])
+    after = np.array([turn[steps + 1, :2] for turn in turns])
     # (bodies, steps) when in the step each is nearest to upright, in steps; nan where it is not
+    ways = after - before
     squares = np.maximum((ways**2).sum(axis=-1), 1e-300)
     passes = -(before * ways).sum(axis=-1) / squares
-    tilts = (before * (before + ways)).sum(axis=-1) < 0
+    over = (before * after).sum(axis=-1) < 0
     turned = squares > _TURNS**2 * squares.max(axis=0)
-    passes = np.where(tilts & turned & (passes > 0) & (passes < 1), passes, np.nan)
+    passes = np.where(over & turned & (passes > 0) & (passes < 1), passes, np.nan)
     several = np.isfinite(passes).sum(axis=0) >= 2
-    apart = np.zeros(len(time) - 1)
+    apart = np.zeros(len(steps))
     apart[several] = np.nanmax(passes[:, several], axis=0) - np.nanmin(passes[:, several], axis=0)
-    took = np.maximum(-np.diff(rows["energy/impact"]), 0.0)
-    joined = (apart > _APART) & (took > 0)
+    joined = apart > _APART
     share = took[joined].sum() / max(took.sum(), 1e-300)
     if joined.sum() < _LEAST or share < _SHARE:
         return None
