@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 from scipy.stats import binomtest
 
@@ -102,10 +104,13 @@ def markdown(found: dict[str, list[dict]]) -> str:
 
 
 def pairs_of(names: list[str]) -> list[tuple[str, str]]:
-    """The monolith beside each column of drums, elastic structures beside the rigid ones."""
-    drums = [(MONOLITH, name) for name in names if name.endswith("drums") and name[0] != "e"]
+    """The monolith beside each column of drums, these beside each other, elastic structures beside
+    the rigid ones.
+    """
+    drums = [name for name in names if name.endswith("drums") and not name.startswith(ELASTIC)]
+    columns = [(MONOLITH, name) for name in drums] + list(combinations(drums, 2))
     elastic = [(name.removeprefix(ELASTIC), name) for name in names if name.startswith(ELASTIC)]
-    return [pair for pair in (*drums, *elastic) if set(pair) <= set(names)]
+    return [pair for pair in (*columns, *elastic) if set(pair) <= set(names)]
 
 
 def beside(one: list[dict], other: list[dict]) -> list:

@@ -60,9 +60,11 @@ _SCRIPTS = {
 
 
 def folder_of(program: Program, folder: Path) -> Path:
-    """Of the program's results: of a peer, another one for other sources or settings."""
+    """Of the program's results: another one for another step, of a peer for other sources or
+    settings.
+    """
     if program.ours:
-        return folder / program.name
+        return folder / f"{program.name}-{program.dt:g}"
     own = [Path(module.__file__) for module in (analysis, course, structures)]
     made_by = digest_of([*own, *_SCRIPTS[program.name.partition("-")[0]]])
     said = f"{made_by} {program.dt} {sorted(program.settings.items())}"

@@ -113,51 +113,41 @@ def test_full_order_has_the_same_devices(tmp_path):
             np.testing.assert_allclose(one, other, rtol=0, atol=1e-4 * largest, err_msg=name)
 
 
+def slab(density_kg_m3=1000.0, *, integration, initial=None, **links):
+    """A flat slab of 0.1 m3 without friction, its middle held along x by links; rigid."""
+    place = dict(body="block", point_m=[0, 0, 0.05], to_point_m=[-5, 0, 0.05])
+    held = dict(
+        links={name: place | link for name, link in links.items()},
+        contact=dict(friction_coefficient=0.0, interior_points=0),
+        initial=initial or {},
+        integration=dict(engine="rigid") | integration,
+    )
+    flat = block(density_kg_m3=density_kg_m3, length_m=1.0, width_m=1.0, height_m=0.1)
+    return structure(**merge(flat, held))
+
+
 @pytest.mark.parametrize("rounding", np.arange(8) * 1e-14)
 def test_a_flat_slab_that_nothing_holds_is_at_rest_whatever_is_rounded(rounding, tmp_path):
-    tables = merge(
-        block(density_kg_m3=1000 * (1 + rounding), length_m=1.0, width_m=1.0, height_m=0.1),
-        dict(
-            links=dict(
-                damper=dict(
-                    kind="dashpot",
-                    body="block",
-                    point_m=[0, 0, 0.05],
-                    to_point_m=[-5, 0, 0.05],
-                    damping_n_s_m=80.0,
-                )
-            ),
-            contact=dict(friction_coefficient=0.0, interior_points=0),
-            integration=dict(dt_s=1e-3, duration_s=2e-3, engine="rigid"),
-        ),
+    case = slab(
+        1000 * (1 + rounding),
+        damper=dict(kind="dashpot", damping_n_s_m=80.0),
+        integration=dict(dt_s=1e-3, duration_s=2e-3),
     )
-    summary = run(structure(**tables), tmp_path / "run", quiet=True)
+    summary = run(case, tmp_path / "run", quiet=True)
     assert summary["residual_slide_m"] == pytest.approx(0, abs=1e-9)
 
 
 def test_a_block_on_a_viscous_damper_of_a_power_slows_by_its_closed_form(tmp_path):
     """Sliding without friction: m v' = -c v^a, v^(1-a) = v0^(1-a) - (1-a) c t / m."""
     mass, c, a, v0 = 100.0, 80.0, 0.5, 0.5
-    tables = merge(
-        block(density_kg_m3=10 * mass, length_m=1.0, width_m=1.0, height_m=0.1),
-        dict(
-            links=dict(
-                damper=dict(
-                    kind="dashpot",
-                    body="block",
-                    point_m=[0, 0, 0.05],
-                    to_point_m=[-5, 0, 0.05],
-                    damping_n_s_m=c,
-                    damping_exponent=a,
-                    linear_below_m_s=1e-4,
-                )
-            ),
-            contact=dict(friction_coefficient=0.0, interior_points=0),
-            initial=dict(block=dict(velocity_m_s=[v0, 0, 0])),
-            integration=dict(dt_s=1e-3, duration_s=1.0, engine="rigid"),
-        ),
+    damper = dict(kind="dashpot", damping_n_s_m=c, damping_exponent=a, linear_below_m_s=1e-4)
+    case = slab(
+        10 * mass,
+        damper=damper,
+        initial=dict(block=dict(velocity_m_s=[v0, 0, 0])),
+        integration=dict(dt_s=1e-3, duration_s=1.0),
     )
-    summary = run(structure(**tables), tmp_path / "run", quiet=True)
+    summary = run(case, tmp_path / "run", quiet=True)
     way = read_history(tmp_path / "run" / "history.h5")["link/damper/elongation"]
     last = v0**0.5 - 0.5 * c / mass
     # the integral of (v0^(1/2) - c t / (2 m))^2
@@ -173,18 +163,14 @@ def test_a_mass_on_a_bar_that_hardens_swings_as_its_equation_says(bends, tmp_pat
     F z; z' = k v / F (1 - |z|^n) where z v > 0, of a corner until |z| = 1.
     """
     mass, k, force, h, v0, dt = 100.0, 1e5, 500.0, 0.1, 0.5, 5e-4
-    bar = dict(kind="spring", body="block", point_m=[0, 0, 0.05], to_point_m=[-5, 0, 0.05])
-    bar |= dict(stiffness_n_m=k, yield_n=force, hardening=h)
-    tables = merge(
-        block(density_kg_m3=10 * mass, length_m=1.0, width_m=1.0, height_m=0.1),
-        dict(
-            links=dict(bar=bar if bends is None else bar | dict(yield_exponent=bends)),
-            contact=dict(friction_coefficient=0.0, interior_points=0),
-            initial=dict(block=dict(velocity_m_s=[v0, 0, 0])),
-            integration=dict(dt_s=dt, duration_s=1.0, engine="rigid", alpha_hht=0.0),
-        ),
+    bar = dict(kind="spring", stiffness_n_m=k, yield_n=force, hardening=h)
+    case = slab(
+        10 * mass,
+        bar=bar if bends is None else bar | dict(yield_exponent=bends),
+        initial=dict(block=dict(velocity_m_s=[v0, 0, 0])),
+        integration=dict(dt_s=dt, duration_s=1.0, alpha_hht=0.0),
     )
-    summary = run(structure(**tables), tmp_path / "run", quiet=True)
+    summary = run(case, tmp_path / "run", quiet=True)
     rows = read_history(tmp_path / "run" / "history.h5")
 
     def rates(_, state):

@@ -47,7 +47,7 @@ def test_nothing_is_said_of_what_hardly_rocks_or_of_bodies_that_land_by_turns():
     )
 
 
-def _columns(apart, dt, together=False):
+def _columns(apart, dt):
     """Two columns that rock at 1 Hz, one of them `apart` [s] later; each passage takes 1 J."""
     time = np.arange(round(3.1 / dt) + 1) * dt
     turns = [
