@@ -143,6 +143,7 @@ PROGRAMS = (
         "as is",
         "bodies that land after one another within a step land together: the columns of the "
         "trilith do so 1e-4 s apart when the beam slides, and lose 11.4 J instead of 8.3",
+        structures=("tube", "trilith"),
     ),
     Program(
         "reduced",
