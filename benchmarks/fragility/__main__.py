@@ -8,8 +8,7 @@ Each structure is a study of its own in DIR; the same command goes on where it w
 benchmarks/tables/fragility holds is not computed again; --keep writes what is done there. A motion
 depends on its number alone, and all structures have the same ones. Writes outcomes.csv and
 fragility.png (and .pdf) and prints two tables. Structures by name in quotes, such as "4 drums";
-none means all. Elastic ones take ten times as long as rigid ones: they run in the first
---elastic motions only.
+none means all. Elastic drums take three times as long as rigid ones.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from pathlib import Path
 from benchmarks.fragility.figure import draw
 from benchmarks.fragility.report import markdown
 from benchmarks.fragility.run import COLUMNS, STEP_S, keep, rows_of
-from benchmarks.fragility.structures import ELASTIC, NAMES
+from benchmarks.fragility.structures import NAMES
 from fecolumn.foundation.atomic import write_csv
 
 
@@ -35,13 +34,6 @@ def main(arguments=None) -> int:
     parser.add_argument("structures", nargs="*", metavar="STRUCTURE", help=", ".join(NAMES))
     parser.add_argument(
         "-n", type=int, default=1000, metavar="MOTIONS", help="(default: %(default)s)"
-    )
-    parser.add_argument(
-        "--elastic",
-        type=int,
-        default=200,
-        metavar="MOTIONS",
-        help="of elastic structures, at most (default: %(default)s)",
     )
     parser.add_argument(
         "-j", "--jobs", type=int, default=os.cpu_count() or 1, help="analyses at a time"
@@ -61,15 +53,13 @@ def main(arguments=None) -> int:
         parser.error(f"--dt {args.dt:g}: rows are kept of steps of {STEP_S:g} s only")
     if unknown := set(args.structures) - set(NAMES):
         parser.error(f"{', '.join(sorted(unknown))}: must be of {', '.join(NAMES)}")
-    if min(args.n, args.elastic, args.jobs) < 1:
-        parser.error("-n, --elastic and -j: must be at least 1")
+    if min(args.n, args.jobs) < 1:
+        parser.error("-n and -j: must be at least 1")
     found = {}
     for name in [name for name in NAMES if name in (args.structures or NAMES)]:
         print(name, file=sys.stderr, flush=True)
-        most = min(args.n, args.elastic) if name.startswith(ELASTIC) else args.n
-        found[name] = rows_of(
-            name, args.output, args.n, most, args.dt, 0 if args.report else args.jobs
-        )
+        workers = 0 if args.report else args.jobs
+        found[name] = rows_of(name, args.output, args.n, args.dt, workers)
         if args.keep and found[name]:
             keep(name, found[name])
     rows = [[row[key] for key in COLUMNS] for rows in found.values() for row in rows]

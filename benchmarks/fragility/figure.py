@@ -14,6 +14,7 @@ from fecolumn.pictures.figures.style import (
     GREY,
     ORANGE,
     PAGE_WIDTH_IN,
+    PURPLE,
     SKY,
     VERMILION,
     new_figure,
@@ -23,7 +24,7 @@ from fecolumn.pictures.figures.style import (
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.store import FAILED
 
-_COLOURS = (BLACK, BLUE, SKY, GREEN, ORANGE, VERMILION, GREY, GREY)
+_COLOURS = (BLACK, BLUE, SKY, GREEN, ORANGE, VERMILION, GREY, PURPLE)
 #: Edges of the classes of PGV in which shares are drawn [m/s]
 _CLASSES = np.geomspace(0.15, 2.5, 7)
 _TICKS = 0.2, 0.5, 1, 2

@@ -61,6 +61,7 @@ def markdown(found: dict[str, list[dict]]) -> str:
         "motions",
         "P(lost)",
         "95 % interval",
+        "of them slid off",
         *(f"PGV that loses half, pulse of {period:g} s [m/s]" for period in PERIODS),
         "shift of those that stand, median [m]",
         "9 of 10 below [m]",
@@ -80,6 +81,7 @@ def markdown(found: dict[str, list[dict]]) -> str:
                 len(told),
                 f"{number / max(len(told), 1):.3f}",
                 f"{low:.3f} to {high:.3f}",
+                sum(row["outcome"] == SLID_OFF for row in told),
                 *(
                     "-" if fit is None else _within(float(half_lost(fit, period)))
                     for period in PERIODS

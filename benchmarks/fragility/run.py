@@ -69,16 +69,16 @@ def keep(name: str, rows: list[dict]) -> None:
     write_runs(kept_name(name), runs, title, f'python -m benchmarks.fragility "{name}" --keep')
 
 
-def rows_of(name: str, folder: Path, made: int, count: int, dt: float, workers: int) -> list[dict]:
-    """Rows of COLUMNS of a structure in the first `count` of `made` motions; those that neither the
-    repository nor the folder holds are computed, by no workers none.
+def rows_of(name: str, folder: Path, count: int, dt: float, workers: int) -> list[dict]:
+    """Rows of COLUMNS of a structure in so many motions; those that neither the repository nor the
+    folder holds are computed, by no workers none.
     """
     kept = read_runs(kept_name(name)) if dt == STEP_S else {}
     rows = {number: dict(structure=name, motion=number, **row) for number, row in kept.items()}
     whole = range(1, count + 1)
     if rows.keys() >= set(whole):
         return [rows[number] for number in whole]
-    file = ensemble_file(folder, made)
+    file = ensemble_file(folder, count)
     plan = plan_of(name, file, count, dt)
     missing = {one.id for number, one in enumerate(plan.analyses, 1) if number not in rows}
     drawn = parameters(file)

@@ -11,8 +11,8 @@ DRUMS = (1, 2, 3, 4, 6, 8)
 #: Contact points around a face; friction is that of `frames_and_stacks`, 0.7.
 AROUND = 12
 _FRAMES = {"trilith": 2, "frame": 4}
-#: How far a drum, or a slab's column, may slide or walk from its place on another body [m]: till it
-#: is half off, or at the slab's edge.
+#: How far a drum, or a slab's column, may slide or walk from its place on another body [m]: till a
+#: drum is half off, or a column's rim at the slab's edge. Beyond it is lost: slid off.
 SLIDES = 0.5
 ELASTIC = "elastic "
 
