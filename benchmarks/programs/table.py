@@ -13,7 +13,7 @@ from benchmarks.programs.structures import rigid_bodies
 from fecolumn.engines.ending import lost
 
 #: Against what a structure's programs are measured unless told otherwise
-REFERENCES = dict(tube="rigid", block="judge", drums="judge", trilith="judge")
+REFERENCES = dict(tube="rigid-fine", block="judge", drums="judge", trilith="judge")
 HEAD = (
     "structure and program",
     "step [s]",
