@@ -11,7 +11,7 @@ from fecolumn.foundation.sources import PHYSICS
 FOLDER = Path(__file__).parent
 RESULTS = FOLDER.parent / "RESULTS.md"
 #: {{table:NAME}} is a table with its source, {{NAME:row:column}} or {{NAME:row:column:.2f}} a cell,
-#: {{physics}} the number of today.
+#: {{physics}} the number of today. Names of rows and columns may hold colons before spaces.
 PLACE = re.compile(r"\{\{([^{}]+)\}\}")
 
 
@@ -28,7 +28,7 @@ def filled(text: str) -> str:
     """Text with a table or a number in each place."""
 
     def content(found: re.Match) -> str:
-        first, *rest = found[1].split(":")
+        first, *rest = re.split(r":(?! )", found[1])
         if first == "physics":
             return str(PHYSICS)
         if first == "table":

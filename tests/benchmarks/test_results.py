@@ -62,12 +62,12 @@ def test_a_printed_table_is_kept_and_quoted(tmp_path, monkeypatch):
     monkeypatch.setattr(tables, "FOLDER", tmp_path)
     monkeypatch.setattr("benchmarks.tables.__main__.FOLDER", tmp_path)
     printed = tmp_path / "printed.txt"
-    printed.write_text("words\n| a | b [m] |\n|---|---:|\n| x, y | 0.25 |\n\nmore\n")
+    printed.write_text("words\n| a | b [m] |\n|---|---:|\n| x: y | 0.25 |\n\nmore\n")
     command = ["tables", str(printed), "one", "--title", "T.", "--command", "python -m x"]
     monkeypatch.setattr("sys.argv", command)
     keep()
-    assert tables.read("one").rows == [["x, y", "0.25"]] and tables.read("one").current
-    assert filled("{{one:x, y:b [m]:.1f}} m") == "0.2 m"
+    assert tables.read("one").rows == [["x: y", "0.25"]] and tables.read("one").current
+    assert filled("{{one:x: y:b [m]:.1f}} m") == "0.2 m"
     monkeypatch.setattr("sys.argv", command[:3])  # title and command as they were
     keep()
     (tmp_path / "one.csv").write_text((tmp_path / "one.csv").read_text().replace("# date", "# day"))
