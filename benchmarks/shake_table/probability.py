@@ -124,20 +124,22 @@ def ensemble_report(draws: dict[int, list[dict]], told: list[dict]) -> str:
             outcomes = np.array([[row["measured"], row["computed"]] for row in kept], float)
             single.append(float(np.mean(outcomes[:, 0] == outcomes[:, 1])))
     failed = sum(row["failed"] != "" for rows in draws.values() for row in rows)
+    made = [row["draws"] for row in told]
+    # of an ensemble that was stopped some tests have more draws than others
+    each = f"{made[0]}" if min(made) == max(made) else f"{min(made)} to {max(made)}"
     cost = sum(row["cpu_s"] for rows in draws.values() for row in rows)
     score = "\n".join(
         [
             "| told by | N | Brier's score | skill over the share that overturned |",
             "|---|---:|---:|---:|",
-            f"| share of {len(draws)} draws | {len(told)} | {whole.score:.3f} | "
-            f"{whole.skill:.3f} |",
+            f"| share of {each} draws | {len(told)} | {whole.score:.3f} | {whole.skill:.3f} |",
             f"| one draw, mean | {len(told)} | {1 - np.mean(single):.3f} | "
             f"{1 - (1 - np.mean(single)) / whole.of_share if whole.of_share else np.nan:.3f} |",
         ]
     )
     return "\n\n".join(
         [
-            table({f"likelier of {len(draws)} draws": confusion(measured == 1, probability > 0.5)}),
+            table({f"likelier of {each} draws": confusion(measured == 1, probability > 0.5)}),
             f"single draws tell {min(single):.3f} to {max(single):.3f} right, mean "
             f"{np.mean(single):.3f}; {failed} analyses failed; {cost / 3600:.2f} CPU hours",
             score,

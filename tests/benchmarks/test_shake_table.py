@@ -303,5 +303,8 @@ def test_an_ensemble_of_draws_tells_probabilities_and_goes_on(copy, tmp_path, ca
     kept.write_text(json.dumps(json.loads(kept.read_text()) | {"computed": 0}))
     main(command)
     assert "| 0.4 to 0.6 | 1 |" in capsys.readouterr().out
+    kept.unlink()  # as if it had been stopped
+    main([*command, "--report"])
+    assert "| share of 1 to 2 draws | 2 |" in capsys.readouterr().out
     with pytest.raises(SystemExit, match="holds results with draws 2"):
         main([*command[:-4], "--draws", "3", "--tests", "1,2"])
