@@ -113,10 +113,8 @@ def compared(given: list[Problem], folder: Path) -> tuple[list[dict], str]:
     """A record a problem: what it is, and of every solver violation, seconds and iterations; and
     Siconos' remark.
     """
-    # compiled, so that the first problem costs what all cost: for one point, whose friction is an
-    # array that is only read, and for more
-    for n in (1, 2):
-        solve_contact(np.eye(3 * n), np.zeros((n, 3)), 0.0, np.zeros((n, 3)))
+    # compiled, so that the first problem costs what all cost
+    solve_contact(np.eye(3), np.zeros((1, 3)), 0.0, np.zeros((1, 3)))
     own = [ours(problem) for problem in given]
     others, remark = siconos(given, folder, [one["forces"] for one in own])
     records = []

@@ -298,5 +298,6 @@ def solve_contact(
     with a solution that has not converged.
     """
     W, q, start = (np.ascontiguousarray(array, float) for array in (W, q, start))
-    friction = np.ascontiguousarray(np.broadcast_to(np.asarray(mu, float), len(q)))
+    # a copy: of one point it would be an array that is only read, for which all is compiled again
+    friction = np.broadcast_to(np.asarray(mu, float), len(q)).copy()
     return ContactSolution(*iterate(coupling_of(W), q, friction, start, tolerance, True, sweeps))
