@@ -5,8 +5,8 @@
 
 Checks out each commit, the present one by default, beside this work tree, runs the reference column
 by its own program and prints the table `versions` with its rows, those of other versions as they
-are kept. What it compiles goes into a folder that is empty at first: the first run is what a
-newcomer waits for after the set-up.
+are kept. What it compiles goes into a folder that is empty at first: the first run has what the
+set-up compiles otherwise.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from datetime import date
 from pathlib import Path
 
 from benchmarks import tables
+from benchmarks.beside import markdown
 
 ROOT = Path(__file__).parents[1]
 #: Motion of the Lick ensemble at each time step [s]
@@ -37,7 +38,7 @@ COLUMNS = (
     "run again [CPU s]",
     *(f"step of {dt:g} s [us]" for dt in MOTIONS),
 )
-# The newest key in it is of 0.5
+# Of keys that version 0.6 has, too
 _CASE = """
 extends = "{specimen}"
 motion = {{ source = "lick:{motion}", free_vibration_s = 0.5 }}
@@ -99,18 +100,14 @@ def row_of(commit: str) -> list[str]:
         short = subprocess.run(shown, capture_output=True, text=True, check=True).stdout.strip()
         project = tomllib.loads((tree / "pyproject.toml").read_text(encoding="utf-8"))["project"]
         first, _ = timed_run(tree, Path(cache), 1e-3)
-        again, steps = 0.0, []
-        for dt in MOTIONS:
-            spent, summary = timed_run(tree, Path(cache), dt)
-            again = again or spent
-            steps.append(f"{1e6 * summary['cpu_s'] / summary['steps']:.0f}")
+        again = {dt: timed_run(tree, Path(cache), dt) for dt in MOTIONS}
     return [
         project["version"],
         short,
         date.today().isoformat(),
         f"{first:.0f}",
-        f"{again:.1f}",
-        *steps,
+        f"{again[1e-3][0]:.1f}",
+        *(f"{1e6 * summary['cpu_s'] / summary['steps']:.0f}" for _, summary in again.values()),
     ]
 
 
@@ -136,9 +133,7 @@ def main(arguments: list[str] | None = None) -> None:
         rows[row[0]] = row
         print(", ".join(row), file=sys.stderr, flush=True)
     ordered = sorted(rows.values(), key=lambda row: [int(part) for part in row[0].split(".")])
-    print(f"| {' | '.join(COLUMNS)} |\n|{'---|' * len(COLUMNS)}")
-    for row in ordered:
-        print(f"| {' | '.join(row)} |")
+    print(markdown(COLUMNS, ordered))
     if failed:
         sys.exit(f"{failed} of {len(given.commits)} commits could not be measured")
 
