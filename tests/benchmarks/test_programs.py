@@ -1,6 +1,8 @@
 """Programs beside each other: one ensemble for all, what is measured, and each program on it."""
 
 import math
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -75,6 +77,22 @@ def slid(share):
     place = np.stack([way, zero + 0.6, zero], axis=-1)[:, None]
     velocity = np.stack([speed * np.sqrt(1 + share), zero, zero], axis=-1)[:, None]
     return Course(**in_plane(place, velocity), ground=ground, row_s=1e-3, cpu_s=1.0, steps=1)
+
+
+def test_study_of_two_steps_has_the_tube_of_the_programs():
+    file = Path(table.__file__).parents[1] / "decided" / "tube_steps.toml"
+    study = tomllib.loads(file.read_text(encoding="utf-8"))["case"]
+    motion, _ = structures.motion_table("tube", file.parent)
+    assert {key: study["motion"][key] for key in motion} == motion
+    given = dict(motion=dict(source="lick:1"))
+    one = case_from_tables(study | given, file).tables()
+    other = case_from_tables(structures.case_tables("tube", "rigid", 1e-3) | given, file).tables()
+    for name in ("contact", "grounds", "joints", "overturn"):
+        assert one[name] == other[name]
+    bodies = one["bodies"]["column"], other["bodies"]["column"]
+    for key in ("kind", "outer_diameter_m", "wall_m", "height_m", "cap", "coarse_size_m"):
+        assert bodies[0][key] == bodies[1][key]
+    assert other["materials"]["column"]["density_kg_m3"] == 7850  # steel, the default
 
 
 def test_energy_fed_in_is_what_the_ground_has_not_done():
