@@ -35,6 +35,8 @@ _BATCH_S, _BATCH_MOST = 0.5, 200
 # metre or two takes seconds
 _TO_REST_S = 10.0
 _DISK_FULL = "the disk is full; free room"
+# Warnings of motions that are told one by one: as many as can be read at a glance
+_TOLD = 3
 
 
 def complete_study(
@@ -165,9 +167,12 @@ def check_motions(plan: Plan) -> None:
                 longest_step.get(key, 0.0), float(analysis.case.integration.dt_s)
             )
             users.setdefault(key, []).append(analysis)
-    cut = []
+    cut, told = [], dict[str, warnings.WarningMessage]()
     for motion, dt_s in longest_step.items():
-        ground = load_motion(motion, dt_s, plan.file)
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            ground = load_motion(motion, dt_s, plan.file)
+        told |= {str(warning.message): warning for warning in said}
         for analysis in users[motion]:
             given, free = analysis.case.integration.duration_s, motion.longest_free_vibration_s
             if motion.free_vibration_s == UNTIL_REST:
@@ -175,12 +180,25 @@ def check_motions(plan: Plan) -> None:
             analysis.duration_s = given or ground.duration + free
             if given and given < ground.duration - dt_s:
                 cut.append((ground.duration, given))
+    _tell(list(told.values()), plan.file)
     if cut:
         length, given = max(cut)
         warnings.warn(
             f"{cut_text(plan.file, given, length)} ({len(cut)} of {len(plan.analyses)} "
             "analyses are cut)",
             stacklevel=2,
+        )
+
+
+def _tell(told: list[warnings.WarningMessage], file: Path) -> None:
+    """Tell the first warnings of many motions, and how many more there are."""
+    for warning in told[:_TOLD]:
+        warnings.warn(warning.message, warning.category, stacklevel=3)
+    if len(told) > _TOLD:
+        warnings.warn(
+            f"{file}: {len(told) - _TOLD} further warnings of its motions are left out here; "
+            "fecolumn motions look tells those of one motion",
+            stacklevel=3,
         )
 
 

@@ -172,3 +172,18 @@ def test_longer_motions_are_longer_analyses_whatever_their_scale(tmp_path):
         4.0,
         4.0,
     ]
+
+
+@pytest.mark.parametrize("many", [2, 7])
+def test_what_is_told_of_many_motions_is_told_of_three(tmp_path, many):
+    names = [f"{k}.csv" for k in range(many)]
+    for k, name in enumerate(names):
+        rows = f"0,0,0\n3,{0.3 + k / 100},0\n6,{0.3 + k / 100},0\n"
+        (tmp_path / name).write_text("time [s],ax [g],ay [g]\n" + rows)
+    axis = ", ".join(f'"{name}"' for name in names)
+    study = f'[case]\nextends = "{SPECIMEN}"\n[axes]\n"motion.source" = [{axis}]'
+    with pytest.warns() as told:
+        check_motions(read_plan(_study(tmp_path, study)))
+    texts = [str(warning.message) for warning in told]
+    assert sum("between its rows" in text for text in texts) == min(many, 3)
+    assert [t for t in texts if "4 further warnings" in t] == texts[3:]
