@@ -70,7 +70,7 @@ def _spectrum(args: argparse.Namespace, folder: Path) -> None:
     from fecolumn.engines.rocking.block import RockingBlock
     from fecolumn.engines.rocking.case import read_model_case
     from fecolumn.engines.rocking.spectra_table import FREQUENCIES, PULSE_SHAPES, spectra_table
-    from fecolumn.engines.rocking.swing import FASTEST
+    from fecolumn.engines.rocking.swing_equations import FASTEST
     from fecolumn.foundation.atomic import write_csv
     from fecolumn.foundation.schema import InputError
     from fecolumn.pictures.figures.overturning_figure import overturning_figure, slenderness_figure

@@ -23,7 +23,9 @@ from fecolumn.engines.rocking.overturning import (
     pulse_outcomes,
     slenderness_factor,
 )
-from fecolumn.engines.rocking.swing import PEAK_TILT, rock_one, row_of_block
+from fecolumn.engines.rocking.swing import rock_one
+from fecolumn.engines.rocking.swing_equations import row_of_block
+from fecolumn.engines.rocking.swing_motion import PEAK_TILT
 from fecolumn.verification.result import Row
 
 if TYPE_CHECKING:

@@ -8,13 +8,9 @@ import pytest
 from fecolumn.engines.rocking.critical_input import critical_motion, least_impulse, tilt_velocities
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.overturning import critical_tilt_rate
-from fecolumn.engines.rocking.swing import (
-    FALL_TIME,
-    IMPACT_COUNT,
-    PEAK_TILT,
-    rock_one,
-    row_of_block,
-)
+from fecolumn.engines.rocking.swing import rock_one
+from fecolumn.engines.rocking.swing_equations import row_of_block
+from fecolumn.engines.rocking.swing_motion import FALL_TIME, IMPACT_COUNT, PEAK_TILT
 
 ALPHA, P = 0.2, 2.0
 KEPT = housner_restitution(ALPHA)

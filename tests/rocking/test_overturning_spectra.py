@@ -15,7 +15,8 @@ from fecolumn.engines.rocking.overturning import (
     pulse_outcomes,
     slenderness_factor,
 )
-from fecolumn.engines.rocking.swing import rock_all, rock_one, row_of_block
+from fecolumn.engines.rocking.swing import rock_all, rock_one
+from fecolumn.engines.rocking.swing_equations import row_of_block
 
 TEN = math.radians(10)
 

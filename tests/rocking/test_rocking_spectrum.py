@@ -16,13 +16,9 @@ from fecolumn.engines.rocking.spectrum import (
     rocking_spectrum,
     tilt_quantile,
 )
-from fecolumn.engines.rocking.swing import (
-    SWING_RATE,
-    SWING_TILT,
-    SWING_TIME,
-    rock_one,
-    row_of_block,
-)
+from fecolumn.engines.rocking.swing import rock_one
+from fecolumn.engines.rocking.swing_equations import row_of_block
+from fecolumn.engines.rocking.swing_motion import SWING_RATE, SWING_TILT, SWING_TIME
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.pulses import Pulse, sample
 from fecolumn.motions.record import GroundMotion

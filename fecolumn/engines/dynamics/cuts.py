@@ -87,7 +87,10 @@ def in_halves(
     if cuts == halving.max_cuts or failure.stop in (Stop.OFF_BASE, Stop.OFF_PATCH):
         raise StepFailed(
             failure.stop,
-            f"{failure} (step cut {cuts} times to {hht.dt:.3g} s)" if cuts else str(failure),
+            f"{failure} (step cut {cuts} times to {hht.dt:.3g} s; integration.max_cuts = {cuts} "
+            "allows no more)"
+            if cuts
+            else str(failure),
             failure.joints,
         )
     halving.count()

@@ -20,7 +20,8 @@ import numpy as np
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.overturning import critical_tilt_rate
-from fecolumn.engines.rocking.swing import rock_one, row_of_block
+from fecolumn.engines.rocking.swing import rock_one
+from fecolumn.engines.rocking.swing_equations import row_of_block
 from fecolumn.foundation.arrays import Array
 from fecolumn.motions.record import GroundMotion
 

@@ -15,7 +15,9 @@ from scipy.optimize import brentq
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.impact import housner_restitution
-from fecolumn.engines.rocking.swing import IMPACT_COUNT, PEAK_TILT, rock_all, row_of_block
+from fecolumn.engines.rocking.swing import rock_all
+from fecolumn.engines.rocking.swing_equations import row_of_block
+from fecolumn.engines.rocking.swing_motion import IMPACT_COUNT, PEAK_TILT
 from fecolumn.foundation.arrays import Array
 from fecolumn.motions.pulses import Pulse
 

@@ -19,28 +19,30 @@ from fecolumn.engines.rocking.model import (
     moved_about_edge,
 )
 from fecolumn.engines.rocking.restraint import Restraint
-from fecolumn.engines.rocking.swing import (
-    FALL_TIME,
+from fecolumn.engines.rocking.swing import rock_one
+from fecolumn.engines.rocking.swing_equations import (
     FASTEST,
     HELD,
     N_PARAMETERS,
     ONLY,
     P2,
-    PEAK_TILT,
     PER_MASS,
     RESTITUTION,
     SLENDERNESS,
     SPRING,
+    TENDON,
+    TENDON_THRUST,
+    look,
+)
+from fecolumn.engines.rocking.swing_motion import (
+    FALL_TIME,
+    PEAK_TILT,
     SWING_EDGE,
     SWING_LOSS,
     SWING_RATE,
     SWING_TILT,
     SWING_TIME,
     SWING_WORK,
-    TENDON,
-    TENDON_THRUST,
-    look,
-    rock_one,
 )
 from fecolumn.foundation.arrays import Array
 from fecolumn.motions.record import GroundMotion

@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fecolumn.engines.rocking.impact import housner_restitution
-from fecolumn.engines.rocking.swing import PEAK_TILT, rock_all, row_of_block
+from fecolumn.engines.rocking.swing import rock_all
+from fecolumn.engines.rocking.swing_equations import row_of_block
+from fecolumn.engines.rocking.swing_motion import PEAK_TILT
 from fecolumn.foundation.arrays import Array
 from fecolumn.motions.processing import rotate
 from fecolumn.motions.record import GroundMotion
