@@ -13,7 +13,9 @@ from benchmarks.outcomes.motions import stored
 from fecolumn.case.model_sections import WobblingModel
 from fecolumn.engines.rocking.impact import housner_restitution
 from fecolumn.engines.rocking.model import OVERTURNED, SAFE
-from fecolumn.engines.rocking.swing import IMPACT_COUNT, PEAK_TILT, rock_all, row_of_block
+from fecolumn.engines.rocking.swing import rock_all
+from fecolumn.engines.rocking.swing_equations import row_of_block
+from fecolumn.engines.rocking.swing_motion import IMPACT_COUNT, PEAK_TILT
 from fecolumn.engines.rocking.wobbling import Wobbling
 from fecolumn.motions.processing import scale
 

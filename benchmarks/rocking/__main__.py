@@ -16,16 +16,9 @@ import numpy as np
 from benchmarks.beside import markdown
 from fecolumn.case.sections import Motion
 from fecolumn.engines.rocking.impact import housner_restitution
-from fecolumn.engines.rocking.swing import (
-    FASTEST,
-    HELD,
-    IMPACT_COUNT,
-    PEAK_TILT,
-    SPRING,
-    TENDON,
-    rock_all,
-    row_of_block,
-)
+from fecolumn.engines.rocking.swing import rock_all
+from fecolumn.engines.rocking.swing_equations import FASTEST, HELD, SPRING, TENDON, row_of_block
+from fecolumn.engines.rocking.swing_motion import IMPACT_COUNT, PEAK_TILT
 from fecolumn.motions.load import unsampled
 
 SECONDS = 10.0

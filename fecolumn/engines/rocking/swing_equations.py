@@ -24,7 +24,7 @@ import numpy as np
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
 
-FLAT = math.pi / 2  # lean at which it lies [rad]
+LYING = math.pi / 2  # lean at which it lies [rad]
 BISECTIONS = 55
 _SCAN = 128  # points at which the restoring moment is looked at between upright and flat
 # Columns of a row of parameters; those of two sides stand one after the other, + first
@@ -93,14 +93,14 @@ def _held_potential(par: Array, k: int, phi: float) -> float:
 
 
 @njit(alone=True)
-def restoring(par: Array, k: int, phi: float) -> float:
+def restoring_moment(par: Array, k: int, phi: float) -> float:
     """Restoring moment over the inertia [1/s2]."""
     moment = par[P2 + k] * math.sin(par[SLENDERNESS + k] - phi)
     return moment + _held(par, k, phi) if par[HELD] != 0.0 else moment
 
 
 @njit(alone=True)
-def potential(par: Array, k: int, phi: float) -> float:
+def swing_potential(par: Array, k: int, phi: float) -> float:
     """Potential over the inertia, 0 upright [1/s2]."""
     energy = par[P2 + k] * (math.cos(par[SLENDERNESS + k] - phi) - math.cos(par[SLENDERNESS + k]))
     return energy + _held_potential(par, k, phi) if par[HELD] != 0.0 else energy
@@ -112,24 +112,24 @@ def critical_lean(par: Array, k: int) -> float:
     if par[HELD] == 0.0:
         return par[SLENDERNESS + k]
     early = late = 0.0
-    if restoring(par, k, 0.0) <= 0.0:
+    if restoring_moment(par, k, 0.0) <= 0.0:
         return 0.0
     for point in range(1, _SCAN + 1):
-        late = FLAT * point / _SCAN
-        if restoring(par, k, late) < 0.0:
+        late = LYING * point / _SCAN
+        if restoring_moment(par, k, late) < 0.0:
             for _ in range(BISECTIONS):
                 middle = 0.5 * (early + late)
-                if restoring(par, k, middle) > 0.0:
+                if restoring_moment(par, k, middle) > 0.0:
                     early = middle
                 else:
                     late = middle
             return late
         early = late
-    return FLAT
+    return LYING
 
 
 @njit(alone=True)
-def turn_of(par: Array, k: int, s: float, phi: float, x: float, z: float) -> tuple[float, float]:
+def _turn(par: Array, k: int, s: float, phi: float, x: float, z: float) -> tuple[float, float]:
     """Phi'' [1/s2], and the part of it that the ground makes; x, z: ground acceleration over g."""
     lever = par[SLENDERNESS + k] - phi
     sine, cosine = math.sin(lever), math.cos(lever)
@@ -141,7 +141,7 @@ def turn_of(par: Array, k: int, s: float, phi: float, x: float, z: float) -> tup
 
 
 @njit(alone=True)
-def advance(
+def swing_step(
     par: Array,
     k: int,
     s: float,
@@ -157,13 +157,13 @@ def advance(
     Runge-Kutta step; dx, dz: slopes of the ground's acceleration.
     """
     half = 0.5 * step
-    k1, w1 = turn_of(par, k, s, phi, x, z)
+    k1, w1 = _turn(par, k, s, phi, x, z)
     v2 = rate + half * k1
-    k2, w2 = turn_of(par, k, s, phi + half * rate, x + half * dx, z + half * dz)
+    k2, w2 = _turn(par, k, s, phi + half * rate, x + half * dx, z + half * dz)
     v3 = rate + half * k2
-    k3, w3 = turn_of(par, k, s, phi + half * v2, x + half * dx, z + half * dz)
+    k3, w3 = _turn(par, k, s, phi + half * v2, x + half * dx, z + half * dz)
     v4 = rate + step * k3
-    k4, w4 = turn_of(par, k, s, phi + step * v3, x + step * dx, z + step * dz)
+    k4, w4 = _turn(par, k, s, phi + step * v3, x + step * dx, z + step * dz)
     work = step * (w1 * rate + 2 * w2 * v2 + 2 * w3 * v3 + w4 * v4) / 6
     return (
         phi + step * (rate + 2 * v2 + 2 * v3 + v4) / 6,
@@ -180,7 +180,7 @@ def lift(par: Array, k: int, s: float, x: float, z: float) -> float:
     """
     if par[ONLY] * s < 0.0:
         return -1.0
-    return turn_of(par, k, s, 0.0, x, z)[0]
+    return _turn(par, k, s, 0.0, x, z)[0]
 
 
 @njit(alone=True)
@@ -194,8 +194,8 @@ def look(par: Array, k: int, leans: Array, out: Array) -> None:
             math.cos(par[SLENDERNESS + k] - leans[one]) - math.cos(par[SLENDERNESS + k])
         )
         out[one, 0], out[one, 1], out[one, 2], out[one, 3] = (
-            restoring(par, k, leans[one]),
+            restoring_moment(par, k, leans[one]),
             gravity,
-            potential(par, k, leans[one]) - gravity,
+            swing_potential(par, k, leans[one]) - gravity,
             critical,
         )

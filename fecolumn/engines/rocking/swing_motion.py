@@ -13,17 +13,17 @@ import math
 from fecolumn.engines.rocking.swing_equations import (
     BISECTIONS,
     FASTEST,
-    FLAT,
     HELD,
+    LYING,
     ONLY,
     P2,
     PER_MASS,
     RESTITUTION,
     SLENDERNESS,
-    advance,
     critical_lean,
     lift,
-    potential,
+    swing_potential,
+    swing_step,
 )
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
@@ -123,7 +123,7 @@ def _rock(
                         elapsed += first
                         phi = rate = 0.0
                         continue
-                    next_phi, next_rate, done, turn = advance(
+                    next_phi, next_rate, done, turn = swing_step(
                         par, k, s, phi, rate, x, z, dx, dz, left
                     )
                     if next_phi >= 0.0:
@@ -152,7 +152,7 @@ def _rock(
                                 if above > 0.0
                                 else 0.5 * (early + late)
                             )
-                            found = advance(par, k, s, phi, rate, x, z, dx, dz, middle)[0]
+                            found = swing_step(par, k, s, phi, rate, x, z, dx, dz, middle)[0]
                             if found > 0.0:
                                 early, above = middle, found
                                 if kept > 0:
@@ -166,7 +166,7 @@ def _rock(
                             if late - early < 1e-14 * full or abs(found) < 1e-16:
                                 late = middle
                                 break
-                        _, rate, done, turn = advance(par, k, s, phi, rate, x, z, dx, dz, late)
+                        _, rate, done, turn = swing_step(par, k, s, phi, rate, x, z, dx, dz, late)
                         work += done * par[PER_MASS + k]
                         elapsed += late
                         loss += 0.5 * par[PER_MASS + k] * rate * rate
@@ -184,7 +184,7 @@ def _rock(
                             elapsed += 1e-3 * full
                         loss -= 0.5 * par[PER_MASS + k] * rate * rate
                     peak = max(peak, phi)
-                    if phi > FLAT:
+                    if phi > LYING:
                         fall = sample * dt + start + elapsed
                         break
                 if fall >= 0.0:
@@ -221,8 +221,11 @@ def _free_peak(par: Array, k: int, s: float, phi: float, rate: float) -> tuple[f
     peak, count = phi, 0
     for swing in range(6):
         critical = critical_lean(par, k)
-        energy, barrier = 0.5 * rate * rate + potential(par, k, phi), potential(par, k, critical)
-        if critical < FLAT:
+        energy, barrier = (
+            0.5 * rate * rate + swing_potential(par, k, phi),
+            swing_potential(par, k, critical),
+        )
+        if critical < LYING:
             # beyond the critical lean it falls without the energy to come back, however it moves
             if (energy >= barrier and rate > 0.0) or (phi > critical and energy < barrier):
                 return math.inf, count, s
@@ -230,7 +233,7 @@ def _free_peak(par: Array, k: int, s: float, phi: float, rate: float) -> tuple[f
             low, high = phi, critical
             for _ in range(BISECTIONS):
                 middle = 0.5 * (low + high)
-                if potential(par, k, middle) < energy:
+                if swing_potential(par, k, middle) < energy:
                     low = middle
                 else:
                     high = middle
