@@ -391,7 +391,22 @@ def case_from_tables(tables: dict[str, Any], file: Path | str = "case") -> Case:
     """Case from TOML tables; relative paths are taken from the folder of `file`, which messages
     name, or from the current one.
 
-    Tables with [column] are a short form, see `fecolumn.case.short_form`.
+    Parameters
+    ----------
+    tables
+        keys and values by table, as `tomllib` reads them; units are those of the manual's page
+        keys. Tables with [column] are a short form, see `fecolumn.case.short_form`.
+    file
+        by which messages name the case.
+
+    Returns
+    -------
+    Case, checked.
+
+    Raises
+    ------
+    InputError
+        unknown key, wrong type, value out of range, or parts that do not fit.
     """
     from fecolumn.case.model_names import TABLES, model_engine_of
 

@@ -14,8 +14,8 @@ CRV, CAV = LAWS = ("CRV", "CAV")
 
 @section_class(kw_only=True)
 class BlockModel(RockingKeys):
-    """Rectangular rigid block that rocks along x, about the edges of its foot; with depth_m along
-    y, too, as if each did not know of the other.
+    """Rectangular rigid block that rocks along x, about the edges of its foot (Housner 1963); with
+    depth_m along y, too, as if each did not know of the other.
     """
 
     depth_m: float | None = parameter(
@@ -99,7 +99,7 @@ class FrameModel(RockingKeys):
 
 @section_class(kw_only=True)
 class WobblingModel(RollingKeys):
-    """Round rigid column that rolls on the rim of its foot."""
+    """Round rigid column that rolls on the rim of its foot without sliding (Vassiliou 2018)."""
 
     density_kg_m3: float = parameter(
         2000.0,
@@ -123,7 +123,9 @@ class WobblingFrameModel(RollingKeys):
 
 @section_class(kw_only=True)
 class PodiumModel(RectangleKeys):
-    """Building of equal storeys on a beam on rocking rectangular columns, along x."""
+    """Building of equal storeys on a beam on rocking rectangular columns, along x (Bantilas,
+    Kavvadias and Vasiliadis 2021).
+    """
 
     column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
     floor_mass_kg: float = parameter(doc="mass of each floor", unit="kg", above=0, high=1e9)

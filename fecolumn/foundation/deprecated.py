@@ -11,8 +11,8 @@ TOLD = "is an older name"
 
 @functools.cache
 def warn_of_older_name(where: str, older: str, newer: str) -> None:
-    """Tell once in a process, by a DeprecationWarning, that a name will not be read any more some
-    day, and which one to write.
+    """Tell once in a process, by a DeprecationWarning, that a name is read until version 2.0 only,
+    and which one to write.
 
     Parameters
     ----------
@@ -21,5 +21,5 @@ def warn_of_older_name(where: str, older: str, newer: str) -> None:
     older, newer
         the two names.
     """
-    told = f"{where}: {older} {TOLD} of {newer}, read in this version still; write {newer}"
+    told = f"{where}: {older} {TOLD} of {newer}, read until 2.0; write {newer}"
     warnings.warn(told, DeprecationWarning, stacklevel=3)

@@ -165,10 +165,15 @@ def wanted(kind: typing.Any, metadata: Mapping[str, typing.Any]) -> str:
     """As `allowed_range`, of a key of this type: of text, switches and lists, too."""
     kinds = [one for one in typing.get_args(kind) if one is not types.NoneType]
     kind = kinds[0] if isinstance(kind, types.UnionType) else kind
-    if not any(metadata[rule] not in (None, ()) for rule in ("choices", "low", "above", "words")):
-        if kind not in (float, int):
-            return f"must be {_word(kind)}"
+    if kind not in (float, int):
+        if not any(metadata[rule] not in (None, ()) for rule in ("choices", "low", "above")):
+            return _type_in_words(kind, metadata)
     return allowed_range(metadata)
+
+
+def _type_in_words(kind: typing.Any, metadata: Mapping[str, typing.Any]) -> str:
+    words = " or ".join([_word(kind), *(f'"{text}"' for text in metadata["words"])])
+    return f"must be {words}"
 
 
 def _word(kind: typing.Any) -> str:
@@ -241,8 +246,8 @@ def _checked(
         return value
     typed = _typed(kind, value)
     if typed is None:
-        word = " or ".join([_word(kind), *(f'"{text}"' for text in metadata["words"])])
-        raise InputError(file, key, value, f"must be {word}; {metadata['doc']}")
+        told = f"{_type_in_words(kind, metadata)}; {metadata['doc']}"
+        raise InputError(file, key, value, told)
     for item in _items(typed):
         bad = False
         if isinstance(item, (int, float)) and not isinstance(item, bool):

@@ -83,7 +83,7 @@ def _by_known_keys(init: typing.Any, cls: typing.Any, kw_only: bool) -> typing.A
 
 
 def _parameters(cls: typing.Any) -> str:
-    """The section Parameters of a class's help: required keys first."""
+    """The sections Parameters, required keys first, and Raises of a class's help."""
     fields = sorted(dataclasses.fields(cls), key=lambda one: one.default is not dataclasses.MISSING)
     kinds = typing.get_type_hints(cls)
     lines = ["Parameters", "----------"]
@@ -92,6 +92,8 @@ def _parameters(cls: typing.Any) -> str:
         if field.metadata:
             told = f"{field.metadata['doc']}; {wanted(kinds[field.name], field.metadata)}"
             lines += textwrap.wrap(told, 92, initial_indent="    ", subsequent_indent="    ")
+    lines += ["", "Raises", "------", "InputError"]
+    lines += ["    unknown or missing key, wrong type, or value out of range."]
     return "\n".join(lines)
 
 

@@ -44,6 +44,17 @@ class SpecimenMesh:
 def specimen_mesh(case: Upright) -> SpecimenMesh:
     """Meshes of a case, built or imported.
 
+    Parameters
+    ----------
+    case
+        of one upright column, as `load_case` makes it.
+
+    Returns
+    -------
+    SpecimenMesh
+        bricks of the body and of the base, nodes (n, 3) [m] each, what ties parts of the body to
+        one another, and the nodes of its foot.
+
     Raises
     ------
     InputError

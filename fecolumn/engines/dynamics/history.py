@@ -124,7 +124,20 @@ class History:
 
 
 def read_history(path: Path, names: tuple[str, ...] = ()) -> dict[str, Array]:
-    """Columns of a history file, all or those named; energy terms as "energy/<term>".
+    """Columns of a history file.
+
+    Parameters
+    ----------
+    path
+        of history.h5.
+    names
+        columns to read; left out, all. Energy terms are "energy/<term>".
+
+    Returns
+    -------
+    dict
+        arrays (n,) or (n, k) by name, one row a kept step, in SI units: time [s], displacements
+        [m], tilts [rad], energies [J]; the manual's page outputs has all.
 
     Raises
     ------

@@ -89,6 +89,12 @@ def design(
     jobs
         analyses at a time.
 
+    Returns
+    -------
+    Answer
+        text of the command, its figure, and a table of each value looked at, in the key's unit,
+        with n, k, P and the 95 % interval of P.
+
     Raises
     ------
     InputError
@@ -124,13 +130,20 @@ def risk(
     folder
         for tables and figures.
     hazard
-        CSV file of intensity and annual frequency, or OpenQuake's export.
+        CSV file of intensity, in the unit of the fragility's, and annual frequency of exceedance
+        [1/year], or OpenQuake's export.
     limit
         of a study: "overturn", "lost", "top > 50 mm" ...
     years
-        time of exposure.
+        time of exposure [years].
     site
         line of OpenQuake's file.
+
+    Returns
+    -------
+    Answer
+        text of the command, its figure, and a table of mean annual frequency [1/year] and
+        probability in `years`, with their intervals.
 
     Raises
     ------
@@ -173,6 +186,12 @@ def screen(
         "rigid" or "housner".
     jobs
         analyses at a time.
+
+    Returns
+    -------
+    Answer
+        text of the command, its figure, and a table of the objects, likeliest to be lost first,
+        with the probability of each event.
 
     Raises
     ------

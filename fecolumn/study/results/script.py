@@ -41,7 +41,7 @@ def run_study(
     axes
         values by dotted key, each with each, such as {"contact.friction_coefficient": [0.3, 0.6]}.
     workers
-        the name of `jobs` until 1.0.
+        older name of `jobs`, read until 2.0.
 
     Returns
     -------

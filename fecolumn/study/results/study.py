@@ -46,7 +46,7 @@ class Members:
 
 
 class StudyResult:
-    """What is in the folder of `fecolumn.study`, finished or not.
+    """What is in the folder of a study, of `run_study` or `fecolumn study`, finished or not.
 
     Attributes
     ----------
