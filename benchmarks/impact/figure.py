@@ -72,12 +72,14 @@ def draw(rows, path) -> None:
             axes.set(
                 xscale="log",
                 xlabel="time step at the impact [s]",
-                ylim=(0, 1.35 * axes.get_ylim()[1]),
+                ylim=(0, 1.45 * axes.get_ylim()[1]),
             )
             axes.tick_params(which="minor", top=False)
-        left.set(ylabel="rocking energy lost / Housner's [-]")
-        left.legend(loc="upper left", ncol=2)
-        right.legend(loc="upper left", ncol=2, title=r"tilt of release over $\alpha$")
+            axes.set(ylabel="rocking energy lost / Housner's [-]")
+        left.set_title("(a) released from 0.3 of the critical tilt")
+        right.set_title("(b) reduced, 100 modes")
+        left.legend(loc="upper left", ncol=2, title="bars: least and most of the releases")
+        right.legend(loc="upper left", ncol=2, title="release tilt over critical tilt")
         save(figure, path)
 
 
