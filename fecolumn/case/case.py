@@ -268,6 +268,13 @@ class Case:
             getattr(self.bodies[body], "fixed", False) for body, _ in self.copies_of(name)
         )
 
+    @property
+    def copies(self) -> tuple[tuple[str, int], ...]:
+        """Every body of a structure and the number of its copy, counted from 0, in the order of the
+        case.
+        """
+        return tuple(one for name in self.bodies for one in self.copies_of(name))
+
     def copies_of(self, name: str) -> tuple[tuple[str, int], ...]:
         """As `meant_by`, body and number of each copy; of "arch" those of all its voussoirs."""
         bodies = (name not in self.bodies and self._numbered(name)) or (name,)

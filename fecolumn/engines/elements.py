@@ -68,7 +68,7 @@ def structure_of_elements(
     structure = assembled(
         case, {name: one.model for name, one in made.items()}, said_of(layout), file
     )
-    return structure, [made[name] for name in case.bodies for _ in case.names_of(name)]
+    return structure, [made[name] for name, _ in case.copies]
 
 
 def checked_layout(case: Case, file: Path | str) -> Layout:

@@ -54,7 +54,7 @@ def full_system(
     """
     plan = case.integration
     structure, meshed = structure_of_elements(case, comm, file, layout)
-    damped = [case.modes_of(name) for name in case.bodies for _ in case.names_of(name)]
+    damped = [case.modes_of(name) for name, _ in case.copies]
     flying = [part.name for part in structure.parts if part.airborne]
     if flying and not begins_unstrained(case, structure):
         raise InputError(

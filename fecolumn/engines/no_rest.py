@@ -14,7 +14,7 @@ _TOLD = 3
 
 def no_rest(case: Case, error: NoEquilibrium) -> str:
     """The error with the body that moved most, its joints with their friction, and ways out."""
-    copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
+    copies = case.copies
     way_out = 'integration.start = "drawn" lets the bodies go from where they are drawn'
     if error.mover is None or error.mover >= len(copies):
         return f"{error}; {way_out}"

@@ -7,6 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from fecolumn.mesh.winding import counterclockwise
+
 LOWER, UPPER, CAP, BASE, FLANGE = 1, 2, 3, 4, 5
 PART_NAMES = {
     LOWER: "lower column",
@@ -167,14 +169,7 @@ def boundary_faces(mesh: BrickMesh, part: int, z: float, tolerance: float) -> np
     """
     faces = outer_faces(mesh, part)
     faces = faces[np.all(np.abs(mesh.points[faces, 2] - z) <= tolerance, axis=1)]
-    # the diagonals of a quadrilateral, two sides of a triangle
-    first, second = (
-        mesh.points[faces[:, end], :2] - mesh.points[faces[:, start], :2]
-        for start, end in ((0, 2), (1, -1))
-    )
-    clockwise = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] < 0
-    faces[clockwise] = faces[clockwise][:, ::-1]
-    return faces
+    return counterclockwise(mesh.points[:, :2], faces)
 
 
 def outline_edges(faces: np.ndarray) -> np.ndarray:

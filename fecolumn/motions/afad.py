@@ -9,7 +9,7 @@ import numpy as np
 
 from fecolumn.motions.fixed_width import above_zero
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import check_end, parse_number, read_text
+from fecolumn.motions.text import check_end, finite_number, read_text
 
 _KIND = "AFAD"
 _FIRST = "STRONG GROUND MOTION RECORDS OF TURK"
@@ -71,12 +71,4 @@ def _row(line: str, row: int) -> list[float]:
     words = line.split()
     if len(words) != 3:
         raise UnusableRecord(f"line {row}: {len(words)} numbers; must be 3: N-S, E-W, U-D")
-    values = []
-    for word in words:
-        try:
-            values.append(parse_number(word))
-        except ValueError:
-            raise UnusableRecord(f"line {row}: {word[:40]!r} is not a number") from None
-        if not np.isfinite(values[-1]):
-            raise UnusableRecord(f"line {row}: {word}; every value must be finite")
-    return values
+    return [finite_number(word, row) for word in words]

@@ -12,7 +12,7 @@ import numpy as np
 
 from fecolumn.motions.fixed_width import above_zero
 from fecolumn.motions.record import Recording, UnusableRecord
-from fecolumn.motions.text import parse_number, read_text, unit_named
+from fecolumn.motions.text import finite_number, read_text, unit_named
 
 _HEADER = re.compile(r"^(?P<key>[A-Z][A-Z0-9_/^.\[\]()-]*):\s*(?P<value>.*)$")
 
@@ -43,7 +43,7 @@ def read_esm(path: Path | str) -> Recording:
         if found:
             header[found["key"].upper()] = (row, found["value"].strip())
         elif line:
-            values.append(_value(line, row))
+            values.append(finite_number(line, row))
     kind = header.get("DATA_TYPE", (0, "ACCELERATION"))[1]
     if kind.upper() != "ACCELERATION":
         raise UnusableRecord(
@@ -80,13 +80,3 @@ def _stated(header: dict[str, Any], key: str) -> float:
         raise UnusableRecord(f"header incomplete: an ESM file states {key}")
     row, text = header[key]
     return above_zero(text, row, key)
-
-
-def _value(word: str, row: int) -> float:
-    try:
-        value = parse_number(word)
-    except ValueError:
-        raise UnusableRecord(f"line {row}: {word[:40]!r} is not a number") from None
-    if not np.isfinite(value):
-        raise UnusableRecord(f"line {row}: {word}; every value must be finite")
-    return value

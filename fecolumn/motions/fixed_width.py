@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.motions.record import UnusableRecord
-from fecolumn.motions.text import parse_number
+from fecolumn.motions.text import finite_number, parse_number
 
 # How far the largest sample may be from the peak that a header states, as a share of that peak and
 # in units of the last digit it is written with
@@ -84,13 +84,7 @@ def number_block(
                 f"are {here * width}"
             )
         for j in range(here):
-            word = line[j * width : (j + 1) * width]
-            try:
-                values[i * many + j] = parse_number(word)
-            except ValueError:
-                raise UnusableRecord(f"line {row}: {word.strip()!r} is not a number") from None
-            if not np.isfinite(values[i * many + j]):
-                raise UnusableRecord(f"line {row}: {word.strip()}; every value must be finite")
+            values[i * many + j] = finite_number(line[j * width : (j + 1) * width], row)
     return values, first + rows
 
 

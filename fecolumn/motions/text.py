@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -67,6 +68,23 @@ def parse_number(word: str) -> float:
         return float(word)
     except ValueError:
         return float(word.upper().replace("D", "E", 1))
+
+
+def finite_number(word: str, row: int) -> float:
+    """Value of a number, as `parse_number`, that stands in a row of a record.
+
+    Raises
+    ------
+    UnusableRecord
+        not a number, or not finite; the message names the row.
+    """
+    try:
+        value = parse_number(word)
+    except ValueError:
+        raise UnusableRecord(f"line {row}: {word.strip()[:40]!r} is not a number") from None
+    if not math.isfinite(value):
+        raise UnusableRecord(f"line {row}: {word.strip()}; every value must be finite")
+    return value
 
 
 def check_end(text: str, words: list[str]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -107,7 +108,10 @@ def joint_of(
 
 
 def with_hertz(
-    case: Case, joints: list[JointModel], standing: list[Standing], copies: list[tuple[str, int]]
+    case: Case,
+    joints: list[JointModel],
+    standing: list[Standing],
+    copies: Sequence[tuple[str, int]],
 ) -> list[JointModel]:
     """The joints, domes with the compliance of a sphere on what they stand on, linear about what
     they carry at rest; none in the rigid engine, nor on a pad, which spreads the force.

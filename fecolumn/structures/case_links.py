@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -65,7 +65,10 @@ def links_at_copies(
 
 
 def with_shapes(
-    link: LinkModel, copies: list[tuple[str, int]], standing: list[Standing], keys: dict[str, str]
+    link: LinkModel,
+    copies: Sequence[tuple[str, int]],
+    standing: list[Standing],
+    keys: dict[str, str],
 ) -> LinkModel:
     """A link with the shapes of the modes at its ends; keys: of the bodies in `store`."""
 

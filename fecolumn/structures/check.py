@@ -108,7 +108,7 @@ def check_meetings(case: Case, meetings: list[Meeting], file: Path | str) -> Non
 
 def check_layout(case: Case, layout: CheckedLayout, file: Path | str) -> None:
     """Refuse copies without a path to the ground, and those that overlap."""
-    copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
+    copies = case.copies
     fixed = {copy for copy in copies if getattr(case.bodies[copy[0]], "fixed", False)}
     held = {None, *fixed, *case.found}
     while more := [

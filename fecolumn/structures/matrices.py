@@ -20,6 +20,7 @@ from scipy.spatial import ConvexHull, Delaunay, QhullError
 
 from fecolumn.case.bodies import Matrices
 from fecolumn.foundation.schema import InputError
+from fecolumn.mesh.winding import counterclockwise
 from fecolumn.structures.faces import SAME_PLANE, Face
 from fecolumn.structures.model import BodyModel
 from fecolumn.structures.patches import Patch, face_weights
@@ -171,11 +172,7 @@ def _hull(coordinates: NDArray[Any], refuse: Refusal) -> NDArray[Any]:
         cells, corners = np.zeros((0, 3), np.int64), np.zeros((0, 3, 3))
         axes = Face(0, np.array(normal), -offset, cells, corners).axes
         plane = coordinates[nodes] @ axes[:, :2]
-        triangles = Delaunay(plane).simplices
-        one, two = (plane[triangles[:, k]] - plane[triangles[:, 0]] for k in (1, 2))
-        clockwise = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] < 0
-        triangles[clockwise] = triangles[clockwise][:, ::-1]
-        found.append(nodes[triangles])
+        found.append(nodes[counterclockwise(plane, Delaunay(plane).simplices)])
     return np.concatenate(found)
 
 

@@ -17,6 +17,7 @@ from fecolumn.contact.footprint import footprint
 from fecolumn.contact.rim import Rim
 from fecolumn.mesh.bricks import outline_edges
 from fecolumn.mesh.surface import face_points, nodal_areas
+from fecolumn.mesh.winding import counterclockwise
 from fecolumn.structures.faces import Face, apart_from_side
 from fecolumn.structures.model import Surface
 
@@ -197,7 +198,4 @@ def _triangles(index: NDArray[Any], order: int, plane: NDArray[Any]) -> NDArray[
             for i, j in ((0, 0), (1, 0), (1, 1), (0, 1))
         )
         found = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
-    first, second = (plane[found[:, k]] - plane[found[:, 0]] for k in (1, 2))
-    clockwise = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0] < 0
-    found[clockwise] = found[clockwise][:, ::-1]
-    return found
+    return counterclockwise(plane, found)

@@ -175,7 +175,7 @@ def _check_forces(case: Case, structure: StructureModel, file: Path | str) -> No
 def _check_strains(
     case: Case, structure: StructureModel, standing: list[Standing], file: Path | str
 ) -> None:
-    bodies = [name for name in case.bodies for _ in case.names_of(name)]
+    bodies = [name for name, _ in case.copies]
     for joint, load in zip(structure.joints, loads(standing, structure.joints)):
         if joint.gap or joint.ball:
             continue

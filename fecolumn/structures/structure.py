@@ -81,10 +81,10 @@ def assembled(
     """
     # again, as a layout that is on disk says nothing of links
     check_links(case, layout["extents"], file)
-    copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
+    copies = case.copies
     places = {copy: place for place, copy in enumerate(copies)}
     kept = {name: _that_moves(case, name, model) for name, model in bodies.items()}
-    standing = _standing(case, copies, [kept[name] for name, _ in copies])
+    standing = _standing(case, [kept[name] for name, _ in copies])
     joints = [
         joint_of(case, contact, kept, places, layout["sizes"], file)
         for contact in layout["contacts"]
@@ -181,11 +181,10 @@ def _that_moves(case: Case, name: str, model: BodyModel) -> BodyModel:
 
 def standing_of(case: Case, structure: StructureModel) -> list[Standing]:
     """The parts of a structure as they stand before any is tilted."""
-    copies = [(name, number) for name in case.bodies for number in range(len(case.names_of(name)))]
-    return _standing(case, copies, [part.model for part in structure.parts])
+    return _standing(case, [part.model for part in structure.parts])
 
 
-def _standing(case: Case, copies: list[tuple[str, int]], bodies: list[BodyModel]) -> list[Standing]:
+def _standing(case: Case, bodies: list[BodyModel]) -> list[Standing]:
     starts = _starts(case)
     return [
         Standing(
@@ -195,7 +194,7 @@ def _standing(case: Case, copies: list[tuple[str, int]], bodies: list[BodyModel]
             starts.get((name, number)),
             _held_by(case, name),
         )
-        for (name, number), model in zip(copies, bodies)
+        for (name, number), model in zip(case.copies, bodies)
     ]
 
 

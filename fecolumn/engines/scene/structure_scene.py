@@ -69,7 +69,7 @@ def structure_scene(
     file
         of the case, for messages.
     """
-    kinds = [name for name in case.bodies for _ in case.names_of(name)]
+    kinds = [name for name, _ in case.copies]
     shown = {name: _Shown(drawing) for name, drawing in drawings.items()}
     bodies = [
         shown[kind].piece(kind, part) for kind, part in zip(kinds, structure.parts, strict=True)
