@@ -65,7 +65,7 @@ class ReducedAnalysis(OfStructure):
         warn_of_grounds(case, self.structure, file)
         if not compiled(advance):
             self.say(
-                "compiling the reduced engine, once on this machine: two to five minutes; "
+                "compiling the reduced engine, once on this machine: two to six minutes; "
                 "other processes wait for it"
             )
         self.engine = engine_of(case, self.structure, file)
