@@ -110,10 +110,10 @@ def _of_interface(
     case: Case, name: str, faces: dict[str, list[Face]], file: Path | str
 ) -> list[Meeting]:
     interface = case.joints[name]
-    slaves = _copies(case, interface.slave)
+    slaves = case.copies_of(interface.slave)
     ground = case.grounds.get(interface.on)
     masters: Sequence[tuple[str, int] | None] = (
-        _copies(case, interface.on) if ground is None else [None]
+        case.copies_of(interface.on) if ground is None else (None,)
     )
     found: list[Meeting] = []
     gaps: list[_Gap] = []
@@ -227,8 +227,8 @@ def _crossing(case: Case, name: str, faces: dict[str, list[Face]]) -> tuple[str,
     interface, found = case.joints[name], ("", 0.0)
     if interface.on in case.grounds:
         return found
-    for one in _copies(case, interface.slave):
-        for other in _copies(case, interface.on):
+    for one in case.copies_of(interface.slave):
+        for other in case.copies_of(interface.on):
             shift = place_of(case, other) - place_of(case, one)
             way = common_ball(faces[one[0]], faces[other[0]], shift) if one != other else 0.0
             found = max(
@@ -253,8 +253,8 @@ def _inclined(case: Case, name: str, faces: dict[str, list[Face]]) -> str:
     interface, least, told = case.joints[name], _ALMOST, ""
     if interface.on in case.grounds:
         return ""
-    for one in _copies(case, interface.slave):
-        for other in _copies(case, interface.on):
+    for one in case.copies_of(interface.slave):
+        for other in case.copies_of(interface.on):
             offset = place_of(case, one) - place_of(case, other)
             for face in faces[one[0]] if one != other else ():
                 mine = (face.corners + offset).reshape(-1, 3)
@@ -283,10 +283,6 @@ def _name(case: Case, copy: tuple[str, int]) -> str:
 
 def _quoted(case: Case, copy: tuple[str, int] | None) -> str:
     return "the ground" if copy is None else f'"{_name(case, copy)}"'
-
-
-def _copies(case: Case, name: str) -> list[tuple[str, int]]:
-    return list(case.copies_of(name))
 
 
 def place_of(case: Case, copy: tuple[str, int]) -> NDArray[Any]:

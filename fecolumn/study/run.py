@@ -197,7 +197,7 @@ def _tell(told: list[warnings.WarningMessage], file: Path) -> None:
     if len(told) > _TOLD:
         warnings.warn(
             f"{file}: {len(told) - _TOLD} further warnings of its motions are left out here; "
-            "fecolumn motions look tells those of one motion",
+            "fecolumn motions info tells those of one motion",
             stacklevel=3,
         )
 
