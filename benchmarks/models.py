@@ -101,7 +101,7 @@ def main(given=None) -> None:
         )
         for engine, runs in found.items()
     ]
-    panel = CdfPanel("the same motions", tuple(lines))
+    panel = CdfPanel(f"one column under the same motions, {len(found)} models", tuple(lines))
     for file in cdf_figure([panel], Path(args.output) / "models"):
         print(f"wrote {file}")
 

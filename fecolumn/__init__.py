@@ -74,21 +74,25 @@ if TYPE_CHECKING:
     from fecolumn.case.short_form import ShortForm
     from fecolumn.engines.dynamics.history import read_history
     from fecolumn.foundation.schema import InputError
-    from fecolumn.mesh.specimen import specimen_mesh
+    from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
     from fecolumn.motions.array import motion_file
     from fecolumn.motions.load import load_motion
+    from fecolumn.motions.record import GroundMotion
     from fecolumn.simulation import AnalysisFailed, run
-    from fecolumn.statistics.ecdf import ecdf
+    from fecolumn.statistics.ecdf import Ecdf, ecdf
     from fecolumn.study.questions.script import Answer, calibrate, design, risk, screen
-    from fecolumn.study.results.analysis import AnalysisResult
+    from fecolumn.study.results.analysis import AnalysisPlots, AnalysisResult
     from fecolumn.study.results.load import load
     from fecolumn.study.results.outcomes import outcomes
+    from fecolumn.study.results.parting import Parting
+    from fecolumn.study.results.picture import Picture
     from fecolumn.study.results.script import run_study
-    from fecolumn.study.results.study import StudyResult
+    from fecolumn.study.results.study import StudyPlots, StudyResult
     from fecolumn.study.run import StudyError
 
 __all__ = [
     "AnalysisFailed",
+    "AnalysisPlots",
     "AnalysisResult",
     "Answer",
     "Arch",
@@ -102,11 +106,13 @@ __all__ = [
     "Contact",
     "Cylinder",
     "Dashpot",
+    "Ecdf",
     "Flange",
     "FrameModel",
     "FrictionDamper",
     "GapStop",
     "Ground",
+    "GroundMotion",
     "Initial",
     "InputError",
     "Integration",
@@ -120,15 +126,19 @@ __all__ = [
     "Motion",
     "Output",
     "Overturn",
+    "Parting",
+    "Picture",
     "Plate",
     "PodiumModel",
     "Prism",
     "Restrainer",
     "ShortForm",
+    "SpecimenMesh",
     "Spring",
     "Storeys",
     "Strut",
     "StudyError",
+    "StudyPlots",
     "StudyResult",
     "Tendon",
     "Tube",
@@ -197,12 +207,15 @@ _HOMES = {
     "WobblingFrameModel": "case.model_sections",
     "PodiumModel": "case.model_sections",
     "InputError": "foundation.schema",
+    "SpecimenMesh": "mesh.specimen",
     "specimen_mesh": "mesh.specimen",
     "motion_file": "motions.array",
     "load_motion": "motions.load",
     "AnalysisFailed": "simulation",
     "run": "simulation",
+    "Ecdf": "statistics.ecdf",
     "ecdf": "statistics.ecdf",
+    "AnalysisPlots": "study.results.analysis",
     "AnalysisResult": "study.results.analysis",
     "load": "study.results.load",
     "outcomes": "study.results.outcomes",
@@ -212,7 +225,11 @@ _HOMES = {
     "screen": "study.questions.script",
     "calibrate": "study.questions.script",
     "Answer": "study.questions.script",
+    "GroundMotion": "motions.record",
+    "Parting": "study.results.parting",
+    "Picture": "study.results.picture",
     "StudyError": "study.run",
+    "StudyPlots": "study.results.study",
     "StudyResult": "study.results.study",
 }
 

@@ -1,9 +1,11 @@
-"""The public interface: names of `fecolumn` with their signatures, in public_interface.txt.
+"""The public interface, in public_interface.txt: names of `fecolumn` with their signatures, and
+commands with their arguments. Keys are tested by keys.md, files of results by outputs.md.
 
 Where it is meant to change: `python tests/test_public_interface.py` writes the file anew, and the
 changelog tells what changed.
 """
 
+import argparse
 import inspect
 import re
 import types
@@ -12,6 +14,7 @@ from pathlib import Path
 import pytest
 
 import fecolumn
+from fecolumn.cli import _parser
 from fecolumn.foundation.deprecated import warn_of_older_name
 
 FILE = Path(__file__).with_name("public_interface.txt")
@@ -27,7 +30,23 @@ def interface() -> str:
         lines.append(f"{name}{inspect.signature(found) if own else ''}")
         if inspect.isclass(found):
             lines += [f"    {line}" for line in _members(found)]
+    lines += [f"$ {line}" for line in _commands(_parser())]
     return re.sub(" at 0x[0-9a-f]+", "", "\n".join(lines)) + "\n"
+
+
+def _commands(parser: argparse.ArgumentParser) -> list[str]:
+    """Name of a command and its arguments, with what they may be; of one that has some below it,
+    theirs.
+    """
+    words, lines = [parser.prog], []
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            lines += [line for one in action.choices.values() for line in _commands(one)]
+        elif action.dest != "help":
+            one = ", ".join(action.option_strings) or str(action.metavar or action.dest)
+            may_be = f" {'|'.join(map(str, action.choices))}" if action.choices else ""
+            words.append(f"[{one}{may_be}]" if not action.required else one + may_be)
+    return lines or [" ".join(words)]
 
 
 def _members(cls) -> list[str]:

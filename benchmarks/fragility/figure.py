@@ -35,8 +35,9 @@ def draw(found: dict[str, list[dict]], path):
     residual shift over PGV. Rows of `run.COLUMNS` by structure. PNG and PDF.
     """
     with styled():
-        figure = new_figure(PAGE_WIDTH_IN, 2.8)
-        left, middle, right = figure.subplots(1, 3)
+        figure = new_figure(PAGE_WIDTH_IN, 3.2)
+        panels, below = figure.subfigures(2, 1, height_ratios=(1, 0.16))
+        left, middle, right = panels.subplots(1, 3)
         for name, rows in found.items():
             told = [row for row in rows if row["outcome"] != FAILED]
             if not told:
@@ -47,7 +48,7 @@ def draw(found: dict[str, list[dict]], path):
             _shifts(right, told, name, style)
         _halves(middle, found)
         left.set(xscale="log", xlabel="PGV [m/s]", ylabel="P(lost) [-]", ylim=(-0.03, 1.03))
-        left.legend(fontsize=5)
+        below.legend(*left.get_legend_handles_labels(), loc="center", ncols=5)
         right.set(
             xscale="log",
             yscale="log",

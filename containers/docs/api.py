@@ -12,11 +12,12 @@ classes are those of a [case](cases.md); the [table of keys](keys.md) has the sa
 #: headings with their names, in the order of the page; a name that is new has to be put below one
 GROUPS = {
     "Cases and analyses": (
-        "Case case_from_tables load_case run load AnalysisResult read_history".split()
-    ),
+        "Case case_from_tables load_case run load AnalysisResult AnalysisPlots Picture Parting "
+        "read_history"
+    ).split(),
     "Studies and questions": (
-        "run_study StudyResult design risk screen calibrate Answer ecdf outcomes".split()
-    ),
+        "run_study StudyResult StudyPlots design risk screen calibrate Answer ecdf Ecdf outcomes"
+    ).split(),
     "Bodies": (
         "Block Cylinder Tube Cone Plate Prism Arch MeshBody Storeys Matrices Flange Cap".split()
     ),
@@ -27,7 +28,7 @@ GROUPS = {
     "Models of rigid bodies": (
         "BlockModel FrameModel PodiumModel WobblingModel WobblingFrameModel".split()
     ),
-    "Motions and meshes": "motion_file load_motion specimen_mesh".split(),
+    "Motions and meshes": "motion_file load_motion GroundMotion specimen_mesh SpecimenMesh".split(),
     "Errors": "InputError AnalysisFailed StudyError".split(),
 }
 

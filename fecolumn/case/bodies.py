@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import ClassVar
 
 from fecolumn.case.body_keys import Placed, Solid, WithMaterial
 from fecolumn.case.mesh_file_keys import cut_key, size_key, unit_key
@@ -219,10 +220,7 @@ class MeshBody(Solid):
     otherwise; element_size_m is the length that penalty_factor refers to.
     """
 
-    @classmethod
-    def section_name(cls) -> str:
-        """Other than the table [mesh]."""
-        return "mesh body"
+    SECTION: ClassVar[str] = "mesh body"  # other than the table [mesh]
 
     kind: str = parameter("mesh", doc="what the body is", choices=("mesh",))
     at_m: tuple[float, ...] | None = parameter(  # type: ignore[assignment]  # None: as drawn

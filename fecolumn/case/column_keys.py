@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from fecolumn.case.mesh_file_keys import cut_key, size_key, unit_key
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.foundation.schema import Section, parameter
@@ -146,10 +148,7 @@ class Base(Section):
 class MeshSizes(Section):
     """Element sizes."""
 
-    @classmethod
-    def section_name(cls) -> str:
-        """Of its table [mesh]."""
-        return "mesh"
+    SECTION: ClassVar[str] = "mesh"  # of its table [mesh]
 
     fine_size_m: float | None = parameter(
         None,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from fecolumn.case.ground import GROUND_NAME
 from fecolumn.foundation.schema import Section, parameter, required
 from fecolumn.foundation.section_class import section_class
@@ -17,10 +19,7 @@ class Link(Section):
     one at each. Its length is the points' distance.
     """
 
-    @classmethod
-    def section_name(cls) -> str:
-        """As of its table [links.NAME]."""
-        return "link"
+    SECTION: ClassVar[str] = "link"  # of its table [links.NAME]
 
     kind: str = required(
         doc="tendon: only pulls; spring: pulls and pushes; restrainer: pulls and pushes beyond "

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from fecolumn.foundation.schema import Section, parameter
 from fecolumn.foundation.section_class import section_class
 
@@ -9,6 +11,8 @@ from fecolumn.foundation.section_class import section_class
 @section_class(kw_only=True)
 class MeshLimits(Section):
     """How large the meshes of a structure may be; sizes of elements are those of its bodies."""
+
+    SECTION: ClassVar[str] = "mesh"  # its table
 
     limit_dofs: int = parameter(
         500_000,
@@ -19,8 +23,3 @@ class MeshLimits(Section):
         counts=False,
         since="0.7",
     )
-
-    @classmethod
-    def section_name(cls) -> str:
-        """As its table."""
-        return "mesh"

@@ -5,7 +5,6 @@ slenderness and half diagonal; its friction, tendon and restitution.
 from __future__ import annotations
 
 import math
-import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
@@ -18,12 +17,6 @@ class OutlineKeys(Section):
     """A body of a height and a size across."""
 
     ACROSS: ClassVar[str]
-
-    @classmethod
-    def section_name(cls) -> str:
-        """The table of a FrameModel is [frame], of a WobblingFrameModel [wobbling_frame]."""
-        words = re.findall("[A-Z][a-z]+", cls.__name__.removesuffix("Model"))
-        return "_".join(words).lower()
 
     height_m: float | None = parameter(
         None,
@@ -47,30 +40,6 @@ class OutlineKeys(Section):
         above=0,
         high=1000,
     )
-
-    def half_and_height(self, table: str, file: Path | str) -> tuple[float, float]:
-        """Half the size across and the height [m].
-
-        Raises
-        ------
-        InputError
-            neither the sides are stated nor slenderness and half diagonal, or keys of both.
-        """
-        keys = self.ACROSS, "height_m", "slenderness_rad", "half_diagonal_m"
-        across, height, alpha, diagonal = values = [getattr(self, key) for key in keys]
-        given = [key for key, value in zip(keys, values) if value is not None]
-        if given == [*keys[:2]]:
-            return across / 2, height
-        if given == [*keys[2:]]:
-            return diagonal * math.sin(alpha), 2 * diagonal * math.cos(alpha)
-        key = given[0] if given else self.ACROSS
-        raise InputError(
-            file,
-            f"{table}.{key}",
-            getattr(self, key),
-            f"state {table}.{self.ACROSS} and {table}.height_m, or {table}.slenderness_rad and "
-            f"{table}.half_diagonal_m",
-        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -152,21 +121,47 @@ class RollingKeys(RestraintKeys, OutlineKeys):
         high=1,
     )
 
-    def bore(self, radius: float, table: str, file: Path | str) -> float:
-        """Inner radius [m] of a column of this outer radius [m].
 
-        Raises
-        ------
-        InputError
-            a wall thicker than the radius.
-        """
-        if self.wall_m is None:
-            return 0.0
-        if self.wall_m > radius:
-            raise InputError(
-                file,
-                f"{table}.wall_m",
-                self.wall_m,
-                f"must be at most the outer radius, {radius:g} m",
-            )
-        return radius - self.wall_m
+def half_and_height(section: OutlineKeys, table: str, file: Path | str) -> tuple[float, float]:
+    """Half the size across and the height [m].
+
+    Raises
+    ------
+    InputError
+        neither the sides are stated nor slenderness and half diagonal, or keys of both.
+    """
+    keys = section.ACROSS, "height_m", "slenderness_rad", "half_diagonal_m"
+    across, height, alpha, diagonal = values = [getattr(section, key) for key in keys]
+    given = [key for key, value in zip(keys, values) if value is not None]
+    if given == [*keys[:2]]:
+        return across / 2, height
+    if given == [*keys[2:]]:
+        return diagonal * math.sin(alpha), 2 * diagonal * math.cos(alpha)
+    key = given[0] if given else section.ACROSS
+    raise InputError(
+        file,
+        f"{table}.{key}",
+        getattr(section, key),
+        f"state {table}.{section.ACROSS} and {table}.height_m, or {table}.slenderness_rad and "
+        f"{table}.half_diagonal_m",
+    )
+
+
+def bore(section: RollingKeys, radius: float, table: str, file: Path | str) -> float:
+    """Inner radius [m] of a column of this outer radius [m].
+
+    Raises
+    ------
+    InputError
+        a wall thicker than the radius.
+    """
+    if section.wall_m is None:
+        return 0.0
+    if section.wall_m > radius:
+        raise InputError(
+            file,
+            f"{table}.wall_m",
+            section.wall_m,
+            f"must be at most the outer radius, {radius:g} m",
+        )
+    return radius - section.wall_m

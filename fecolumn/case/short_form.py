@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import dataclasses
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from fecolumn.case import sizes
 from fecolumn.case.check_grounds import OF_KINDS
@@ -66,10 +66,7 @@ class ShortForm(ColumnSections):
     motion: Motion | None = None
     flange: Flange | None = None
 
-    @classmethod
-    def section_name(cls) -> str:
-        """Empty: messages name the sections in it."""
-        return ""
+    SECTION: ClassVar[str] = ""  # messages name the sections in it
 
     def tables(self, opened: bool = False) -> dict[str, Any]:
         """The tables of its file; `opened`: without those sizes that it would be given anyway, so

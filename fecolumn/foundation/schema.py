@@ -292,6 +292,15 @@ def _kinds(section: type) -> dict[str, tuple[typing.Any, ...]]:
     return kinds
 
 
+def section_name(section: type) -> str:
+    """Name of a section in messages, "" of a whole case: its SECTION, or that of its class.
+
+    The table of a FrameModel is [frame], of a WobblingFrameModel [wobbling_frame].
+    """
+    words = re.findall("[A-Z][a-z]*", section.__name__.removesuffix("Model"))
+    return getattr(section, "SECTION", "_".join(words).lower())
+
+
 class Section:
     """Base of a case and its sections: none can be made, or made of another by
     `dataclasses.replace`, with a value out of range.
@@ -301,11 +310,6 @@ class Section:
 
     if typing.TYPE_CHECKING:  # every section is made a dataclass
         __dataclass_fields__: typing.ClassVar[dict[str, dataclasses.Field[typing.Any]]]
-
-    @classmethod
-    def section_name(cls) -> str:
-        """Name of the section in messages, "" of a whole case."""
-        return cls.__name__.lower()
 
     def __repr__(self) -> str:
         """The keys that are not at their defaults, as they are given."""
@@ -324,7 +328,7 @@ class Section:
         InputError
             names section, key, value and range.
         """
-        name = self.section_name()
+        name = section_name(type(self))
         prefix, errors = f"{name}." if name else "", []
         kinds = _kinds(type(self))  # type: ignore[arg-type]  # a class is hashable as such
         for key, (field, kind, inner, optional) in kinds.items():

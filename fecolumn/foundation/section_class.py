@@ -8,7 +8,15 @@ import inspect
 import textwrap
 import typing
 
-from fecolumn.foundation.schema import InputError, Section, a_section, meant, required, wanted
+from fecolumn.foundation.schema import (
+    InputError,
+    Section,
+    a_section,
+    meant,
+    required,
+    section_name,
+    wanted,
+)
 
 if typing.TYPE_CHECKING:
     from collections.abc import Callable
@@ -54,7 +62,7 @@ def _by_known_keys(init: typing.Any, cls: typing.Any, kw_only: bool) -> typing.A
 
     @functools.wraps(init)
     def checked(self: _Made, *values: typing.Any, **keys: typing.Any) -> None:
-        name = cls.section_name()
+        name = section_name(cls)
         prefix = f"{name}." if name else ""
         errors = [
             InputError(

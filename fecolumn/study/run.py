@@ -196,7 +196,7 @@ def _tell(told: list[warnings.WarningMessage], file: Path) -> None:
         warnings.warn(warning.message, warning.category, stacklevel=3)
     if len(told) > _TOLD:
         warnings.warn(
-            f"{file}: {len(told) - _TOLD} further warnings of its motions are left out here; "
+            f"{file}: further warnings of its motions that are left out here: {len(told) - _TOLD}; "
             "fecolumn motions info tells those of one motion",
             stacklevel=3,
         )

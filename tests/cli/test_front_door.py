@@ -20,7 +20,9 @@ from fecolumn.study.plan import read_plan
 
 def dotted_keys(section=ShortForm, prefix=""):
     """Every key of a case by its dotted name, from the dataclasses themselves."""
-    for name, kind in typing.get_type_hints(section).items():
+    kinds = typing.get_type_hints(section)
+    for name in (field.name for field in dataclasses.fields(section)):
+        kind = kinds[name]
         inner = [k for k in (kind, *typing.get_args(kind)) if dataclasses.is_dataclass(k)]
         yield from dotted_keys(inner[0], f"{prefix}{name}.") if inner else [prefix + name]
 

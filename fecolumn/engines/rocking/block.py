@@ -13,6 +13,7 @@ from typing import ClassVar, NamedTuple, TypedDict, Unpack
 import numpy as np
 
 from fecolumn.case.model_sections import BlockModel
+from fecolumn.case.outline_keys import half_and_height
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.impact import body_restitution, one_sided_restitution
 from fecolumn.engines.rocking.plane import PlanarModel, Plane
@@ -43,7 +44,7 @@ class RockingBlock(PlanarModel):
         InputError
             keys that do not fit together.
         """
-        half, height = section.half_and_height("block", file)
+        half, height = half_and_height(section, "block", file)
         width = 2 * half
         own = dataclasses.replace(section, width_m=width, height_m=height)
         mass = section.density_kg_m3 * width * height * (section.depth_m or 1.0)

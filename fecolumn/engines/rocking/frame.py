@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fecolumn.case.model_sections import FrameModel
+from fecolumn.case.outline_keys import half_and_height
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.block import described
 from fecolumn.engines.rocking.impact import frame_restitution
@@ -61,7 +62,7 @@ class RockingFrame(PlanarModel):
         InputError
             keys that do not fit together.
         """
-        half, height = section.half_and_height("frame", file)
+        half, height = half_and_height(section, "frame", file)
         reach = 2 * half * section.tendon_joints
         tendons = (
             (

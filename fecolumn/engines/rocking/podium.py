@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from fecolumn.case.model_sections import CRV, PodiumModel
+from fecolumn.case.outline_keys import half_and_height
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.model import ModelResponse, balanced
 from fecolumn.engines.rocking.podium_impact import podium_restitution
@@ -63,7 +64,7 @@ class Podium:
             keys that do not fit together, or columns so stout that the impact law would throw them
             back.
         """
-        half, height = section.half_and_height(cls.TABLE, file)
+        half, height = half_and_height(section, cls.TABLE, file)
         building = storeys(
             section.profile,
             section.storeys,

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fecolumn.case.model_sections import WobblingModel
+from fecolumn.case.outline_keys import bore, half_and_height
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.column import RigidColumn
@@ -73,8 +74,8 @@ class Wobbling:
         InputError
             keys that do not fit together.
         """
-        radius, height = section.half_and_height(cls.TABLE, file)
-        inner = section.bore(radius, cls.TABLE, file)
+        radius, height = half_and_height(section, cls.TABLE, file)
+        inner = bore(section, radius, cls.TABLE, file)
         mass = section.density_kg_m3 * math.pi * (radius**2 - inner**2) * height
         return cls(
             cylinder_body(

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import ClassVar
 
 from fecolumn.case.model_sections import WobblingFrameModel
+from fecolumn.case.outline_keys import bore, half_and_height
 from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.restraint import Restraint
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
@@ -38,10 +39,10 @@ class WobblingFrame(Wobbling):
         InputError
             keys that do not fit together.
         """
-        radius, height = section.half_and_height(cls.TABLE, file)
+        radius, height = half_and_height(section, cls.TABLE, file)
         body = cylinder_body(
             radius,
-            section.bore(radius, cls.TABLE, file),
+            bore(section, radius, cls.TABLE, file),
             height,
             section.column_mass_kg,
             section.slab_mass_kg / section.columns,
