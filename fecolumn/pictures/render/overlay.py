@@ -127,13 +127,19 @@ def alike(one: Thrust, other: Thrust, length: float, far: float) -> bool:
 
 def legend_force(newton_per_inch: float, largest: float) -> float:
     """Force [N] of the legend's arrow, 1, 2 or 5 times a power of ten."""
-    most = min(newton_per_inch * _LEGEND_IN, largest)
+    return _round(min(newton_per_inch * _LEGEND_IN, largest))
+
+
+def _round(most: float) -> float:
+    """The largest of 1, 2 and 5 times powers of ten that is not above `most`."""
     power = 10.0 ** np.floor(np.log10(most))
     return max(digit * power for digit in _DIGITS if digit * power <= most)
 
 
 def draw_legend(axes: Axes, frames: Frames, newton_per_inch: float) -> None:
-    """What arrows, line and circles are, along axes that this fills; their unit becomes an inch."""
+    """What arrows, line and circles are, and a length, where there is room for it, along axes that
+    this fills; their unit becomes an inch.
+    """
     width, height = axes.get_figure().get_size_inches() * axes.get_position().size
     axes.set(xlim=(0, width), ylim=(-height / 2, height / 2))
     axes.axis("off")
@@ -148,9 +154,15 @@ def draw_legend(axes: Axes, frames: Frames, newton_per_inch: float) -> None:
     axes.plot([place, place + 0.28], [0, 0], color=_THRUST[frames.colour], linewidth=1.8)
     axes.text(place + 0.34, 0, "thrust line", **text)
     place += 1.06
-    for colour, told, step in ((BLACK, "hinge", 0.5), ("white", "thrust at edge", 0.0)):
+    for colour, told, step in ((BLACK, "hinge", 0.5), ("white", "thrust at edge", 1.15)):
         axes.plot(
             place, 0, "o", color=colour, markeredgecolor=BLACK, markersize=4.5, markeredgewidth=1.3
         )
         axes.text(place + 0.09, 0, told, **text)
         place += step
+    meter_per_inch = newton_per_inch * frames.forces.scale
+    length = _round(meter_per_inch * _LEGEND_IN)
+    end = place + length / meter_per_inch
+    if end + 0.5 <= width:
+        axes.plot([place, end], [0, 0], color=BLACK, linewidth=1.2, marker="|", markersize=6)
+        axes.text(end + 0.08, 0, f"{length:g} m", **text)
