@@ -74,12 +74,11 @@ if TYPE_CHECKING:
     from fecolumn.case.short_form import ShortForm
     from fecolumn.engines.dynamics.history import read_history
     from fecolumn.foundation.schema import InputError
-    from fecolumn.mesh.specimen import SpecimenMesh, specimen_mesh
     from fecolumn.motions.array import motion_file
     from fecolumn.motions.load import load_motion
     from fecolumn.motions.record import GroundMotion
     from fecolumn.simulation import AnalysisFailed, run
-    from fecolumn.statistics.ecdf import Ecdf, ecdf
+    from fecolumn.statistics.ecdf import Ecdf, ecdf, percentile, proportion_interval
     from fecolumn.study.questions.script import Answer, calibrate, design, risk, screen
     from fecolumn.study.results.analysis import AnalysisPlots, AnalysisResult
     from fecolumn.study.results.load import load
@@ -133,7 +132,6 @@ __all__ = [
     "Prism",
     "Restrainer",
     "ShortForm",
-    "SpecimenMesh",
     "Spring",
     "Storeys",
     "Strut",
@@ -153,12 +151,13 @@ __all__ = [
     "load_motion",
     "motion_file",
     "outcomes",
+    "percentile",
+    "proportion_interval",
     "read_history",
     "risk",
     "run",
     "run_study",
     "screen",
-    "specimen_mesh",
 ]
 
 # module of each name, as imported above
@@ -207,13 +206,13 @@ _HOMES = {
     "WobblingFrameModel": "case.model_sections",
     "PodiumModel": "case.model_sections",
     "InputError": "foundation.schema",
-    "SpecimenMesh": "mesh.specimen",
-    "specimen_mesh": "mesh.specimen",
     "motion_file": "motions.array",
     "load_motion": "motions.load",
     "AnalysisFailed": "simulation",
     "run": "simulation",
     "Ecdf": "statistics.ecdf",
+    "proportion_interval": "statistics.ecdf",
+    "percentile": "statistics.ecdf",
     "ecdf": "statistics.ecdf",
     "AnalysisPlots": "study.results.analysis",
     "AnalysisResult": "study.results.analysis",

@@ -16,7 +16,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, TextIO, cast
+from typing import TYPE_CHECKING, Any, TextIO, cast
 
 if TYPE_CHECKING:
     from fecolumn.case.case import Case
@@ -110,6 +110,15 @@ def _refuse(message: object, code: int) -> int:
     return code
 
 
+class _Parser(argparse.ArgumentParser):
+    """A parser of whole names of options: beside an abbreviation another option might come to be
+    called alike.
+    """
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        super().__init__(*args, **options | {"allow_abbrev": False})
+
+
 def _parser() -> argparse.ArgumentParser:
     """Of all commands; nothing here may load a library, so that --help is quick."""
     from fecolumn.case import completion, manual, show, templates
@@ -129,7 +138,7 @@ def _parser() -> argparse.ArgumentParser:
     from fecolumn.study.report import fragility_command as fragility
     from fecolumn.verification import command as verify
 
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="fecolumn",
         description="Rocking and sliding of free-standing columns: finite-element contact "
         "dynamics, judged by statistics.",

@@ -33,7 +33,7 @@ def run(
     file: str = "",
     quiet: bool = False,
     profile: bool = False,
-    stop: Callable[[], bool] = lambda: False,
+    stop: Callable[[], bool] | None = None,
 ) -> dict[str, Any]:
     """Run a case, or go on where an earlier run into the same folder stopped; returns the summary.
 
@@ -53,8 +53,7 @@ def run(
         write the time of each step, and what it did, into step_times.csv of the folder; see
         `fecolumn.engines.step_times`. Steps are then made one at a time.
     stop
-        asked after every step whether to save and raise KeyboardInterrupt; see
-        `fecolumn.foundation.interrupt`.
+        asked after every step whether to save and raise KeyboardInterrupt; left out: never.
 
     Returns
     -------
@@ -74,7 +73,7 @@ def run(
     """
     from mpi4py import MPI
 
-    comm = comm or MPI.COMM_WORLD
+    comm, stop = comm or MPI.COMM_WORLD, stop or (lambda: False)
     if isinstance(case, (str, Path)):
         case, file = load_case(case), str(case)
     if not isinstance(case, Case):

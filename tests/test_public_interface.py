@@ -18,20 +18,38 @@ from fecolumn.cli import _parser
 from fecolumn.foundation.deprecated import warn_of_older_name
 
 FILE = Path(__file__).with_name("public_interface.txt")
+#: Classes that are returned and not made by others: their attributes and methods count
+RETURNED = "AnalysisPlots Answer Ecdf GroundMotion Parting Picture StudyPlots".split()
+#: Methods and properties of cases and sections that the program has for itself
+INTERNAL = set(
+    "as_drawn as_stated copies copies_of deforms drawn found interior_points is_held "
+    "longest_free_vibration_s mean_radius_m meant_by modes_of moves n_modes names_of of_several "
+    "outer_diameter_m places points_inside seat_m shortest_s step_is_chosen top_m".split()
+)
 
 
 def interface() -> str:
-    """One line for each public name, and for each method and property of a class."""
+    """One line for each public name, for each attribute, method and property of a class, and for
+    each command.
+    """
     lines = []
     for name in fecolumn.__all__:
         found = getattr(fecolumn, name)
         call = found.__init__ if inspect.isclass(found) else found
         own = isinstance(call, types.FunctionType)  # not that of Python's exceptions
-        lines.append(f"{name}{inspect.signature(found) if own else ''}")
+        lines.append(f"{name}{inspect.signature(found) if own and name not in RETURNED else ''}")
         if inspect.isclass(found):
-            lines += [f"    {line}" for line in _members(found)]
+            lines += [f"    {line}" for line in sorted({*_attributes(found), *_members(found)})]
     lines += [f"$ {line}" for line in _commands(_parser())]
     return re.sub(" at 0x[0-9a-f]+", "", "\n".join(lines)) + "\n"
+
+
+def _attributes(cls) -> list[str]:
+    """Names that a docstring has below Attributes."""
+    _, _, told = inspect.cleandoc(cls.__doc__ or "").partition("Attributes\n----------\n")
+    told = told.partition("\n\n")[0]
+    names = [line for line in told.splitlines() if line and not line.startswith(" ")]
+    return [name for line in names for name in line.split(", ")]
 
 
 def _commands(parser: argparse.ArgumentParser) -> list[str]:
@@ -49,12 +67,16 @@ def _commands(parser: argparse.ArgumentParser) -> list[str]:
     return lines or [" ".join(words)]
 
 
+def _is_public(name: str) -> bool:
+    return not name.startswith("_") and name not in INTERNAL
+
+
 def _members(cls) -> list[str]:
     """Public methods and properties that a class of this package defines."""
     found = {}
     for base in reversed(cls.__mro__):
         if base.__module__.startswith("fecolumn"):
-            found |= {name: one for name, one in vars(base).items() if not name.startswith("_")}
+            found |= {name: one for name, one in vars(base).items() if _is_public(name)}
     lines = []
     for name, one in sorted(found.items()):
         if isinstance(one, property) or type(one).__name__ == "cached_property":

@@ -16,7 +16,8 @@ GROUPS = {
         "read_history"
     ).split(),
     "Studies and questions": (
-        "run_study StudyResult StudyPlots design risk screen calibrate Answer ecdf Ecdf outcomes"
+        "run_study StudyResult StudyPlots design risk screen calibrate Answer ecdf Ecdf percentile "
+        "proportion_interval outcomes"
     ).split(),
     "Bodies": (
         "Block Cylinder Tube Cone Plate Prism Arch MeshBody Storeys Matrices Flange Cap".split()
@@ -28,7 +29,7 @@ GROUPS = {
     "Models of rigid bodies": (
         "BlockModel FrameModel PodiumModel WobblingModel WobblingFrameModel".split()
     ),
-    "Motions and meshes": "motion_file load_motion GroundMotion specimen_mesh SpecimenMesh".split(),
+    "Motions": "motion_file load_motion GroundMotion".split(),
     "Errors": "InputError AnalysisFailed StudyError".split(),
 }
 

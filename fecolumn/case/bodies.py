@@ -13,7 +13,7 @@ from fecolumn.foundation.section_class import section_class
 from fecolumn.mesh.mesh_file import MeshFile
 
 
-@section_class(kw_only=True)
+@section_class()
 class Footed(Solid):
     """Tubes, cylinders and blocks: a foot that is not flat, in the reduced and rigid engine."""
 
@@ -60,7 +60,7 @@ class Footed(Solid):
     cap: Cap | None = None
 
 
-@section_class(kw_only=True)
+@section_class()
 class Tube(Footed):
     """kind = "tube": a hollow cylinder, its axis along z."""
 
@@ -70,7 +70,7 @@ class Tube(Footed):
     height_m: float = required(doc="height without flange and cap", unit="m", above=0, high=1000)
 
 
-@section_class(kw_only=True)
+@section_class()
 class Cylinder(Footed):
     """kind = "cylinder": a solid cylinder, its axis along z: a column, a drum."""
 
@@ -79,7 +79,7 @@ class Cylinder(Footed):
     height_m: float = required(doc="height without flange and cap", unit="m", above=0, high=1000)
 
 
-@section_class(kw_only=True)
+@section_class()
 class Block(Footed):
     """kind = "block": a rectangular block."""
 
@@ -98,7 +98,7 @@ class Block(Footed):
     )
 
 
-@section_class(kw_only=True)
+@section_class()
 class Plate(Solid):
     """kind = "plate" or "slab": a flat rectangular body on or below others, meshed finely where
     they meet it.
@@ -110,7 +110,7 @@ class Plate(Solid):
     thickness_m: float = required(doc="thickness along z", unit="m", above=0, high=100)
 
 
-@section_class(kw_only=True)
+@section_class()
 class Cone(Solid):
     """kind = "cone": a solid frustum of a cone, its axis along z: a tapered drum."""
 
@@ -125,7 +125,7 @@ class Cone(Solid):
         return max(self.bottom_diameter_m, self.top_diameter_m)
 
 
-@section_class(kw_only=True)
+@section_class()
 class Prism(Solid):
     """kind = "prism": an extruded polygon: a voussoir, a wedge, a tapered pier, a buttress; meshed
     in elements of element_size_m, which every corner of it is a node of.
@@ -164,7 +164,7 @@ class Prism(Solid):
     )
 
 
-@section_class(kw_only=True)
+@section_class()
 class Arch(Solid):
     """kind = "arch": a ring sector in the plane of x and z of equal voussoirs, prisms "NAME 1",
     "NAME 2" ... from from_deg on; NAME stands for all of them, in a joint between NAME and NAME for
@@ -214,7 +214,7 @@ class Arch(Solid):
     )
 
 
-@section_class(kw_only=True)
+@section_class()
 class MeshBody(Solid):
     """kind = "mesh": a body of one's own mesh, where its file has it unless at_m or copies_m says
     otherwise; element_size_m is the length that penalty_factor refers to.
@@ -274,7 +274,7 @@ class MeshBody(Solid):
         return self.at_m is None and not self.copies_m
 
 
-@section_class(kw_only=True)
+@section_class()
 class Storeys(WithMaterial):
     """kind = "storeys": a rigid slab with a building on it, whose floors move sideways on springs;
     each list has a number a floor, from below, or one for all.
@@ -336,7 +336,7 @@ class Storeys(WithMaterial):
     )
 
 
-@section_class(kw_only=True)
+@section_class()
 class Matrices(Placed):
     """kind = "matrices": mass and stiffness of an elastic body from another program; it is free,
     nothing holds it.

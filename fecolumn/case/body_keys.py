@@ -8,7 +8,7 @@ from fecolumn.foundation.schema import Section, parameter
 from fecolumn.foundation.section_class import section_class
 
 
-@section_class(kw_only=True)
+@section_class()
 class Placed(Section):
     """Every body: where it is at the start, upright, and its modes."""
 
@@ -58,7 +58,7 @@ class Placed(Section):
         return False
 
 
-@section_class(kw_only=True)
+@section_class()
 class WithMaterial(Placed):
     """Every body but one of matrices: what it is made of, and how stiff its faces are where it does
     not deform.
@@ -98,7 +98,7 @@ class WithMaterial(Placed):
     )
 
 
-@section_class(kw_only=True)
+@section_class()
 class Solid(WithMaterial):
     """Every body but one of matrices or storeys: its finite elements."""
 

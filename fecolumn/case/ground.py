@@ -10,7 +10,7 @@ from fecolumn.foundation.section_class import section_class
 GROUND_NAME = "ground"
 
 
-@section_class(kw_only=True)
+@section_class()
 class Ground(Section):
     """What bodies stand on, and what moves with the ground motion: a rigid flat, an elastic plate
     held at its bottom, the same layer without edges, or a pad of springs and dashpots, such as

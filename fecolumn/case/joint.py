@@ -6,7 +6,7 @@ from fecolumn.foundation.schema import Section, parameter
 from fecolumn.foundation.section_class import section_class
 
 
-@section_class(kw_only=True)
+@section_class()
 class Joint(Section):
     """A joint: faces of two bodies, or of a body and a ground, that touch at the start, or look at
     one another across a gap; copies each with each. Which body comes first decides nothing.

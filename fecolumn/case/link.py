@@ -13,7 +13,7 @@ PULLING = ("tendon", "spring", "restrainer", "friction")
 PUSHING = ("spring", "restrainer", "friction", "strut", "stop")
 
 
-@section_class(kw_only=True)
+@section_class()
 class Link(Section):
     """A tendon, spring, strut, stop, damper or restrainer between two points; of a body with copies
     one at each. Its length is the points' distance.

@@ -8,7 +8,7 @@ from fecolumn.foundation.schema import Section, parameter
 from fecolumn.foundation.section_class import section_class
 
 
-@section_class(kw_only=True)
+@section_class()
 class MeshLimits(Section):
     """How large the meshes of a structure may be; sizes of elements are those of its bodies."""
 

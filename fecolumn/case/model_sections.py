@@ -12,7 +12,7 @@ from fecolumn.foundation.section_class import section_class
 CRV, CAV = LAWS = ("CRV", "CAV")
 
 
-@section_class(kw_only=True)
+@section_class()
 class BlockModel(RockingKeys):
     """Rectangular rigid block that rocks along x, about the edges of its foot (Housner 1963); with
     depth_m along y, too, as if each did not know of the other.
@@ -81,7 +81,7 @@ class BlockModel(RockingKeys):
     )
 
 
-@section_class(kw_only=True)
+@section_class()
 class FrameModel(RockingKeys):
     """Equal rectangular columns that carry a beam and rock along x."""
 
@@ -97,7 +97,7 @@ class FrameModel(RockingKeys):
     )
 
 
-@section_class(kw_only=True)
+@section_class()
 class WobblingModel(RollingKeys):
     """Round rigid column that rolls on the rim of its foot without sliding (Vassiliou 2018)."""
 
@@ -110,7 +110,7 @@ class WobblingModel(RollingKeys):
     )
 
 
-@section_class(kw_only=True)
+@section_class()
 class WobblingFrameModel(RollingKeys):
     """Slab on equal round columns that roll on their rims; a tendon is anchored in its column and
     the slab.
@@ -121,7 +121,7 @@ class WobblingFrameModel(RollingKeys):
     columns: int = parameter(4, doc="number of columns", low=1, high=10_000)
 
 
-@section_class(kw_only=True)
+@section_class()
 class PodiumModel(RectangleKeys):
     """Building of equal storeys on a beam on rocking rectangular columns, along x (Bantilas,
     Kavvadias and Vasiliadis 2021).

@@ -131,7 +131,7 @@ def fields_of_table(
         grounds={},
         joints={},
         links={},
-        initial={table: Initial(start.tilt_rad, start.direction_deg)},
+        initial={table: Initial(tilt_rad=start.tilt_rad, direction_deg=start.direction_deg)},
         contact=Contact(),
         title=tables.get("title", ""),
         own={table: build(SECTIONS[table], tables[table], file, f"{table}.")},

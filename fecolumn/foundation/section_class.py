@@ -24,8 +24,8 @@ if typing.TYPE_CHECKING:
 _Made = typing.TypeVar("_Made", bound=Section)
 
 
-@typing.dataclass_transform(frozen_default=True, field_specifiers=(required,))
-def section_class(*, kw_only: bool = False) -> Callable[[type[_Made]], type[_Made]]:
+@typing.dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(required,))
+def section_class(*, kw_only: bool = True) -> Callable[[type[_Made]], type[_Made]]:
     """Make a class of keys a frozen dataclass whose help tells each key's meaning, unit, range and
     default.
 
@@ -34,7 +34,7 @@ def section_class(*, kw_only: bool = False) -> Callable[[type[_Made]], type[_Mad
     Parameters
     ----------
     kw_only
-        keys are given by name alone.
+        all keys are given by name alone, so that others may come to stand between them.
     """
 
     def made(plain: type[_Made]) -> type[_Made]:

@@ -1,4 +1,6 @@
-"""Empirical distribution of the peak displacement of an ensemble in which some columns overturn."""
+"""Empirical distribution of the peak displacement of an ensemble in which some runs are lost:
+overturned, or slid off.
+"""
 
 from __future__ import annotations
 
@@ -9,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fecolumn.foundation.deprecated import warn_of_older_name
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.bands import greenwood
 
@@ -24,9 +27,9 @@ class Ecdf:
     cdf, lower, upper
         (m,) F at and right of x, and its band, in [0, 1].
     n
-        size of the sample, overturned runs included.
-    overturned
-        number of overturned runs; F ends at 1 - overturned / n.
+        size of the sample, lost runs included: those that overturned or slid off.
+    lost
+        number of lost runs; F ends at 1 - lost / n.
     """
 
     x: NDArray[Any]
@@ -34,13 +37,19 @@ class Ecdf:
     lower: NDArray[Any]
     upper: NDArray[Any]
     n: int
-    overturned: int
+    lost: int
+
+    @property
+    def overturned(self) -> int:
+        """Older name of `lost`."""
+        warn_of_older_name("script", "Ecdf.overturned", "Ecdf.lost")
+        return self.lost
 
 
-def ecdf(u_max: ArrayLike, overturned: ArrayLike, confidence: float = 0.95) -> Ecdf:
-    """Distribution of u_max, overturned runs censored at the right.
+def ecdf(u_max: ArrayLike, lost: ArrayLike, confidence: float = 0.95) -> Ecdf:
+    """Distribution of u_max, lost runs censored at the right.
 
-    An overturned run says only that its peak lies beyond every peak of a run that stood. Then
+    A lost run says only that its peak lies beyond every peak of a run that stood. Then
     Kaplan and Meier's estimate is the plain fraction k/n of the runs that stood below x, and
     Greenwood's variance is F (1 - F) / n (Greenwood 1926; Kaplan & Meier 1958, J. Am. Stat. Assoc.
     53; what MATLAB's `ecdf` draws). The band is F +- z sqrt(F (1 - F) / n), clipped to [0, 1]:
@@ -50,9 +59,9 @@ def ecdf(u_max: ArrayLike, overturned: ArrayLike, confidence: float = 0.95) -> E
     ----------
     u_max
         (n,) peak displacement of each run [m], or of any other unit; ignored where the run
-        overturned.
-    overturned
-        (n,) True where the column overturned.
+        was lost.
+    lost
+        (n,) True where the column overturned or slid off.
     confidence
         level of the band, in (0, 1).
 
@@ -66,22 +75,22 @@ def ecdf(u_max: ArrayLike, overturned: ArrayLike, confidence: float = 0.95) -> E
     InputError
         empty sample, lengths that differ, or a run that stood without a finite u_max.
     """
-    standing, n = _standing(u_max, overturned)
+    standing, n = _standing(u_max, lost)
     x, counts = np.unique(standing, return_counts=True)
     cdf = np.cumsum(counts) / n
     return Ecdf(x, cdf, *greenwood(cdf, n, confidence), n, n - standing.size)
 
 
-def percentile(u_max: ArrayLike, overturned: ArrayLike, fraction: float) -> float:
-    """Smallest u with F(u) >= fraction, from a sample with overturned runs; inf where that run
-    overturned.
+def percentile(u_max: ArrayLike, lost: ArrayLike, fraction: float) -> float:
+    """Smallest u with F(u) >= fraction, from a sample with lost runs; inf where that run
+    was lost.
 
     The inverse of the ECDF (type 1 of Hyndman & Fan 1996, The American Statistician 50): no
-    interpolation, which would have no meaning between a run that stood and one that overturned.
+    interpolation, which would have no meaning between a run that stood and one that was lost.
     """
     if not 0 < fraction <= 1:
         raise ValueError(f"fraction = {fraction}: must lie in (0, 1]")
-    standing, n = _standing(u_max, overturned)
+    standing, n = _standing(u_max, lost)
     rank = math.ceil(round(fraction * n, 9))  # 0.07 * 100 is 7.000000000000001 in binary
     return float(np.sort(standing)[rank - 1]) if rank <= standing.size else math.inf
 
@@ -94,7 +103,7 @@ def proportion_interval(
     Parameters
     ----------
     k
-        runs that overturned.
+        runs that were lost.
     n
         all runs, at least 1.
     confidence
@@ -109,42 +118,42 @@ def proportion_interval(
     return float(interval.low), float(interval.high)
 
 
-def censored(u_max: ArrayLike, overturned: ArrayLike) -> NDArray[Any]:
-    """The sample for rank statistics, (n,): u_max, and inf where the run overturned.
+def censored(u_max: ArrayLike, lost: ArrayLike) -> NDArray[Any]:
+    """The sample for rank statistics, (n,): u_max, and inf where the run was lost.
 
-    All overturned runs are ties beyond every run that stood.
+    All lost runs are ties beyond every run that stood.
 
     Raises
     ------
     InputError
         as of `ecdf`.
     """
-    _standing(u_max, overturned)
-    return np.where(np.asarray(overturned, bool), math.inf, np.asarray(u_max, float))
+    _standing(u_max, lost)
+    return np.where(np.asarray(lost, bool), math.inf, np.asarray(u_max, float))
 
 
 def largest_peak(*samples: tuple[ArrayLike, ArrayLike]) -> float:
-    """Largest peak [m] of the runs that stood, over samples of (u_max, overturned); nan where none
+    """Largest peak [m] of the runs that stood, over samples of (u_max, lost); nan where none
     stood.
 
-    What overturned is beyond it: the least that may be said of how far it went, and where axes end.
+    What was lost is beyond it: the least that may be said of how far it went, and where axes end.
     """
-    peaks = [peak for u_max, overturned in samples for peak in _standing(u_max, overturned)[0]]
+    peaks = [peak for u_max, lost in samples for peak in _standing(u_max, lost)[0]]
     return float(max(peaks, default=math.nan))
 
 
-def _standing(u_max: ArrayLike, overturned: ArrayLike) -> tuple[NDArray[Any], int]:
+def _standing(u_max: ArrayLike, lost: ArrayLike) -> tuple[NDArray[Any], int]:
     """Peaks of the runs that stood, and the size of the whole sample."""
-    u_max, overturned = np.asarray(u_max, float), np.asarray(overturned, bool)
-    if u_max.ndim != 1 or u_max.shape != overturned.shape or u_max.size == 0:
-        told = f"{overturned.shape}: u_max {u_max.shape} and it must be two lists of one length"
-        raise InputError("ecdf", "overturned", None, f"has shape {told}, not empty")
-    standing = u_max[~overturned]
+    u_max, lost = np.asarray(u_max, float), np.asarray(lost, bool)
+    if u_max.ndim != 1 or u_max.shape != lost.shape or u_max.size == 0:
+        told = f"{lost.shape}: u_max {u_max.shape} and it must be two lists of one length"
+        raise InputError("ecdf", "lost", None, f"has shape {told}, not empty")
+    standing = u_max[~lost]
     if not np.isfinite(standing).all():
         raise InputError(
             "ecdf",
             "u_max",
             None,
-            "of a run that stood is not finite; a failed run is neither standing nor overturned",
+            "of a run that stood is not finite; a failed run is neither standing nor lost",
         )
     return standing, u_max.size

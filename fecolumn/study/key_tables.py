@@ -312,8 +312,8 @@ def _allowed(metadata: types.MappingProxyType[str, Any], kind: object) -> str:
     ]
     if bool in kinds:
         return "true or false"
-    if kinds[0] in _TABLES:
-        return _TABLES[kinds[0]]
+    if table := _TABLES.get(typing.get_origin(kinds[0]) or kinds[0]):
+        return table
     if kinds == [str] and not metadata["choices"]:
         return "text"
     if typing.get_origin(kinds[0]) is tuple and typing.get_args(kinds[0])[0] is str:

@@ -45,7 +45,7 @@ def row(tmp_path_factory):
         swept_grid(
             np.linspace(-0.2, 0.2, 3), np.linspace(-0.2, 0.2, 3), np.linspace(0, 0.8, 4), UPPER
         ),
-        Material(50e9, 0.2, 2700.0),
+        Material(youngs_modulus_pa=50e9, poissons_ratio=0.2, density_kg_m3=2700.0),
     )
     for name in ("mass", "stiffness"):
         rows, columns, values = getattr(body, name).getValuesCSR()

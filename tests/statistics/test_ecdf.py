@@ -18,7 +18,7 @@ def test_five_runs_by_hand():
     np.testing.assert_allclose(f.cdf, [0.2, 0.6, 0.8], rtol=1e-15)
     np.testing.assert_allclose(f.lower[1], 0.170593, atol=1e-6)
     assert f.upper[1] == 1.0 and f.lower[0] == 0.0  # clipped
-    assert (f.n, f.overturned) == (5, 1)
+    assert (f.n, f.lost) == (5, 1)
 
 
 def test_cdf_ends_at_the_probability_of_standing():
@@ -53,20 +53,16 @@ def test_band_is_kaplan_meiers_with_greenwoods_variance():
 
 def test_all_overturned_leaves_no_curve_and_no_percentile():
     f = ecdf([1.0, 1.0], [True, True])
-    assert (
-        f.x.size == 0
-        and f.overturned == 2
-        and percentile([1.0, 1.0], [True, True], 0.16) == math.inf
-    )
+    assert f.x.size == 0 and f.lost == 2 and percentile([1.0, 1.0], [True, True], 0.16) == math.inf
 
 
 def test_lists_of_two_lengths_are_refused_as_input():
-    with pytest.raises(InputError, match=r"ecdf: overturned: .*u_max \(2,\).*of one length"):
+    with pytest.raises(InputError, match=r"ecdf: lost: .*u_max \(2,\).*of one length"):
         ecdf([0.1, 0.2], [False])
 
 
 def test_nan_of_a_standing_run_is_refused_not_counted_as_overturned():
-    with pytest.raises(ValueError, match="neither standing nor overturned"):
+    with pytest.raises(ValueError, match="neither standing nor lost"):
         ecdf([0.1, math.nan], [False, False])
     with pytest.raises(ValueError, match="not empty"):
         ecdf([], [])

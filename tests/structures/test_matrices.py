@@ -22,7 +22,11 @@ def system(tmp_path_factory):
 
     case = structure(**block(element_size_m=0.2, coarse_size_m=0.2))
     folder, shape = tmp_path_factory.mktemp("matrices"), drawing(case, "block", "small.toml").shape
-    body = Body(MPI.COMM_SELF, shape.mesh, Material(50e9, 0.0, 2700.0))
+    body = Body(
+        MPI.COMM_SELF,
+        shape.mesh,
+        Material(youngs_modulus_pa=50e9, poissons_ratio=0.0, density_kg_m3=2700.0),
+    )
     for name in ("mass", "stiffness"):
         rows, columns, values = getattr(body, name).getValuesCSR()
         matrix = sparse.csr_matrix((values, columns, rows))

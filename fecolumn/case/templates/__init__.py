@@ -102,7 +102,7 @@ def _kind_and_folder(args: argparse.Namespace) -> tuple[str, str]:
     kind, folder = args.kind, args.folder
     if folder is None and kind == "statue" and args.drawn:
         return kind, Path(args.drawn).stem
-    if folder is None:
+    if folder is None and kind not in TEMPLATES:
         kind, folder = "tube", kind
     if folder is None:
         raise InputError("fecolumn new", "DIR", None, "must be the folder to write into")

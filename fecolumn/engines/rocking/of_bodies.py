@@ -63,7 +63,7 @@ def start_of(case: Case, file: Path | str) -> Start:
     """
     for name in case.own:
         start = case.initial[name]
-        return Start(start.tilt_rad, start.direction_deg)
+        return Start(tilt_rad=start.tilt_rad, direction_deg=start.direction_deg)
     return _Reader(case, file).start()
 
 
@@ -139,7 +139,8 @@ class _Reader:
             starts.add((0.0, 0.0))
         if len(starts) > 1:
             self._lacks(f'needs one start for all of "{name}", which lean alike')
-        start = Start(*starts.pop()) if starts else Start()
+        tilt, direction = starts.pop() if starts else (0.0, 0.0)
+        start = Start(tilt_rad=tilt, direction_deg=direction)
         if self.engine in ("rocking_frame", "podium") and start.tilt_rad:
             if start.direction_deg % 180.0:
                 self._lacks(

@@ -202,8 +202,5 @@ def _nothing() -> Patch:
 
 def overturn_text(distribution: Ecdf) -> str:
     """Share of the runs that were lost and its interval, such as "43.5 % [34.8, 52.6]"."""
-    low, high = proportion_interval(distribution.overturned, distribution.n)
-    return (
-        f"{100 * distribution.overturned / distribution.n:.1f} % [{100 * low:.1f}, "
-        f"{100 * high:.1f}]"
-    )
+    low, high = proportion_interval(distribution.lost, distribution.n)
+    return f"{100 * distribution.lost / distribution.n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"

@@ -87,7 +87,7 @@ def _distributions(
         (a, labels[0], BLUE, "-"),
     ):
         curve = ecdf(*sample)
-        low, high = proportion_interval(curve.overturned, curve.n)
+        low, high = proportion_interval(curve.lost, curve.n)
         x = np.concatenate([[0.0], 1e3 * curve.x, [limit_mm]])
         axes.fill_between(
             x,
@@ -106,7 +106,7 @@ def _distributions(
             color=colour,
             linestyle=dashes,
             zorder=3,
-            label=f"{label}: $n$ = {curve.n}, {word} {100 * curve.overturned / curve.n:.1f} % "
+            label=f"{label}: $n$ = {curve.n}, {word} {100 * curve.lost / curve.n:.1f} % "
             f"[{100 * low:.1f}, {100 * high:.1f}]",
         )
         if sample is b and curve.x.size:

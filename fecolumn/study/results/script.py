@@ -15,6 +15,7 @@ def run_study(
     file: Case | str | Path,
     folder: str | Path,
     jobs: int = 1,
+    *,
     quiet: bool = False,
     axes: Mapping[str, Sequence[Any]] | None = None,
     workers: int | None = None,

@@ -102,4 +102,4 @@ ten.plot.cdf()
 
 # %%
 distribution = ten.ecdf()
-print(f"overturned: {distribution.overturned} of {distribution.n}")
+print(f"overturned: {distribution.lost} of {distribution.n}")

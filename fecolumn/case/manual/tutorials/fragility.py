@@ -79,4 +79,4 @@ print(pedestal.report())
 # %%
 for scale in pedestal.axes["motion.scale"]:
     distribution = pedestal.ecdf({"motion.scale": scale})
-    print(f"scale {scale:g}: {distribution.overturned} of {distribution.n} lost")
+    print(f"scale {scale:g}: {distribution.lost} of {distribution.n} lost")
