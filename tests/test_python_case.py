@@ -94,7 +94,7 @@ def _of_short_form(key):
 def test_toml_of_a_case_is_that_case(file, full, defaults, tmp_path):
     case = load_case(file)
     path = tmp_path / "again.toml"
-    path.write_text(case.to_toml(full, defaults))
+    path.write_text(case.to_toml(full=full, defaults=defaults))
     again = load_case(path)
     assert again == case and again.id == case.id
     assert bool(again.short) == (bool(case.short) and not full)

@@ -365,7 +365,7 @@ class Case:
         found["initial"] = {key: value for key, value in tilt.items() if value or defaults}
         return found | ({"title": self.title} if self.title else {})
 
-    def to_toml(self, full: bool = False, defaults: bool = False) -> str:
+    def to_toml(self, *, full: bool = False, defaults: bool = False) -> str:
         """Text of a TOML file of this case, in the form that it was stated in.
 
         Parameters

@@ -33,10 +33,10 @@ def check_full(case: CheckedCase, refuse: Refuse) -> None:
                 "the unstrained body",
             )
     for name, joint in case.joints.items():
-        if joint.tension_pa:
+        if joint.bond_tension_pa:
             refuse(
-                f"joints.{name}.tension_pa",
-                joint.tension_pa,
+                f"joints.{name}.bond_tension_pa",
+                joint.bond_tension_pa,
                 'must be left out with integration.engine = "full", whose contact pushes but '
                 'never pulls: integration.engine = "reduced" or "rigid" computes wax and mortar',
             )

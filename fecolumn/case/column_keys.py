@@ -153,7 +153,9 @@ class MeshSizes(Section):
     fine_size_m: float | None = parameter(
         None,
         doc="brick size of the column's lower part, of the flange and of the base below; "
-        "left out: see fecolumn.case.sizes",
+        "left out: 48 around the wall of a tube, 32 around a cylinder, 12 along the side of a "
+        "block; 40 around a flange, or three times these sizes; of a mesh of one's own as its foot "
+        "has, between 8 and 24 along the side",
         unit="m",
         above=0,
         high=10,

@@ -81,7 +81,7 @@ class Joint(Section):
         high=1e12,
         since="0.7",
     )
-    tension_pa: float = parameter(
+    bond_tension_pa: float = parameter(
         0.0,
         doc="tensile strength of wax, putty or mortar between the faces, which holds each contact "
         "point until it fails there; 0: nothing holds them together",
@@ -90,16 +90,16 @@ class Joint(Section):
         high=1e9,
         since="0.11",
     )
-    cohesion_pa: float | None = parameter(
+    bond_cohesion_pa: float | None = parameter(
         None,
         doc="shear strength of that layer without pressure, friction comes on top; left out: "
-        "tension_pa",
+        "bond_tension_pa",
         unit="Pa",
         above=0,
         high=1e9,
         since="0.11",
     )
-    fracture_energy_j_m2: float = parameter(
+    bond_fracture_energy_j_m2: float = parameter(
         0.0,
         doc="energy that the layer takes per area until it has failed, its stress falling in a "
         "straight line; 0: it fails at once",

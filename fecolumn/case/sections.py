@@ -99,7 +99,11 @@ class Contact(Section):
     )
     friction_coefficient: float = parameter(0.3, doc="Coulomb friction coefficient", low=0, high=10)
     penalty_factor: float = parameter(
-        100.0, doc="penalty stiffness per area as a multiple of E / fine_size_m", above=0, high=1e9
+        100.0,
+        doc="penalty stiffness per area as a multiple of E / element size of the body with the "
+        "smaller face",
+        above=0,
+        high=1e9,
     )
     interior_points: int | None = parameter(
         None,
@@ -356,8 +360,8 @@ class Initial(Section):
 
 @section_class()
 class Overturn(Section):
-    """When the analysis stops because the column falls: at its point of no return
-    (`contact.overturning`), or earlier at a cap.
+    """When the analysis stops because the column falls: at its point of no return, from which no
+    motion still to come can bring it back, or earlier at a cap.
     """
 
     displacement_m: float = parameter(

@@ -37,13 +37,13 @@ def with_bonds(
     found = list(joints)
     for name in dict.fromkeys(interfaces):
         keys = case.joints[name]
-        if not keys.tension_pa:
+        if not keys.bond_tension_pa:
             continue
         own = [k for k, other in enumerate(interfaces) if other == name]
         closed = [k for k in own if not joints[k].gap]
         if not closed:
             told = "must be left out where the faces are apart at the start: they are not glued"
-            raise InputError(file, f"joints.{name}.tension_pa", keys.tension_pa, told)
+            raise InputError(file, f"joints.{name}.bond_tension_pa", keys.bond_tension_pa, told)
         for k in closed:
             ball = joints[k].ball
             if ball and ball.is_dome:
@@ -51,7 +51,7 @@ def with_bonds(
                     f'must be left out below the dome of "{standing[joints[k].slave].name}", which '
                     "touches in a point"
                 )
-                raise InputError(file, f"joints.{name}.tension_pa", keys.tension_pa, told)
+                raise InputError(file, f"joints.{name}.bond_tension_pa", keys.bond_tension_pa, told)
         reverse = {joints[k].pair: k for k in closed if joints[k].pair >= 0}
         for k in closed:
             if joints[k].pair < 0:
@@ -74,9 +74,9 @@ def _glued(joint: JointModel, standing: list[Standing], keys: Joint) -> JointMod
         areas[rows],
         keys.bond_stiffness_n_m3,
         shear_stiffness_of(keys),
-        keys.tension_pa,
+        keys.bond_tension_pa,
         cohesion_of(keys),
-        keys.fracture_energy_j_m2,
+        keys.bond_fracture_energy_j_m2,
     )
     return dataclasses.replace(joint, bond=bond)
 
@@ -109,7 +109,7 @@ def check_starts(joints: list[JointModel], standing: list[Standing], file: Path 
                     file,
                     f"initial.{standing[place].name}.tilt_rad",
                     start.tilt_rad,
-                    f"must be 0 where joints.{joint.name.partition(':')[0]}.tension_pa glues it: "
-                    "what leans has broken loose; give it a velocity_m_s or spin_rad_s, or leave "
-                    "tension_pa out",
+                    f"must be 0 where joints.{joint.name.partition(':')[0]}.bond_tension_pa glues "
+                    "it: what leans has broken loose; give it a velocity_m_s or spin_rad_s, or "
+                    "leave bond_tension_pa out",
                 )

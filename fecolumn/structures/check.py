@@ -375,5 +375,5 @@ def check_rest(
             f"{names} cannot rest: no contact forces within friction hold the weight as "
             "the bodies stand; "
             "give a start by [initial.NAME] or integration.start = 'drawn', or other places, "
-            "friction, links or tension_pa",
+            "friction, links or bond_tension_pa",
         )

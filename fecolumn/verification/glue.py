@@ -38,7 +38,7 @@ from fecolumn.verification.structures_feet import CLOSED, closure_over_kinetic, 
 _LENGTH, _WIDTH, _MASS, _STEP = 0.4, 0.3, 200.0, 1e-4
 _AREA = _LENGTH * _WIDTH
 _STIFFNESS, _STRENGTH = 5e7, 3e4
-_WAX = dict(tension_pa=_STRENGTH, bond_stiffness_n_m3=_STIFFNESS)
+_WAX = dict(bond_tension_pa=_STRENGTH, bond_stiffness_n_m3=_STIFFNESS)
 _STRONG = 1e8
 
 
@@ -119,7 +119,7 @@ def _torn_off(engine: str, drawn: list) -> Iterator[Row]:
         ("brittle wax", _WAX, _STRENGTH / _STIFFNESS, _STRENGTH**2 / (2 * _STIFFNESS)),
         (
             "wax that softens",
-            _WAX | dict(fracture_energy_j_m2=energy),
+            _WAX | dict(bond_fracture_energy_j_m2=energy),
             2 * energy / _STRENGTH,
             energy,
         ),
@@ -150,7 +150,9 @@ def _torn_off(engine: str, drawn: list) -> Iterator[Row]:
 
 def _sheared_off(engine: str, cohesion: float = 2e4, speed: float = 0.2) -> Iterator[Row]:
     shear = 0.4 * _STIFFNESS
-    joint = _WAX | dict(tension_pa=_STRONG, cohesion_pa=cohesion, friction_coefficient=0.0)
+    joint = _WAX | dict(
+        bond_tension_pa=_STRONG, bond_cohesion_pa=cohesion, friction_coefficient=0.0
+    )
     columns, rows = _thrown(engine, joint, [speed, 0.0, 0.0], 0.02, _STEP / 10, height=0.1)
     moved, time = columns["body/block/displacement"][:, 0], columns["time"]
     whole = int(np.argmax(_of(columns, "failed") > 1 - 1e-9))

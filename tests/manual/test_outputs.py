@@ -100,7 +100,7 @@ def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_pat
     )
     block = dict(kind="block", length_m=0.6, width_m=0.6, height_m=0.4, element_size_m=0.3)
     tie = dict(kind="spring", body="lower", to_point_m=[1, 0, 0], stiffness_n_m=1e3)
-    wax = dict(tension_pa=1e5, bond_stiffness_n_m3=1e7)
+    wax = dict(bond_tension_pa=1e5, bond_stiffness_n_m3=1e7)
     case = structure(
         bodies=dict(lower=block, upper=building),
         joints=dict(

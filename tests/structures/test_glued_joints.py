@@ -21,7 +21,7 @@ from fecolumn.structures.structure import structure_model
 from fecolumn.study.device_peaks import BOND_COLUMNS, peaks_of_bonds
 from fecolumn.verification.structures_feet import columns_and_rows
 
-WAX = dict(tension_pa=3e4, cohesion_pa=2.5e4, bond_stiffness_n_m3=5e7)
+WAX = dict(bond_tension_pa=3e4, bond_cohesion_pa=2.5e4, bond_stiffness_n_m3=5e7)
 RIGID = dict(integration=dict(engine="rigid", dt_s=2e-4), contact=dict(interior_points=9))
 
 
@@ -78,7 +78,7 @@ def test_a_point_that_softens_takes_its_fracture_energy_either_way(axis):
 def test_a_joint_that_has_failed_is_a_plain_one():
     """Bit for bit: what is broken pulls nothing."""
     drawn = dict(integration=dict(start="drawn"))
-    none = dict.fromkeys(WAX, 0.0) | dict(cohesion_pa=None)
+    none = dict.fromkeys(WAX, 0.0) | dict(bond_cohesion_pa=None)
     glued, plain = waxed(**drawn), waxed(none, **drawn)
     engines = [engine_of(case, structure_model(case), "small.toml") for case in (glued, plain)]
     engines[0].motion.ties["broken"], engines[0].motion.ties["damage"] = True, 1.0
@@ -96,7 +96,7 @@ def test_a_block_breaks_off_a_moving_block_and_the_energy_closes(engine, energy)
         contact=dict(interior_points=9),
         initial=dict(lower=dict(velocity_m_s=[0.4, 0, 0]), upper=dict(spin_rad_s=[0, 1.2, 0])),
     )
-    tables = merge(stack(joints=dict(joint=WAX | dict(fracture_energy_j_m2=energy))), more)
+    tables = merge(stack(joints=dict(joint=WAX | dict(bond_fracture_energy_j_m2=energy))), more)
     columns, rows = columns_and_rows(structure(**tables), 0.3)
     (name,) = {one.split("/")[1] for one in columns if one.startswith("bond/")}
     failed, closure = columns[f"bond/{name}/failed"], columns["energy/closure"]
@@ -117,7 +117,9 @@ def test_glue_holds_what_hangs_until_its_weight_is_too_much():
                 | dict(mass_kg=20.0, rigid=True),
             ),
             joints=dict(
-                plate=dict(between=["lamp", "shelf"], tension_pa=tension, bond_stiffness_n_m3=5e7)
+                plate=dict(
+                    between=["lamp", "shelf"], bond_tension_pa=tension, bond_stiffness_n_m3=5e7
+                )
             ),
             **RIGID,
         )
@@ -128,7 +130,7 @@ def test_glue_holds_what_hangs_until_its_weight_is_too_much():
     assert stress.max() == pytest.approx(weight, rel=1e-6)
     sunk = -columns["body/lamp/displacement"][:, 2]
     np.testing.assert_allclose(sunk, weight / 5e7, rtol=1e-6)
-    with pytest.raises(InputError, match="cannot rest.*tension_pa"):
+    with pytest.raises(InputError, match="cannot rest.*bond_tension_pa"):
         structure_model(hanging(0.8 * weight))
 
 
@@ -162,7 +164,7 @@ height_m = 0.45
 mass_kg = 3.0
 [joints.foot]
 between = ["vase", "ground"]
-tension_pa = 2e4
+bond_tension_pa = 2e4
 bond_stiffness_n_m3 = 1e8
 [motion]
 source = "lick:1"
@@ -187,13 +189,16 @@ engine = "rigid"
 @pytest.mark.parametrize(
     "joint, said",
     [
-        (dict(tension_pa=-1.0), "joints.foot.tension_pa"),
-        (dict(tension_pa=0.3), "must be at least 100 Pa.*0.3 MPa is 3e5"),
-        (dict(cohesion_pa=0.02), "joints.foot.cohesion_pa.*at least 100 Pa"),
-        (dict(bond_stiffness_n_m3=0.0), "greater than 0 N/m3 with tension_pa"),
-        (dict(tension_pa=0.0), "says nothing without tension_pa"),
-        (dict(fracture_energy_j_m2=5.0), "must be more than 15.62 J/m2, which the layer stores"),
-        (dict(friction_coefficient=0.9), "must be at most cohesion_pa / friction_coefficient"),
+        (dict(bond_tension_pa=-1.0), "joints.foot.bond_tension_pa"),
+        (dict(bond_tension_pa=0.3), "must be at least 100 Pa.*0.3 MPa is 3e5"),
+        (dict(bond_cohesion_pa=0.02), "joints.foot.bond_cohesion_pa.*at least 100 Pa"),
+        (dict(bond_stiffness_n_m3=0.0), "greater than 0 N/m3 with bond_tension_pa"),
+        (dict(bond_tension_pa=0.0), "says nothing without bond_tension_pa"),
+        (
+            dict(bond_fracture_energy_j_m2=5.0),
+            "must be more than 15.62 J/m2, which the layer stores",
+        ),
+        (dict(friction_coefficient=0.9), "must be at most bond_cohesion_pa / friction_coefficient"),
         (dict(bond_stiffness_n_m3=1e12), "joints.foot.*needs steps of at most"),
         (dict(bond_stiffness_n_m3=float("nan")), "bond_stiffness_n_m3"),
     ],
@@ -208,8 +213,8 @@ def test_wrong_glue_is_refused_in_a_line(joint, said):
 @pytest.mark.parametrize(
     "tables, said",
     [
-        (dict(integration=dict(engine="full")), 'joints.foot.tension_pa.*engine = "full"'),
-        (dict(integration=dict(engine="housner")), "joints.foot.tension_pa"),
+        (dict(integration=dict(engine="full")), 'joints.foot.bond_tension_pa.*engine = "full"'),
+        (dict(integration=dict(engine="housner")), "joints.foot.bond_tension_pa"),
         (
             dict(initial=dict(block=dict(tilt_rad=0.01, spin_rad_s=[0, 0, 0]))),
             "what leans has broken",

@@ -138,7 +138,7 @@ def test_a_soft_post_stands_on_stiff_glue(modulus, layer):
             cap=COARSE | STONE | dict(length_m=0.4, width_m=0.4, height_m=0.4, at_m=[0, 0, 1.5]),
         ),
         joints=dict(
-            foot=dict(between=["post", "ground"], tension_pa=1e6, bond_stiffness_n_m3=layer),
+            foot=dict(between=["post", "ground"], bond_tension_pa=1e6, bond_stiffness_n_m3=layer),
             top=dict(between=["post", "cap"]),
         ),
         integration=dict(engine="reduced", dt_s=2e-5),
@@ -166,7 +166,7 @@ def test_stone_stands_on_stone_and_a_thin_layer_of_glue(section, layer, interior
         bodies=dict(low=body, up=body | dict(at_m=[0, 0, 0.6])),
         joints=dict(
             foot=dict(between=["low", "ground"]),
-            glue=dict(between=["low", "up"], tension_pa=1e6, bond_stiffness_n_m3=layer),
+            glue=dict(between=["low", "up"], bond_tension_pa=1e6, bond_stiffness_n_m3=layer),
         ),
         contact=dict(interior_points=interior),
         integration=dict(engine="reduced", dt_s=2e-6),

@@ -109,7 +109,7 @@ def test_a_glued_post_pulled_at_its_top_bends_as_a_cantilever():
         prestress_n=pull,
     )
     stiff = 1e9
-    glue = dict(tension_pa=1e7, bond_stiffness_n_m3=stiff, stiffness_n_m3=stiff)
+    glue = dict(bond_tension_pa=1e7, bond_stiffness_n_m3=stiff, stiffness_n_m3=stiff)
     case = structure(
         bodies=dict(post=post),
         joints=dict(foot=dict(between=["post", "ground"]) | glue),

@@ -164,7 +164,7 @@ class _Reader:
         for name, interface in self.case.joints.items():
             stated[f"joints.{name}.restitution"] = interface.restitution
             stated[f"joints.{name}.rolling_resistance"] = interface.rolling_resistance
-            stated[f"joints.{name}.tension_pa"] = interface.tension_pa
+            stated[f"joints.{name}.bond_tension_pa"] = interface.bond_tension_pa
         for name, body in self.case.bodies.items():
             for key in ("foot_radius_m", "edge_radius_m", "turned_deg"):
                 stated[f"bodies.{name}.{key}"] = getattr(body, key, None)

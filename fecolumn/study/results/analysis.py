@@ -28,7 +28,7 @@ _SHOWN = (
     ("u_max_m", "largest displacement of the top", 1e3, "mm"),
     ("u_critical_m", "critical displacement", 1e3, "mm"),
     ("residual_slide_m", "slide at the end", 1e3, "mm"),
-    ("time_s", "analysed", 1.0, "s"),
+    ("duration_s", "analysed", 1.0, "s"),
     ("steps", "steps", None, ""),
     ("energy_closure_rel", "energy not accounted for, of what was moved", 1.0, ""),
 )
