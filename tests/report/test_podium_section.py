@@ -45,8 +45,8 @@ def peaks(values, summary):
         "overturned": False,
         "u_max_m": tilt,
         "peaks": {
-            "tilt over alpha [-]": tilt,
-            "base shear over V_st [-]": shear * larger * math.exp(own.gauss(0, scatter)),
+            "tilt_over_alpha": tilt,
+            "base_shear_over_v_st": shear * larger * math.exp(own.gauss(0, scatter)),
         },
     }
 

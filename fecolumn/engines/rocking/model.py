@@ -37,7 +37,7 @@ class ModelResponse:
     time
         (n,) rising [s].
     coordinates
-        the model's own coordinates, name to (n,).
+        the model's own coordinates, name without blanks to (n,).
     units
         name of each coordinate to its unit, such as "rad".
     tilt
@@ -57,7 +57,8 @@ class ModelResponse:
         sentences a user must read, such as when the friction demanded exceeds the friction there
         is.
     peaks
-        further peak values by name with unit, such as "friction demanded [-]", "base shear [N]".
+        further peak values, their names with the unit as in summary.json: "friction_demanded",
+        "base_shear_n".
     floors
         (n, k) displacement along x of each floor of a building, from below [m]; (0, 0) without one.
     base_force
