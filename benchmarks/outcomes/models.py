@@ -11,8 +11,8 @@ import numpy as np
 from benchmarks.outcomes.draws import Drawn, drawn
 from benchmarks.outcomes.motions import stored
 from fecolumn.case.model_sections import WobblingModel
+from fecolumn.engines.ending import OVERTURNED
 from fecolumn.engines.rocking.impact import housner_restitution
-from fecolumn.engines.rocking.model import OVERTURNED, SAFE
 from fecolumn.engines.rocking.swing import rock_all
 from fecolumn.engines.rocking.swing_equations import row_of_block
 from fecolumn.engines.rocking.swing_motion import IMPACT_COUNT, PEAK_TILT
@@ -20,6 +20,7 @@ from fecolumn.engines.rocking.wobbling import Wobbling
 from fecolumn.motions.processing import scale
 
 BLOCK, ROLLING = "planar block", "rolling column"
+SAFE = "safe"  # of what did not overturn: whether it is at rest is not asked
 #: Followed after a motion, of a rolling column [s]; what is upright within this share of its
 #: critical tilt has not moved.
 FREE_S, STILL = 3.0, 1e-9

@@ -6,12 +6,11 @@ from datetime import date
 from pathlib import Path
 
 from benchmarks.outcomes.bodies import ELASTIC, RIGID
-from benchmarks.outcomes.models import BLOCK, ROLLING
+from benchmarks.outcomes.models import BLOCK, ROLLING, SAFE
 from benchmarks.outcomes.motions import FAMILIES
 from benchmarks.tables import commit
 from fecolumn import __version__
 from fecolumn.engines.ending import AT_REST, OVERTURNED, SLID_OFF, STILL_ROCKING
-from fecolumn.engines.rocking.model import SAFE
 from fecolumn.foundation.sources import PHYSICS
 from fecolumn.study.results.outcomes import TableColumn, write_outcomes
 

@@ -107,8 +107,8 @@ def _spectrum(args: argparse.Namespace, folder: Path) -> None:
             [
                 "pulse",
                 "omega_p_over_p",
-                "a_p_over_g_tan_alpha_from",
-                "to",
+                "a_p_over_g_tan_alpha_low",
+                "a_p_over_g_tan_alpha_high",
                 "impacts_before_overturning",
             ],
             *(
@@ -175,7 +175,7 @@ def _run(args: argparse.Namespace, folder: Path) -> None:
         progress.show(number)
     progress.end()
     spent = (time.process_time() - began) / len(responses)
-    _table(responses, folder, spent)
+    _table(responses, case.model.energy_to_overturn, folder, spent)
     for note in notes[:5]:
         print(f"fecolumn: warning: {note}", file=sys.stderr)
     if len(notes) > 5:
@@ -210,7 +210,12 @@ def _run(args: argparse.Namespace, folder: Path) -> None:
         ensemble_figure(responses, case.model, args.model, folder / "cdf")
 
 
-def _table(responses: list[tuple[GroundMotion, ModelResponse]], folder: Path, spent: float) -> None:
+def _table(
+    responses: list[tuple[GroundMotion, ModelResponse]],
+    energy_to_overturn: float,
+    folder: Path,
+    spent: float,
+) -> None:
     import numpy as np
 
     from fecolumn.foundation.atomic import write_csv
@@ -222,7 +227,7 @@ def _table(responses: list[tuple[GroundMotion, ModelResponse]], folder: Path, sp
         [
             "motion",
             "outcome",
-            "u_max_mm",
+            "u_max_m",
             "tilt_max_rad",
             "impacts",
             "end_s",
@@ -236,8 +241,8 @@ def _table(responses: list[tuple[GroundMotion, ModelResponse]], folder: Path, sp
         lines.append(
             [
                 motion.name,
-                response.outcome,
-                f"{1e3 * response.u_max:.6g}",
+                response.outcome(energy_to_overturn),
+                f"{response.u_max:.6g}",
                 f"{response.tilt.max():.6g}",
                 len(response.impact_times),
                 f"{response.time[-1]:.6g}",
@@ -249,11 +254,11 @@ def _table(responses: list[tuple[GroundMotion, ModelResponse]], folder: Path, sp
         )
     write_csv(folder / "responses.csv", lines)
     if len(responses) <= 12:
-        print(f"\n{'motion':<34}{'outcome':>11}{'u_max [mm]':>12}{'tilt [rad]':>12}{'impacts':>9}")
+        print(f"\n{'motion':<34}{'outcome':>14}{'u_max [mm]':>12}{'tilt [rad]':>12}{'impacts':>9}")
         for line in lines[1:]:
-            largest = f"{'' if line[1] == 'safe' else '> '}{float(line[2]):.4g}"
+            largest = f"{'> ' if line[6] else ''}{1e3 * float(line[2]):.4g}"
             print(
-                f"{line[0][:33]:<34}{line[1]:>11}{largest:>12}{float(line[3]):>12.4g}{line[4]:>9}"
+                f"{line[0][:33]:<34}{line[1]:>14}{largest:>12}{float(line[3]):>12.4g}{line[4]:>9}"
             )
     u_max = np.array([response.u_max for _, response in responses])
     overturned = np.array([response.overturned for _, response in responses])

@@ -37,7 +37,8 @@ def test_a_row_of_a_planar_block_is_that_block_s_response(file):
         )
         motion = scale(along_x(ensemble.motions[one.motion]), one.scale)
         response = RockingBlock.of_section(section, "test").respond(motion, free_s=20.0)
-        assert response.outcome == row["outcome"] and row["censored"] == response.overturned
+        assert row["outcome"] == ("overturned" if response.overturned else "safe")
+        assert row["censored"] == response.overturned
         if not response.overturned:
             # the response is sampled each 0.01 s, between which a peak may lie
             for seen, peak in (

@@ -40,9 +40,7 @@ def test_a_design_is_that_of_the_command(designed):
         folder = str(answer.folder)
         assert main(["design", str(case_file), *words, WHAT["limit"], "-o", folder]) == 0
     assert said.getvalue().splitlines()[0] == answer.text
-    assert (
-        list(answer.table)[:3] == ["block.width_m", "n", "beyond"] and (answer.table.n == 6).all()
-    )
+    assert list(answer.table)[:3] == ["key", "value", "n"] and (answer.table.n == 6).all()
     assert repr(answer) == answer.text
     page = answer._repr_html_()
     assert "data:image/png;base64," in page and 'class="dataframe"' in page

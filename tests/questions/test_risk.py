@@ -4,6 +4,7 @@ and what cannot be used.
 
 import csv
 import math
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -97,12 +98,16 @@ def test_runs_give_frequency_and_interval_of_the_bootstrap(tmp_path, capsys):
 
     assert float(row["annual_frequency"]) == pytest.approx(exact(fit.median, fit.beta), rel=1e-4)
     ends = np.quantile(exact(*drawn.T), (0.025, 0.975))
-    assert [float(row["low"]), float(row["high"])] == pytest.approx(ends, rel=1e-3)
-    assert float(row["p_50_years"]) == pytest.approx(
+    assert [
+        float(row["annual_frequency_low"]),
+        float(row["annual_frequency_high"]),
+    ] == pytest.approx(ends, rel=1e-3)
+    assert row["years"] == "50" and float(row["probability"]) == pytest.approx(
         1 - math.exp(-50 * float(row["annual_frequency"])), rel=1e-4
     )
     parts = rows(out / "deaggregation.csv")
     assert sum(float(one["share"]) for one in parts) == pytest.approx(1, abs=1e-4)
+    assert all(one["pga_m_s2_to"] == later["pga_m_s2_from"] for one, later in pairwise(parts))
     assert "% [" in capsys.readouterr().out
     assert (out / "risk.png").stat().st_size > 5000
 
@@ -116,7 +121,7 @@ def test_what_fragility_wrote_will_do(tmp_path):
         assert main(["risk", str(source), "--hazard", str(hazard), "-o", out]) == 0
     (a,), (b,) = rows(tmp_path / "a" / "risk.csv"), rows(tmp_path / "b" / "risk.csv")
     assert float(a["annual_frequency"]) == pytest.approx(float(b["annual_frequency"]), rel=1e-3)
-    for end in ("low", "high"):
+    for end in ("annual_frequency_low", "annual_frequency_high"):
         assert float(a[end]) == pytest.approx(float(b[end]), rel=0.25)
 
 
@@ -320,7 +325,11 @@ def test_folder_of_a_study_is_asked_for_any_limit_state(tmp_path, capsys):
         assert main(["risk", str(out), *options]) == 0
         (row,) = rows(folder / "risk.csv")
         found[limit] = float(row["annual_frequency"])
-        assert float(row["low"]) <= found[limit] <= float(row["high"])
+        assert (
+            float(row["annual_frequency_low"])
+            <= found[limit]
+            <= float(row["annual_frequency_high"])
+        )
     assert found["top > 100 mm"] > found["top > 250 mm"] > 0
     assert main(["risk", str(out), "--hazard", str(hazard), "--limit", "slide > 5 mm", "-o", "x"])
     assert "holds no slide of engine 'housner'" in capsys.readouterr().err

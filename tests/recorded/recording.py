@@ -44,7 +44,7 @@ SMALL = 1e-2
 ROUNDINGS = (1e-14, -1e-14, 3e-14)
 # Columns that are kept; of bodies, links and storeys by the last word of their names; and all terms
 # of the energy but the error of the balance
-KEPT = ("time", "u_top", "tilt", "twist", "slide", "theta_x", "theta_y")
+KEPT = ("time", "u_top", "tilt", "twist", "slide", "model/theta_x", "model/theta_y")
 KEPT_OF_PARTS = {"body": ("displacement", "tilt"), "link": ("tension",), "storey": ("drift",)}
 UNITS = {
     "rad": ("tilt", "twist", "theta_x", "theta_y"),

@@ -45,18 +45,35 @@ def peaks(values, summary):
         "overturned": False,
         "u_max_m": tilt,
         "peaks": {
-            "tilt over alpha [-]": tilt,
-            "base shear over V_st [-]": shear * larger * math.exp(own.gauss(0, scatter)),
+            "tilt_over_alpha": tilt,
+            "base_shear_over_v_st": shear * larger * math.exp(own.gauss(0, scatter)),
         },
     }
 
 
-def study(tmp_path, axes, motions):
+def study(tmp_path, axes, motions, also=None):
     tmp_path.mkdir(exist_ok=True)
     (tmp_path / "podium.toml").write_text(PODIUM)
     return write_synthetic(
-        tmp_path / "study", axes, motions, also=peaks, case=tmp_path / "podium.toml"
+        tmp_path / "study", axes, motions, also=also or peaks, case=tmp_path / "podium.toml"
     )
+
+
+def before_0_11(values, summary):
+    """The same peaks by the names that they had."""
+    found = peaks(values, summary)
+    tilt, shear = found["peaks"].values()
+    return found | {"peaks": {"tilt over alpha [-]": tilt, "base shear over V_st [-]": shear}}
+
+
+def test_studies_before_version_0_11_are_read(tmp_path):
+    axes, found = {"podium.impact": ["CRV", "CAV"]}, []
+    for name, also in (("new", peaks), ("old", before_0_11)):
+        sweep = read_sweep(study(tmp_path / name, axes, 6, also))
+        section = podium(sweep, Gallery(tmp_path / name, False, ()))
+        (laws,) = [one for one in section.blocks if getattr(one, "name", "") == "laws"]
+        found.append(laws.rows)
+    assert found[0] == found[1] and found[0]
 
 
 def test_claims_of_the_podium_paper_are_judged(tmp_path):

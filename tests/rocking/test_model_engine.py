@@ -100,13 +100,13 @@ def test_result_folder_is_that_of_any_analysis(leaning):
         and not (folder / "checkpoint.npz").exists()
     )
     with h5py.File(folder / "history.h5") as history:
-        assert len(history["time"]) == 1501 and history["theta_x"].attrs["unit"] == "rad"
+        assert len(history["time"]) == 1501 and history["model/theta_x"].attrs["unit"] == "rad"
         assert {f"energy/{term}" for term in TERMS} <= {
             f"energy/{name}" for name in history["energy"]
         }
-        assert history["theta_x"][0] == pytest.approx(0.1 * math.cos(math.radians(30))) and history[
-            "theta_y"
-        ][0] == pytest.approx(0.05)
+        assert history["model/theta_x"][0] == pytest.approx(
+            0.1 * math.cos(math.radians(30))
+        ) and history["model/theta_y"][0] == pytest.approx(0.05)
         assert np.hypot(*history["u_top"][:, :2].T).max() == pytest.approx(summary["u_max_m"])
     assert summary["energy_closure_rel"] < 1e-6 and summary["cpu_s"] < 5
 
@@ -182,7 +182,7 @@ def test_friction_that_does_not_suffice_is_told_and_recorded(tmp_path):
             tmp_path / "out",
             quiet=True,
         )
-    assert summary["notes"] and summary["peaks"]["friction demanded along x [-]"] > 0.31
+    assert summary["notes"] and summary["peaks"]["friction_demanded_x"] > 0.31
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
 """fecolumn rocking: models from files, one motion or many."""
 
 import csv
+import json
 import math
 import subprocess
 import sys
@@ -86,12 +87,17 @@ def test_ensemble_counts_what_overturns_as_the_motions_grow(tmp_path, ensemble, 
     assert (
         main(["rocking", "housner", str(tmp_path / "block.toml"), "-o", str(tmp_path / "out")]) == 0
     )
-    outcomes = [row["outcome"] for row in rows(tmp_path / "out" / "responses.csv")]
-    assert (
-        outcomes[0] == "safe"
-        and outcomes[-1] == "overturned"
-        and outcomes == sorted(outcomes, reverse=True)
-    )
+    found = rows(tmp_path / "out" / "responses.csv")
+    outcomes = [row["outcome"] for row in found]
+    fell = [outcome == "overturned" for outcome in outcomes]
+    assert fell[-1] and fell == sorted(fell)
+    # what stands is said in the words of fecolumn run, in metres
+    text = (tmp_path / "block.toml").read_text().replace("#*", "#1")
+    (tmp_path / "one.toml").write_text(text + 'integration.engine = "housner"\n')
+    assert main(["run", str(tmp_path / "one.toml"), "-o", str(tmp_path / "run"), "-q"]) == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert outcomes[0] == summary["outcome"] != "overturned"
+    assert float(found[0]["u_max_m"]) == pytest.approx(summary["u_max_m"], rel=1e-5)
     assert f"4 motions: {outcomes.count('overturned')} overturned" in capsys.readouterr().out
     assert (tmp_path / "out" / "cdf.png").exists()
 

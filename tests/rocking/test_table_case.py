@@ -4,8 +4,10 @@ alone or beside bodies.
 
 import json
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
+import h5py
 import pytest
 
 from fecolumn.case.case import case_from_tables, load_case
@@ -14,11 +16,13 @@ from fecolumn.case.model_sections import SECTIONS
 from fecolumn.cli import main
 from fecolumn.engines.rocking.case import read_model_case
 from fecolumn.engines.rocking.models import ROCKING_MODELS
+from fecolumn.engines.rocking.podium import Podium
 from fecolumn.foundation import _compiled
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import read_folder_case, run
 from fecolumn.study.plan import read_plan
+from fecolumn.study.results.load import load
 from fecolumn.verification import rocking_tables
 
 PODIUM = """podium.column_mass_kg = 2500
@@ -72,6 +76,27 @@ def test_a_podium_runs_as_any_case_and_gives_what_the_rocking_command_gives(fold
         assert main(command) == 2 and said in capsys.readouterr().err
     again, _ = read_folder_case(folder / "run")
     assert again.id == summary["case_id"] and again.own["podium"].storeys == 3
+
+
+def test_a_models_own_coordinates_have_the_units_that_the_model_states(folder, monkeypatch):
+    """In the file and for who reads it; without a unit nothing is written."""
+    case = load_case(folder / "podium.toml")
+    run(case, folder / "run", quiet=True)
+    own = {"model/theta": "rad", "model/beam": "m", "model/base_shear": "N"}
+    with h5py.File(folder / "run" / "history.h5") as file:
+        assert {f"model/{name}": one.attrs["unit"] for name, one in file["model"].items()} == own
+    result = load(folder / "run")
+    assert {name: result.units[name] for name in result.history if name in own} == own
+    assert result.units["energy/strain"] == "J" and "model/base_shear [N]" in result.columns()
+    assert result.to_xarray()["model_base_shear"].attrs["units"] == "N"
+    peaks = ["tilt_over_alpha", "base_shear_n", "base_shear_over_v_st"]
+    assert list(result.summary["peaks"]) == peaks + [f"storey_{n}_shear_n" for n in (1, 2, 3)]
+    respond = Podium.respond
+    monkeypatch.setattr(
+        Podium, "respond", lambda *of, **more: replace(respond(*of, **more), units={})
+    )
+    with pytest.raises(KeyError, match="theta"):
+        run(case, folder / "without", quiet=True)
 
 
 def test_case_id_knows_the_building_and_neither_title_nor_output(folder):

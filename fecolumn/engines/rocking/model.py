@@ -17,11 +17,10 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fecolumn.engines.ending import OVERTURNED
+from fecolumn.engines.ending import AT_REST, OVERTURNED, REST_SHARE, STILL_ROCKING
 from fecolumn.foundation.arrays import Array
 from fecolumn.motions.record import GroundMotion
 
-SAFE = "safe"
 #: Terms of the energy that are of a state, not added up over time.
 STATE_TERMS = ("kinetic", "strain", "gravity")
 #: Times the free motion that is followed is doubled for a fall that is bound to come
@@ -37,7 +36,7 @@ class ModelResponse:
     time
         (n,) rising [s].
     coordinates
-        the model's own coordinates, name to (n,).
+        the model's own coordinates, name without blanks to (n,).
     units
         name of each coordinate to its unit, such as "rad".
     tilt
@@ -57,7 +56,8 @@ class ModelResponse:
         sentences a user must read, such as when the friction demanded exceeds the friction there
         is.
     peaks
-        further peak values by name with unit, such as "friction demanded [-]", "base shear [N]".
+        further peak values, their names with the unit as in summary.json: "friction_demanded",
+        "base_shear_n".
     floors
         (n, k) displacement along x of each floor of a building, from below [m]; (0, 0) without one.
     base_force
@@ -78,10 +78,18 @@ class ModelResponse:
     floors: Array = field(default_factory=lambda: np.zeros((0, 0)))
     base_force: Array = field(default_factory=lambda: np.zeros((0, 3)))
 
-    @property
-    def outcome(self) -> str:
-        """SAFE or OVERTURNED."""
-        return OVERTURNED if self.overturned else SAFE
+    def outcome(self, energy_to_overturn: float) -> str:
+        """How it ended: AT_REST, STILL_ROCKING or OVERTURNED, as a summary of `fecolumn run` says.
+
+        Parameters
+        ----------
+        energy_to_overturn
+            of the model [J].
+        """
+        if self.overturned:
+            return OVERTURNED
+        left = sum(float(self.energy[name][-1]) for name in STATE_TERMS)
+        return AT_REST if left <= REST_SHARE * energy_to_overturn else STILL_ROCKING
 
     @property
     def u_max(self) -> float:

@@ -378,7 +378,7 @@ def _check_forces(one: PlaneResponse, force: Array, peaks: dict[str, float]) -> 
     lean = np.abs(one.states[:, SWING_TILT])
     notes, found = check_friction(
         f"rocking along {name}",
-        f"friction demanded along {name} [-]",
+        f"friction_demanded_{name}",
         np.abs(force[:, 0]),
         force[:, 1],
         one.states[:, SWING_TIME],
@@ -388,5 +388,5 @@ def _check_forces(one: PlaneResponse, force: Array, peaks: dict[str, float]) -> 
     peaks |= found
     if any(restraint.tendons for restraint in plane.restraints):
         tension = plane.restraints[0].tension(lean).max()
-        peaks[f"tension of the tendons, {name} [N]"] = float(tension)
+        peaks[f"tendon_tension_{name}_n"] = float(tension)
     return notes

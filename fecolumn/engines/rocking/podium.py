@@ -211,19 +211,19 @@ class Podium:
         up = 2 * self.half_diagonal * (np.cos(beta) - math.cos(self.slenderness))
         shears = self.building_mass * shears
         peaks = {
-            "tilt over alpha [-]": peak / self.slenderness,
-            "base shear [N]": float(shears[0]),
-            "base shear over V_st [-]": float(shears[0] / self.static_shear),
-            **{f"shear of storey {number} [N]": float(one) for number, one in enumerate(shears, 1)},
+            "tilt_over_alpha": peak / self.slenderness,
+            "base_shear_n": float(shears[0]),
+            "base_shear_over_v_st": float(shears[0] / self.static_shear),
+            **{f"storey_{number}_shear_n": float(one) for number, one in enumerate(shears, 1)},
         }
         return ModelResponse(
             time=rows[:, PODIUM_TIME],
             coordinates={
                 "theta": theta,
                 "beam": beam,
-                "base shear": self.building_mass * rows[:, PODIUM_SHEAR],
+                "base_shear": self.building_mass * rows[:, PODIUM_SHEAR],
             },
-            units={"theta": "rad", "beam": "m", "base shear": "N"},
+            units={"theta": "rad", "beam": "m", "base_shear": "N"},
             tilt=np.abs(theta),
             u_top=np.column_stack([rows[:, -1], np.zeros(len(rows)), up]),
             overturned=bool(fallen),

@@ -275,7 +275,7 @@ class Wobbling:
         tilt = rows[:, 1]
         return check_friction(
             "wobbling",
-            "friction demanded [-]",
+            "friction_demanded",
             np.hypot(foot[:, 0], foot[:, 1]),
             foot[:, 2],
             rows[:, 0],

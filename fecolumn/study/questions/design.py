@@ -133,11 +133,13 @@ class DesignQuestion:
 
     def table(self) -> list[list[Any]]:
         """Header, and a row for each value looked at."""
-        rows: list[list[Any]] = [[self.key, "n", "beyond", "p", "wilson_low", "wilson_high"]]
+        rows: list[list[Any]] = [
+            ["key", "value", "n", "beyond", "probability", "wilson_low", "wilson_high"]
+        ]
         for place in sorted(self.looked):
             one = self.looked[place]
             shares = (one.k / one.n, *one.interval)
-            rows.append([f"{one.value:g}", one.n, one.k, *(f"{p:.6f}" for p in shares)])
+            rows.append([self.key, f"{one.value:g}", one.n, one.k, *(f"{p:.6f}" for p in shares)])
         return rows
 
     def place(self) -> CrossingPlace | None:

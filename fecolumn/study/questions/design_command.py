@@ -195,7 +195,7 @@ def _tell(question: Any, folder: Path) -> None:
         {"key": question.key, "limit": question.limit.text, **ends, "answer": question.answer()},
     )
     files = design_figure(
-        [[float(cell) for cell in row] for row in rows[1:]],
+        [[float(cell) for cell in row[1:]] for row in rows[1:]],
         f"{question.key}{' [' + question.unit.strip() + ']' if question.unit else ''}",
         question.limit,
         ends,

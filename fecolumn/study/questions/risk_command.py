@@ -86,12 +86,14 @@ def _write(sets: dict[str, Any], curve: Any, args: Any, folder: Path) -> None:
     years = f"{args.years:g}"
     table: list[list[Any]] = [
         [
-            *("setting", f"median_{curve.measure}", "beta", "annual_frequency", "low", "high"),
-            *(f"p_{years}_years", "p_low", "p_high", "return_period_years", "beyond_curve_most"),
-            "outside_runs_share",
+            *("setting", f"median_{curve.measure}", "beta", "annual_frequency"),
+            *("annual_frequency_low", "annual_frequency_high", "years"),
+            *("probability", "probability_low", "probability_high", "return_period_years"),
+            *("beyond_curve_most", "outside_runs_share"),
         ]
     ]
-    parts: list[list[Any]] = [["setting", "from", "to", "annual_frequency", "share"]]
+    ends = (f"{curve.measure}_from", f"{curve.measure}_to")
+    parts: list[list[Any]] = [["setting", *ends, "annual_frequency", "share"]]
     for number, (label, one) in enumerate(sets.items(), 1):
         best = annual_frequency(curve, lognormal_probabilities(one.median, one.beta))
         drawn = annual_frequency(curve, lognormal_probabilities(*one.drawn.T)).value
@@ -103,7 +105,9 @@ def _write(sets: dict[str, Any], curve: Any, args: Any, folder: Path) -> None:
         table.append(
             [
                 name,
-                *(f"{x:.6g}" for x in (one.median, one.beta, value, low, high, *p)),
+                *(f"{x:.6g}" for x in (one.median, one.beta, value, low, high)),
+                years,
+                *(f"{x:.6g}" for x in p),
                 f"{1 / value:.6g}" if value > 0 else "inf",
                 f"{best.beyond[0]:.6g}",
                 "" if one.runs is None else f"{_outside(curve, one, value):.4f}",

@@ -72,21 +72,19 @@ def answer_of(ranked: list[ScreenedObject], limits: list[LimitEvent]) -> str:
 
 
 def screening_table(ranked: list[ScreenedObject], limits: list[LimitEvent]) -> list[list[Any]]:
-    """Header and a row an object, for a CSV file; u_max_50_m is inf where half are lost."""
-    names = [
-        f"{word} {limit.text}"
-        for limit in limits
-        for word in ("k", "p", "wilson_low", "wilson_high")
-    ]
+    """Header and, of each object, a row for each limit state, for a CSV file; u_max_50_m is inf
+    where half are lost.
+    """
     sizes = ["width_m", "depth_m", "height_m", "mass_kg", "friction"]
-    rows: list[list[Any]] = [["rank", "name", *sizes, "n", *names, "u_max_50_m"]]
+    shares = ["probability", "wilson_low", "wilson_high"]
+    rows: list[list[Any]] = [
+        ["rank", "name", *sizes, "u_max_50_m", "event", "n", "reached", *shares]
+    ]
     for rank, one in enumerate(ranked, 1):
-        shares = [
-            cell
-            for place, count in enumerate(one.counts)
-            for cell in (count, *(f"{p:.6f}" for p in one.share(place)))
-        ]
         values = [f"{value:g}" for value in one.object.values]
         median = "inf" if math.isinf(one.median_m) else f"{one.median_m:.6g}"
-        rows.append([rank, one.object.name, *values, one.n, *shares, median])
+        for place, (limit, count) in enumerate(zip(limits, one.counts)):
+            found = [f"{p:.6f}" for p in one.share(place)]
+            told = [rank, one.object.name, *values, median, limit.text, one.n, count, *found]
+            rows.append(told)
     return rows

@@ -24,7 +24,9 @@ from fecolumn.study.report.sweep import Sweep, common_motions
 
 LAW, STOREYS, PROFILE = "podium.impact", "podium.storeys", "podium.profile"
 AUTHORS = "Bantilas, Kavvadias and Vasiliadis"
-_TILT, _SHEAR = "tilt over alpha [-]", "base shear over V_st [-]"  # of a summary's peaks
+# Of a summary's peaks, each with its name before version 0.11
+_TILT = ("tilt_over_alpha", "tilt over alpha [-]")
+_SHEAR = ("base_shear_over_v_st", "base shear over V_st [-]")
 _DEFAULTS = {STOREYS: 3, PROFILE: "shear"}
 
 
@@ -89,12 +91,13 @@ def responses(sweep: Sweep) -> dict[tuple[str, int, str], dict[str, NDArray[Any]
             for key in (PROFILE, STOREYS)
         )
         runs = [setting.runs[motion] for motion in motions]
-        if not all(_TILT in (run.get("peaks") or {}) for run in runs):
+        tilts, shears = ([_peak(run, names) for run in runs] for names in (_TILT, _SHEAR))
+        if None in tilts:
             return {}
         fallen = np.array([bool(run["overturned"]) for run in runs])
         found[*building, setting.values[LAW]] = dict(
-            tilt=np.where(fallen, np.inf, [run["peaks"][_TILT] for run in runs]),
-            shear=np.array([run["peaks"][_SHEAR] for run in runs]),
+            tilt=np.where(fallen, np.inf, tilts),
+            shear=np.array(shears),
         )
     return (
         {
@@ -105,6 +108,12 @@ def responses(sweep: Sweep) -> dict[tuple[str, int, str], dict[str, NDArray[Any]
         if len(motions) > 1
         else {}
     )
+
+
+def _peak(run: dict[str, Any], names: tuple[str, ...]) -> Any:
+    """The peak of a summary that has one of these names; None where none has."""
+    peaks = run.get("peaks") or {}
+    return next((peaks[name] for name in names if name in peaks), None)
 
 
 def _limits(found: Mapping[tuple[str, int, str], BuildingResponse]) -> tuple[float, float]:

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
 from fecolumn.engines.dynamics.energy import TERMS
-from fecolumn.engines.dynamics.history import MEANING, UNITS, UNITS_OF_PARTS
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.schema import InputError, meant
 from fecolumn.study.results.parting import Parting, parting
@@ -101,10 +100,33 @@ class AnalysisResult:
     @property
     def units(self) -> dict[str, str]:
         """Unit of each array."""
-        return {
-            name: UNITS.get(name) or UNITS_OF_PARTS.get(name.rpartition("/")[2], "J")
-            for name in self.history
-        }
+        return {name: self._attributes[name]["unit"] for name in self.history}
+
+    @functools.cached_property
+    def _attributes(self) -> dict[str, dict[str, str]]:
+        """Unit and, of many, meaning of each array by its name.
+
+        Raises
+        ------
+        InputError
+            as of `history`; or an array has no unit.
+        """
+        import h5py
+
+        from fecolumn.engines.stored import stored
+
+        path = self.folder / "history.h5"
+
+        def read() -> dict[str, dict[str, str]]:
+            found = {}
+            with h5py.File(path) as file:
+                for name in self.history:
+                    found[name] = {"meaning": "", **file[name].attrs}
+                    if "unit" not in found[name]:
+                        raise ValueError(f"{name} has no unit")
+            return found
+
+        return stored(path, "a history of an analysis", read)
 
     @property
     def energy(self) -> dict[str, NDArray[Any]]:
@@ -156,7 +178,10 @@ class AnalysisResult:
             arrays[name.replace("/", "_")] = (
                 axes,
                 values,
-                {"units": self.units[name], "long_name": MEANING.get(name, name.replace("/", " "))},
+                {
+                    "units": self.units[name],
+                    "long_name": self._attributes[name]["meaning"] or name.replace("/", " "),
+                },
             )
         coordinates = {"time": arrays.pop("time"), "axis": list("xyz"), "horizontal": list("xy")}
         return xarray.Dataset(
