@@ -302,22 +302,10 @@ class Analysis:
         )
 
     def write_history(self) -> None:
-        """Write history.h5 on rank 0, its rows as far apart as the case says.
-
-        Raises
-        ------
-        KeyError
-            no unit is known of one of its columns.
-        """
-        from fecolumn.engines.dynamics.history import UNITS, UNITS_OF_PARTS
-
+        """Write history.h5 on rank 0, its rows as far apart as the case says."""
         every = max(1, round(self.case.output.history_every_s / self.dt_s))
 
         if self.comm.rank == 0:
-            for name in self.history.last():
-                first, _, word = name.rpartition("/")
-                if not (first == "energy" or name in UNITS or (first and word in UNITS_OF_PARTS)):
-                    raise KeyError(f"no unit is known of the column {name!r} of the history")
             attributes = {"case_id": self.case.id, **self.code, "title": self.case.title}
             self.history.write(self.folder / "history.h5", attributes, every)
 

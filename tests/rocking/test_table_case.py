@@ -92,10 +92,13 @@ def test_a_models_own_coordinates_have_the_units_that_the_model_states(folder, m
     peaks = ["tilt_over_alpha", "base_shear_n", "base_shear_over_v_st"]
     assert list(result.summary["peaks"]) == peaks + [f"storey_{n}_shear_n" for n in (1, 2, 3)]
     respond = Podium.respond
-    monkeypatch.setattr(
-        Podium, "respond", lambda *of, **more: replace(respond(*of, **more), units={})
-    )
-    with pytest.raises(KeyError, match="theta"):
+
+    def sways(*of, **more):
+        response = respond(*of, **more)
+        return replace(response, coordinates={"sway": response.tilt})
+
+    monkeypatch.setattr(Podium, "respond", sways)
+    with pytest.raises(KeyError, match="model/sway"):
         run(case, folder / "without", quiet=True)
 
 

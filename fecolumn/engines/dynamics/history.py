@@ -22,8 +22,13 @@ UNITS = {
     "penetration": "m",
     "ground": "m/s2",
     "iterations": "-",
-    "theta_x": "rad",
-    "theta_y": "rad",
+    # of rocking models
+    "model/theta_x": "rad",
+    "model/theta_y": "rad",
+    "model/theta": "rad",
+    "model/phi": "rad",
+    "model/beam": "m",
+    "model/base_shear": "N",
 }
 #: Of columns of a structure's bodies, interfaces, marks, storeys, links and glued joints, by the
 #: last word of their names.
@@ -57,9 +62,29 @@ MEANING = {
     "penetration": "largest depth of a contact point",
     "ground": "acceleration of the base",
     "iterations": "position iterations of the step",
-    "theta_x": "tilt in the plane of x, positive towards +x",
-    "theta_y": "tilt in the plane of y, positive towards +y",
+    "model/theta_x": "tilt in the plane of x, positive towards +x",
+    "model/theta_y": "tilt in the plane of y, positive towards +y",
+    "model/theta": "tilt of the columns",
+    "model/phi": "azimuth of the place of the rim on which it stands",
+    "model/beam": "displacement of the beam along x",
+    "model/base_shear": "base shear of the building, damping included",
 }
+
+
+def unit_of(name: str) -> str:
+    """Unit of a column of the history.
+
+    Raises
+    ------
+    KeyError
+        none is known.
+    """
+    first, _, word = name.rpartition("/")
+    if first == "energy":
+        return "J"
+    if unit := UNITS.get(name) or (first and UNITS_OF_PARTS.get(word)):
+        return unit
+    raise KeyError(f"no unit is known of the column {name!r} of the history")
 
 
 class History:
@@ -114,9 +139,7 @@ class History:
                 values = values[rows]
                 packed = {"compression": "gzip", "shuffle": True} if values.size > 1000 else {}
                 dataset = file.create_dataset(name, data=values, **packed)
-                dataset.attrs["unit"] = UNITS.get(name) or UNITS_OF_PARTS.get(
-                    name.rpartition("/")[2], "J"
-                )
+                dataset.attrs["unit"] = unit_of(name)
                 if name in MEANING:
                     dataset.attrs["meaning"] = MEANING[name]
 

@@ -91,7 +91,7 @@ class ModelAnalysis(Analysis):
             slide=np.zeros((rows, 2)),
             ground=ground,
         )
-        columns |= {name: values[:rows] for name, values in own_columns(response).items()}
+        columns |= {f"model/{name}": values[:rows] for name, values in response.coordinates.items()}
         bodies = body_motion(self.case, response, self.file)
         columns |= {name: values[:rows] for name, values in bodies.items()}
         self.history.extend(
@@ -164,23 +164,3 @@ class ModelAnalysis(Analysis):
                 )
         outcome = AT_REST if energy[last - 1] <= self.still_j else STILL_ROCKING
         return last, Ending(outcome, f"end of the analysed time, {response.time[last - 1]:.3f} s")
-
-
-def own_columns(response: ModelResponse) -> dict[str, Array]:
-    """Columns of the history of a model's own coordinates, "model/theta_x" and so on, (n,) each;
-    the history is told their units.
-
-    Raises
-    ------
-    KeyError
-        the model states no unit of one of them.
-    """
-    from fecolumn.engines.dynamics.history import MEANING, UNITS
-
-    found = {}
-    for name, values in response.coordinates.items():
-        column = f"model/{name}"
-        UNITS[column], found[column] = response.units[name], values
-        if name in MEANING:
-            MEANING[column] = MEANING[name]
-    return found
