@@ -89,6 +89,7 @@ def assembled(
         joint_of(case, contact, kept, places, layout["sizes"], file)
         for contact in layout["contacts"]
     ]
+    joints = _told_apart(joints)
     check_joints(joints, standing, file)
     interfaces = [one["interface"] for one in layout["contacts"]]
     joints = with_pads(case, joints, standing, interfaces, file)
@@ -244,3 +245,15 @@ def _observed(
         (place for place, part in enumerate(parts) if part.held < 0),
         key=lambda place: parts[place].center[2] + parts[place].model.marks["top"][0][2],
     ), "top"
+
+
+def _told_apart(joints: list[JointModel]) -> list[JointModel]:
+    """The joints, each with a name of its own: of two bodies that meet in several faces the second
+    meeting is "joint: up on low, 2".
+    """
+    met: dict[str, int] = {}
+    found = []
+    for joint in joints:
+        number = met[joint.name] = met.get(joint.name, 0) + 1
+        found.append(joint if number == 1 else replace(joint, name=f"{joint.name}, {number}"))
+    return found

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from small_structures import STONE, structure
+from small_structures import RIGID, STONE, structure
 
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.case_text import full_form
@@ -14,6 +14,7 @@ from fecolumn.mesh.bending import rectangle_bending_frequency
 from fecolumn.mesh.jacobian import corner_jacobians
 from fecolumn.mesh.mass import mass_properties
 from fecolumn.mesh.prism import polygon_counts, polygon_mesh
+from fecolumn.simulation import run
 from fecolumn.structures.bodies import drawing
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.reduction import body_of
@@ -353,3 +354,28 @@ def test_a_joint_of_two_voussoirs_stands_beside_that_of_all():
         }
         assert len(found) == 6
         assert {pair for pair, mu in found.items() if mu == 0.2} == {("ring 3", "ring 4")}
+
+
+def test_bodies_that_meet_in_several_faces_have_an_interface_of_its_own_name_for_each(tmp_path):
+    """A step: two level faces and an upright one."""
+    step = dict(kind="prism", width_m=1.0, element_size_m=0.5) | STONE | RIGID
+    case = structure(
+        bodies=dict(
+            low=step | dict(outline_m=[[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]),
+            up=step | dict(outline_m=[[0, 2], [1, 2], [1, 1], [2, 1], [2, 3], [0, 3]]),
+        ),
+        joints=dict(foot=dict(slave="low", on="ground"), joint=dict(slave="up", on="low")),
+        integration=dict(engine="rigid", duration_s=0.01),
+    )
+    found = run(case, tmp_path / "out", quiet=True)["interfaces"]
+    assert list(found) == [
+        "foot: low on ground",
+        "joint: low on up",
+        "joint: up on low",
+        "joint: up on low, 2",
+    ]
+    forces = {name: one["force_max_n"] for name, one in found.items()}
+    weight = 3 * 2700 * 9.80665  # of each; the upright face takes little of it
+    assert forces["foot: low on ground"] == pytest.approx(2 * weight, rel=1e-3)
+    carried = forces["joint: up on low"] + forces["joint: up on low, 2"]
+    assert carried == pytest.approx(weight, rel=0.02)
