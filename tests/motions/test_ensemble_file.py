@@ -173,7 +173,7 @@ def test_table_has_a_row_for_each_motion(tmp_path):
 def test_text_files_are_read_back(tmp_path, kind):
     files = write_text_files(ensemble().motions, tmp_path / "text", kind)
     sources = [str(file) for file in files if file.name.startswith("0002")]
-    again = read_motion(Motion(*sources), "")
+    again = read_motion(Motion(**dict(zip(("source", "source_y", "source_z"), sources))), "")
     original = ensemble().motions[1]
     assert again.acceleration == pytest.approx(
         original.acceleration, rel=1e-6, abs=1e-6

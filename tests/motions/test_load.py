@@ -47,8 +47,8 @@ def refused(motion, dt=0.01):
 def test_components_in_three_files_go_to_their_axes_in_metres(tmp_path):
     motion = Motion(
         at2(tmp_path),
-        at2(tmp_path, "b.AT2", 2 * ACCELERATION),
-        at2(tmp_path, "c.AT2", 3 * ACCELERATION),
+        source_y=at2(tmp_path, "b.AT2", 2 * ACCELERATION),
+        source_z=at2(tmp_path, "c.AT2", 3 * ACCELERATION),
         vertical=True,
     )
     ground = load_motion(motion, 0.01, "case.toml")
@@ -218,12 +218,14 @@ def test_step_that_contradicts_the_file_is_refused(tmp_path):
 
 
 def test_components_of_different_step_are_refused(tmp_path):
-    error = refused(Motion(at2(tmp_path), at2(tmp_path, "b.AT2", dt=0.005)))
+    error = refused(Motion(at2(tmp_path), source_y=at2(tmp_path, "b.AT2", dt=0.005)))
     assert error.key == "motion.source_y" and "0.005 s but motion.source at 0.01 s" in str(error)
 
 
 def test_component_a_few_samples_shorter_is_followed_by_zeros(tmp_path):
-    motion = Motion(at2(tmp_path, values=np.ones(400)), at2(tmp_path, "b.AT2", np.ones(397)))
+    motion = Motion(
+        at2(tmp_path, values=np.ones(400)), source_y=at2(tmp_path, "b.AT2", np.ones(397))
+    )
     assert read_motion(motion, "").acceleration[:, 1].tolist() == [GRAVITY] * 397 + [0] * 3
 
 
@@ -232,15 +234,15 @@ def test_component_a_few_samples_shorter_is_followed_by_zeros(tmp_path):
 )
 def test_component_much_shorter_is_refused(tmp_path, n_x, n_y, key):
     error = refused(
-        Motion(at2(tmp_path, values=np.ones(n_x)), at2(tmp_path, "b.AT2", np.ones(n_y)))
+        Motion(at2(tmp_path, values=np.ones(n_x)), source_y=at2(tmp_path, "b.AT2", np.ones(n_y)))
     )
     assert error.key == key and "395 samples where another component has 400" in str(error)
 
 
 def test_file_of_several_components_beside_another_is_refused(tmp_path):
     source, _ = smooth_csv(tmp_path)
-    assert refused(Motion(source, at2(tmp_path))).key == "motion.source"
-    assert refused(Motion(at2(tmp_path), source)).key == "motion.source_y"
+    assert refused(Motion(source, source_y=at2(tmp_path))).key == "motion.source"
+    assert refused(Motion(at2(tmp_path), source_y=source)).key == "motion.source_y"
 
 
 def test_column_named_for_another_axis_is_refused(tmp_path):
@@ -249,10 +251,10 @@ def test_column_named_for_another_axis_is_refused(tmp_path):
             tmp_path / "y.csv", "t [s], ax [g]\n" + "".join(f"{i / 100},1\n" for i in range(8))
         )
     )
-    assert "must hold ay alone" in str(refused(Motion(at2(tmp_path), column)))
-    assert read_motion(Motion(column, at2(tmp_path)), "").acceleration[:, 0] == pytest.approx(
-        GRAVITY
-    )
+    assert "must hold ay alone" in str(refused(Motion(at2(tmp_path), source_y=column)))
+    assert read_motion(Motion(column, source_y=at2(tmp_path)), "").acceleration[
+        :, 0
+    ] == pytest.approx(GRAVITY)
 
 
 @pytest.mark.parametrize(
