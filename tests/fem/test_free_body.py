@@ -16,32 +16,17 @@ from fecolumn.fem.modes import free_modes
 from fecolumn.fem.rayleigh import elastic_bound
 from fecolumn.verification.models import box
 
+
+def _of(modulus: float, ratio: float, density: float) -> Material:
+    return Material(youngs_modulus_pa=modulus, poissons_ratio=ratio, density_kg_m3=density)
+
+
 # Width and height [m], material, and first bending frequency [Hz] to tell them by
 BARS = {
-    "chimney of 1000 m": (
-        20.0,
-        1000.0,
-        Material(youngs_modulus_pa=50e9, poissons_ratio=0.25, density_kg_m3=2700.0),
-        0.09,
-    ),
-    "rubber post": (
-        0.4,
-        1.2,
-        Material(youngs_modulus_pa=2e6, poissons_ratio=0.45, density_kg_m3=1100.0),
-        9.0,
-    ),
-    "marble block": (
-        0.4,
-        1.2,
-        Material(youngs_modulus_pa=50e9, poissons_ratio=0.25, density_kg_m3=2700.0),
-        950.0,
-    ),
-    "glass rod": (
-        0.002,
-        0.01,
-        Material(youngs_modulus_pa=70e9, poissons_ratio=0.22, density_kg_m3=2500.0),
-        97e3,
-    ),
+    "chimney of 1000 m": (20.0, 1000.0, _of(50e9, 0.25, 2700.0), 0.09),
+    "rubber post": (0.4, 1.2, _of(2e6, 0.45, 1100.0), 9.0),
+    "marble block": (0.4, 1.2, _of(50e9, 0.25, 2700.0), 950.0),
+    "glass rod": (0.002, 0.01, _of(70e9, 0.22, 2500.0), 97e3),
 }
 
 
