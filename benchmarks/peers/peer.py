@@ -158,7 +158,7 @@ PEERS = (
 
 
 def version(peer: Peer) -> str:
-    """Version of a peer.
+    """Version of a peer; empty for this program, whose version stands above the table.
 
     Raises
     ------
@@ -166,9 +166,7 @@ def version(peer: Peer) -> str:
         it cannot be started.
     """
     if peer.version is None:
-        from fecolumn import __version__
-
-        return __version__
+        return ""
     environment = {
         key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "VIRTUAL_ENV")
     }
