@@ -200,6 +200,7 @@ def _run(
         complete_study,
         stop_code,
     )
+    from fecolumn.study.sequential import progress_text, until_decided
 
     plan = read_plan(args.study)
     # an analysis function of the user's may read motions this package does not know
@@ -231,8 +232,14 @@ def _run(
             only=only,
         )
 
+    verdicts: list[Verdict] = []
     try:
-        verdicts, rows = _until_decided(plan, rule, work) if rule else ([], work())
+        if rule:
+            for stage in until_decided(plan, rule, work):
+                motions, verdicts, rows = stage
+                print(progress_text(motions, verdicts), file=sys.stderr, flush=True)
+        else:
+            rows = work()
     except (KeyboardInterrupt, StudyError) as error:
         return stop_code(error), True
     code = _show(plan, rows, args.output, share)
@@ -267,30 +274,6 @@ def _rule(args: argparse.Namespace, share: tuple[int, int] | None, plan: Plan) -
     rule.check("fecolumn study")
     stages(plan, rule)
     return rule
-
-
-def _until_decided(
-    plan: Plan, rule: Rule, work: Callable[[set[str] | None], list[dict[str, Any]]]
-) -> tuple[list[Verdict], list[dict[str, Any]]]:
-    """Work off stage by stage; the verdicts and the ledger's rows."""
-    from fecolumn.study import sequential
-
-    verdicts: list[Verdict] = []
-    rows: list[dict[str, Any]] = []
-    looks = sequential.stages(plan, rule)
-    for motions in looks:
-        rows = work(sequential.stage_analyses(plan, motions, verdicts))
-        verdicts = sequential.judge(plan, rows, rule, looks, motions, verdicts)
-        still = sum(verdict.word == sequential.STILL_OPEN for verdict in verdicts)
-        print(
-            f"{motions} motions: {len(verdicts) - still} of {len(verdicts)} pairs of "
-            "settings decided",
-            file=sys.stderr,
-            flush=True,
-        )
-        if verdicts and not still:
-            break
-    return verdicts, rows
 
 
 def _show(

@@ -11,6 +11,7 @@ by its number of motions, since few decide little. For "differ" the p-values are
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -149,3 +150,38 @@ def judge(
         word = DIFFER if p < level else ALIKE if pair.bound <= rule.margin else STILL_OPEN
         found.append(decided.get(pair.names) or Verdict(pair, word))
     return found
+
+
+def until_decided(
+    plan: Plan, rule: Rule, work: Callable[[set[str]], list[dict[str, Any]]]
+) -> Iterator[tuple[int, list[Verdict], list[dict[str, Any]]]]:
+    """Work off a study stage by stage: motions, verdicts and the ledger's rows after each. A stage
+    is judged by its own motions, whatever more is done: a study that was stopped ends as one that
+    was not.
+
+    Parameters
+    ----------
+    work
+        function of the ids of the analyses to do that returns the ledger's rows of the plan.
+    """
+    verdicts: list[Verdict] = []
+    looks = stages(plan, rule)
+    for motions in looks:
+        rows = work(stage_analyses(plan, motions, verdicts))
+        seen = stage_analyses(plan, motions, [])
+        done = [row for row in rows if row["id"] in seen]
+        verdicts = judge(plan, done, rule, looks, motions, verdicts)
+        yield motions, verdicts, rows
+        if verdicts and not undecided(verdicts):
+            break
+
+
+def undecided(verdicts: list[Verdict]) -> int:
+    """Number of pairs on which nothing is said yet."""
+    return sum(verdict.word == STILL_OPEN for verdict in verdicts)
+
+
+def progress_text(motions: int, verdicts: list[Verdict]) -> str:
+    """One line for a reader after a stage."""
+    decided = len(verdicts) - undecided(verdicts)
+    return f"{motions} motions: {decided} of {len(verdicts)} pairs of settings decided"

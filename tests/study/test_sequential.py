@@ -19,6 +19,7 @@ from fecolumn.study.sequential import (
     judge,
     stage_analyses,
     stages,
+    until_decided,
 )
 from fecolumn.study.store import DONE
 
@@ -126,6 +127,27 @@ def test_false_statements_stay_below_the_error_allowed(tmp_path):
             verdicts = judge(plan, rows, rule, looks, motions, verdicts)
         wrong += verdicts[0].word == DIFFER
     assert wrong <= 9  # of 100 at 5 %: 9 or fewer with probability 0.97
+
+
+def test_study_that_was_stopped_ends_as_one_that_was_not(tmp_path):
+    """What later stages had done before the stop does not count at an earlier look."""
+    plan, peak = plan_of(tmp_path, 320), peaks(1.0, scatter=0.05)
+    known = {
+        row["id"]: row["summary"] for row in rows_of(plan, {a.id for a in plan.analyses}, peak)
+    }
+
+    def work(done):
+        def rows(asked):
+            done.update(asked)
+            return rows_of(plan, done, lambda analysis: known[analysis.id]["u_max_m"])
+
+        return rows
+
+    whole, again = (
+        [verdicts for _, verdicts, _ in until_decided(plan, Rule(), work(done))]
+        for done in (set(), stage_analyses(plan, 320, []))
+    )
+    assert whole == again and len(whole) < len(stages(plan, Rule()))
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,1 @@
+"""Studies that take motions until their question is decided."""

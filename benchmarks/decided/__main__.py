@@ -1,0 +1,174 @@
+"""Do the time step and alpha decide the distribution? Motions of the Lick ensemble, stage by stage,
+until each pair of settings is told apart, or told alike within 0.1.
+
+    ./containers/run python -m benchmarks.decided STUDY [-j N] [-o DIR] [--report] [--keep]
+
+STUDY names a file of this folder, such as own_mesh. Prints the pairs that differ in one axis:
+motions in both, verdict, how many overturn, D (the largest distance of their distributions), the
+distance that the data exclude, p of D, how many overturn in one setting alone, and McNemar's p. No
+p is corrected; the verdicts are, for pairs and looks (`fecolumn.study.sequential`).
+
+The same command goes on where it was stopped. What benchmarks/tables/decided holds is not computed
+again; --keep writes what is done there, --report computes nothing and judges the stages that are
+done.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import signal
+import sys
+from pathlib import Path
+from typing import Any
+
+from benchmarks.beside import compared, markdown, told
+from benchmarks.tables.runs import read_runs, write_runs
+from fecolumn.cli import main as fecolumn
+from fecolumn.study.conclusion import settings_of
+from fecolumn.study.plan import Plan, read_plan
+from fecolumn.study.run import StudyError, complete_study, stop_code
+from fecolumn.study.sequential import Rule, Verdict, progress_text, until_decided
+from fecolumn.study.store import DONE
+
+HERE = Path(__file__).parent
+STUDIES = sorted(file.stem for file in HERE.glob("*.toml"))
+#: Motions of these studies, made unless they are there
+MOTIONS = HERE.parents[1] / "results" / "lick1000.h5"
+#: Of a summary, what is kept
+KEPT = "u_max_m", "overturned", "slid_off"
+HEAD = (
+    "settings",
+    "motions",
+    "verdict",
+    "overturned at the first",
+    "at the second",
+    "D",
+    "at most",
+    "p",
+    "at the first alone",
+    "at the second alone",
+    "McNemar p",
+)
+
+
+def kept_name(study: str, values: dict[str, Any]) -> str:
+    """Of the rows of a setting in benchmarks/tables."""
+    return f"decided/{'-'.join([study, *(f'{value:g}' for value in values.values())])}"
+
+
+def number_of(values: dict[str, Any]) -> int:
+    """Of the motion of an analysis, by its axis values."""
+    return int(re.split("[#:]", values["motion.source"])[-1])
+
+
+def kept_rows(study: str, plan: Plan) -> dict[str, dict[str, Any]]:
+    """Rows of a ledger, by id, of what comes with the repository."""
+    runs: dict[str, dict] = {}
+    rows = {}
+    for analysis in plan.analyses:
+        name = kept_name(study, analysis.combination)
+        if name not in runs:
+            runs[name] = read_runs(name)
+        if summary := runs[name].get(number_of(analysis.values)):
+            rows[analysis.id] = {"id": analysis.id, "state": DONE, "summary": summary}
+    return rows
+
+
+def keep(study: str, plan: Plan, rows: list[dict[str, Any]]) -> None:
+    """Have the rows of a study come with the repository."""
+    summaries = {row["id"]: row["summary"] for row in rows if row["state"] == DONE}
+    runs: dict[str, dict[int, dict]] = {}
+    for analysis in plan.analyses:
+        if summary := summaries.get(analysis.id):
+            kept = {key: summary.get(key, False) for key in KEPT}
+            into = runs.setdefault(kept_name(study, analysis.combination), {})
+            into[number_of(analysis.values)] = kept
+    for name, found in runs.items():
+        title = f"{plan.title}: {name.partition('/')[2]}, largest displacement [m] and outcome"
+        write_runs(name, found, title, f"python -m benchmarks.decided {study} --keep")
+
+
+def table(plan: Plan, rows: list[dict[str, Any]], verdicts: list[Verdict], rule: Rule) -> str:
+    """The pairs of settings, of the motions by which they are judged."""
+    runs = {repr(values): found for values, found in settings_of(plan, rows)}
+    lines = []
+    for verdict in verdicts:
+        pair = verdict.pair
+        first, second = (runs[repr(values)] for values in pair.settings)
+        common = [motion for motion in first if motion in second][: pair.n]
+        sides = [{motion: one[motion] for motion in common} for one in (first, second)]
+        distance, p, alone, other, flips = compared(*sides)
+        word = verdict.text(rule).partition(": ")[2].partition(";")[0]
+        lines.append(
+            (
+                " and ".join(pair.names),
+                pair.n,
+                word,
+                *(sum(run["overturned"] for run in side.values()) for side in sides),
+                f"{distance:.3f}",
+                f"{pair.bound:.3f}",
+                told(p),
+                alone,
+                other,
+                told(flips),
+            )
+        )
+    return markdown(HEAD, lines)
+
+
+def main(given=None) -> int:
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.decided",
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("study", choices=STUDIES, metavar="STUDY", help=", ".join(STUDIES))
+    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, metavar="N")
+    parser.add_argument("-o", "--output", metavar="DIR", type=Path, default=Path("results/decided"))
+    parser.add_argument(
+        "--most", type=int, default=Rule().most, metavar="N", help="motions at most"
+    )
+    parser.add_argument("--report", action="store_true")
+    parser.add_argument("--keep", action="store_true")
+    args = parser.parse_args(given)
+    if not MOTIONS.exists():
+        MOTIONS.parent.mkdir(exist_ok=True)
+        fecolumn(["motions", "make", "seeded", "-n", "1000", "-o", str(MOTIONS)])
+    plan, rule = read_plan(HERE / f"{args.study}.toml"), Rule(most=args.most)
+    rule.check("benchmarks.decided")
+    kept, folder = kept_rows(args.study, plan), args.output / args.study
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+
+    def work(only: set[str]) -> list[dict[str, Any]]:
+        todo = only - kept.keys()
+        if args.report:
+            rows = complete_study(plan, folder, only=set())
+            if todo - {row["id"] for row in rows if row["state"] == DONE}:
+                raise _Unfinished
+        else:
+            rows = complete_study(plan, folder, workers=args.jobs, retry_failed=True, only=todo)
+        return [kept.get(row["id"], row) for row in rows]
+
+    code, verdicts = 0, []
+    try:
+        for motions, verdicts, _ in until_decided(plan, rule, work):
+            print(progress_text(motions, verdicts), file=sys.stderr, flush=True)
+    except _Unfinished:
+        pass
+    except (KeyboardInterrupt, StudyError) as error:
+        code = stop_code(error)
+    rows = [kept.get(row["id"], row) for row in complete_study(plan, folder, only=set())]
+    if args.keep:
+        keep(args.study, plan, rows)
+    print(table(plan, rows, verdicts, rule) if verdicts else "no stage is done yet")
+    return code
+
+
+class _Unfinished(Exception):
+    """A stage is not done, and nothing is to be computed."""
+
+
+if __name__ == "__main__":
+    sys.exit(main())
