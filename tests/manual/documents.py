@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import re
 from pathlib import Path
 
@@ -26,3 +27,9 @@ def listed(page: str, heading: str) -> dict[str, str]:
         r"^#+ ", text.partition(f"# {heading}\n")[2], maxsplit=1, flags=re.MULTILINE
     )[0]
     return dict(re.findall(r"^\| `([^`]+)` \| ([^|]+?) \|", section, re.MULTILINE))
+
+
+def header(file: Path) -> list[str]:
+    """Names of the columns of a CSV file."""
+    with open(file, newline="", encoding="utf-8") as rows:
+        return next(csv.reader(rows))
