@@ -69,3 +69,9 @@ def test_table_tells_the_motions_by_which_a_pair_is_judged(plan, rows):
     assert [cells["overturned at the first"], cells["at the second"]] == list(map(str, lost))
     assert cells["at the first alone"] == "0"
     assert cells["at the second alone"] == str(lost[1] - lost[0])
+
+
+def test_rows_that_come_with_the_repository_are_of_studies_that_are_there():
+    names = {f"decided/{file.stem}" for file in (tables.FOLDER / "decided").glob("*.csv")}
+    assert names and all(tables.read(name).current for name in names)
+    assert {name.partition("/")[2].partition("-")[0] for name in names} <= set(decided.STUDIES)
