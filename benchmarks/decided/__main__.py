@@ -4,8 +4,8 @@ until each pair of settings is told apart, or told alike within 0.1.
     ./containers/run python -m benchmarks.decided STUDY [-j N] [-o DIR] [--report] [--keep]
 
 STUDY names a file of this folder, such as own_mesh. Prints the pairs that differ in one axis:
-motions in both, verdict, how many overturn, D (the largest distance of their distributions), the
-distance that the data exclude, p of D, how many overturn in one setting alone, and McNemar's p. No
+motions in both, verdict, how many overturn, D (the largest distance of their distributions), up to
+where the data leave room for it, p of D, how many overturn in one setting alone, McNemar's p. No
 p is corrected; the verdicts are, for pairs and looks (`fecolumn.study.sequential`).
 
 The same command goes on where it was stopped. What benchmarks/tables/decided holds is not computed
