@@ -23,7 +23,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from benchmarks.beside import compared, markdown, told
+from benchmarks.beside import markdown, pair_cells
 from benchmarks.tables.runs import read_runs, write_runs
 from fecolumn.cli import main as fecolumn
 from fecolumn.study.conclusion import settings_of
@@ -99,20 +99,16 @@ def table(plan: Plan, rows: list[dict[str, Any]], verdicts: list[Verdict], rule:
         first, second = (runs[repr(values)] for values in pair.settings)
         common = [motion for motion in first if motion in second][: pair.n]
         sides = [{motion: one[motion] for motion in common} for one in (first, second)]
-        distance, p, alone, other, flips = compared(*sides)
-        word = verdict.text(rule).partition(": ")[2].partition(";")[0]
+        distance, *rest = pair_cells(*sides)
         lines.append(
             (
                 " and ".join(pair.names),
                 pair.n,
-                word,
+                verdict.judged(rule),
                 *(sum(run["overturned"] for run in side.values()) for side in sides),
-                f"{distance:.3f}",
+                distance,
                 f"{pair.bound:.3f}",
-                told(p),
-                alone,
-                other,
-                told(flips),
+                *rest,
             )
         )
     return markdown(HEAD, lines)

@@ -65,17 +65,20 @@ class Verdict:
     pair: SettingPair
     word: str
 
-    def text(self, rule: Rule) -> str:
-        """One line for a reader."""
-        pair = self.pair
-        judged = {
+    def judged(self, rule: Rule) -> str:
+        """The verdict in words."""
+        return {
             DIFFER: "differ",
             ALIKE: f"alike within {rule.margin:g}",
             STILL_OPEN: "not decided",
         }[self.word]
+
+    def text(self, rule: Rule) -> str:
+        """One line for a reader."""
+        pair = self.pair
         return (
-            f"{pair.names[0]} and {pair.names[1]}: {judged}; distance {pair.distance:.3f}, "
-            f"at most {pair.bound:.3f}, p = {pair.p:.4f}, N = {pair.n}"
+            f"{pair.names[0]} and {pair.names[1]}: {self.judged(rule)}; distance "
+            f"{pair.distance:.3f}, at most {pair.bound:.3f}, p = {pair.p:.4f}, N = {pair.n}"
         )
 
 
