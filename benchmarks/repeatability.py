@@ -33,7 +33,7 @@ def main(folder) -> None:
             axes = row["axes"]
             size = max(
                 abs(axes["contact.friction_coefficient"] / 0.3 - 1),
-                axes["motion.delay_s"] / row["summary"]["dt"],
+                axes["motion.delay_s"] / row["summary"]["dt_s"],
             )
             motions[axes["motion.source"]][float(f"{size:.0e}")].append(
                 (Path(folder) / "analyses" / row["id"] / "history.h5", row["summary"])

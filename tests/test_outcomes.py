@@ -14,8 +14,8 @@ import pytest
 from fecolumn import simulation
 from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.cli import main
-from fecolumn.engines.analysis import energy_closure
 from fecolumn.engines.ending import ending_text
+from fecolumn.engines.summary_entries import energy_closure
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.toml_file import merge, read_toml
 

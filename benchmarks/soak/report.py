@@ -81,7 +81,7 @@ def report(folder: Path, seed: int, specimens: int) -> int:
             motion = row["axes"]["motion.source"].rpartition("/")[2] or "no motion"
             print(
                 f"    {row['axes']['number']:>7} {one[key]:9.2e}  specimen "
-                f"{row['axes']['specimen']}, {one['engine']}, dt {one['dt']:.2e} s, "
+                f"{row['axes']['specimen']}, {one['engine']}, dt {one['dt_s']:.2e} s, "
                 f"{one['steps']} steps, {one['cuts']} cuts, "
                 f"{1e3 * one['s_per_step']:.2f} ms/step, {one['outcome']}; {motion}"
             )

@@ -22,11 +22,12 @@ from fecolumn.engines.ending import (
     STILL_ROCKING,
     Ending,
 )
+from fecolumn.engines.resume import CHECKPOINT, Resumable
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.summary import write_sealed
-from fecolumn.foundation.files import is_file
+from fecolumn.engines.summary_entries import energy_closure, entries_of
 from fecolumn.foundation.schema import InputError
-from fecolumn.foundation.sources import code, code_text
+from fecolumn.foundation.sources import code
 from fecolumn.motions.record import GroundMotion
 
 if TYPE_CHECKING:
@@ -39,33 +40,24 @@ if TYPE_CHECKING:
     from fecolumn.engines.dynamics.cuts import StepFailed
     from fecolumn.engines.dynamics.record import Record
 
-CHECKPOINT = "checkpoint.npz"
-
 
 class AnalysisFailed(RuntimeError):
     """The analysis could not go on; its state is saved in the result folder."""
 
 
-class Analysis:
+class Analysis(Resumable):
     """What an analysis is, whatever its engine: motion, result files, summary.
 
     Attributes
     ----------
     case, folder, comm, file, quiet
-        as of `run`. motion: None for a base at rest. steps: to be made at most; step: the last one
-        made.
+        as of `run`. motion: None for a base at rest.
     motion_steps
         until the motion is over. until_rest: whether the analysis ends when the column is at rest.
-    history
-        rows so far. stepping_s, earlier_s: wall time of steps, and of earlier runs [s].
     dt_chosen
         how the time step was chosen; None where the case states it.
-    code
-        version and sources that the result is of; of an analysis that went on from other code's
-        checkpoint, both sources.
     stance, top_arm
-        of `contact.overturning`; standing_j: mechanical energy in gravity equilibrium, where
-        nothing moves [J]; the engine sets these three.
+        of `contact.overturning`; the engine sets them, and standing_j.
     """
 
     stance: Stance
@@ -202,104 +194,6 @@ class Analysis:
         """Steps between frames of the fields; 0 for no fields."""
         every = self.case.output.fields_every_s
         return max(1, round(every / self.dt_s)) if every else 0
-
-    def went_on(self, take: Callable[[dict[str, NDArray[Any]]], None]) -> bool:
-        """Whether the analysis goes on from its checkpoint; from one that cannot be used it does
-        not, and says so.
-
-        Parameters
-        ----------
-        take
-            takes over the arrays of a checkpoint; it raises, and has changed nothing but what the
-            start sets, where they do not fit.
-        """
-        from fecolumn.engines.dynamics.checkpoint import read_arrays
-        from fecolumn.engines.dynamics.history import History
-
-        path, problem = self.folder / CHECKPOINT, ""
-        if not self.comm.bcast(is_file(path) if self.comm.rank == 0 else None):
-            return False
-        try:
-            take(read_arrays(path))
-        except Exception as error:  # damaged archives lead to errors of a dozen kinds
-            problem = f"{type(error).__name__}: {error}".split("\n")[0]
-        problem = next(filter(None, self.comm.allgather(problem)), "")
-        if problem:
-            if self.comm.rank == 0:
-                warnings.warn(
-                    f"{path} cannot be used ({problem}); the analysis starts afresh", stacklevel=2
-                )
-            self.history, self.step, self.stepping_s, self.earlier_s, self.code = (
-                History(),
-                0,
-                0.0,
-                0.0,
-                code(),
-            )
-        return not problem
-
-    def resumed(self, extra: dict[str, Any]) -> None:
-        """Take over what an earlier run had, from the `extra` arrays of its checkpoint.
-
-        Raises
-        ------
-        ValueError
-            they are of another case, or not whole.
-        """
-        from fecolumn.engines.dynamics.history import History
-
-        rows = {name[5:]: values for name, values in extra.items() if name.startswith("rows.")}
-        step, stepping_s, earlier_s, standing_j = (
-            int(extra["step"]),
-            *(float(extra[name]) for name in ("stepping_s", "wall_s", "standing_j")),
-        )
-        if str(extra["case_id"]) != self.case.id:
-            raise ValueError(f"of another case, {extra['case_id']}")
-        if (
-            not 0 <= step <= self.steps
-            or {len(values) for values in rows.values()} != {step + 1}
-            or min(stepping_s, earlier_s) < 0
-        ):
-            raise ValueError("its history is not whole")
-        self.history, self.step, self.stepping_s, self.earlier_s, self.standing_j = (
-            History(rows),
-            step,
-            stepping_s,
-            earlier_s,
-            standing_j,
-        )
-        self._went_on_from(*(str(extra.get(name, "")) for name in ("version", "sources")))
-
-    def _went_on_from(self, version: str, sources: str) -> None:
-        """Take note of the code that wrote a checkpoint, which is told where it is another than
-        this.
-        """
-        if sources.split("+")[-1] == self.code["sources"]:
-            self.code["sources"] = sources
-            return
-        if self.comm.rank == 0:
-            warnings.warn(
-                f"{self.folder / CHECKPOINT} is of other code, "
-                f"{code_text(version, sources)}; this is {code_text(**self.code)}: "
-                "the result will be of both, a new folder starts afresh",
-                stacklevel=2,
-            )
-        self.code["sources"] = f"{sources or 'not recorded'}+{self.code['sources']}"
-
-    def to_resume(self) -> dict[str, Any]:
-        """The `extra` arrays of a checkpoint that `resumed` takes."""
-        extra = {f"rows.{name}": values for name, values in self.history.arrays().items()}
-        return (
-            extra
-            | self.code
-            | dict(
-                case_id=self.case.id,
-                step=self.step,
-                stepping_s=self.stepping_s,
-                standing_j=self.standing_j,
-                wall_s=self.earlier_s + time.perf_counter() - self.began,
-            )
-        )
 
     def write_history(self) -> None:
         """Write history.h5 on rank 0, its rows as far apart as the case says."""
@@ -449,59 +343,32 @@ class Analysis:
         """Write the last history and the summary of any engine, with `more` entries of this one;
         the summary is returned.
         """
-        from fecolumn.engines.dynamics.energy import TERMS
-
-        rows, plan, overturned = (
-            self.history.arrays(),
-            self.case.integration,
-            ending.outcome == OVERTURNED,
+        rows = self.history.arrays()
+        summary = (
+            dict(
+                case_id=self.case.id,
+                title=self.case.title,
+                **self.code,
+                engine=self.case.integration.engine,
+                dofs=dofs,
+                steps=self.step,
+                dt_s=self.dt_s,
+                motion=self.motion.name if self.motion else "",
+                motion_cut_at_s=self.cut_at_s,
+            )
+            | entries_of(rows, ending)
+            | self.limits()
+            | dict(
+                energy_left_j=None if ending.outcome == OVERTURNED else self.energy_left(),
+                energy_to_overturn_j=self.barrier_j,
+                energy_closure_rel=energy_closure(rows),
+                ranks=self.comm.size,
+                wall_s=self.earlier_s + time.perf_counter() - self.began,
+                cpu_s=self.cpu_s,
+                s_per_step=self.stepping_s / max(self.step, 1),
+            )
+            | more
         )
-        slid_off, slide = ending.outcome == SLID_OFF, rows["slide"][-1]
-        top = np.hypot(rows["u_top"][:, 0], rows["u_top"][:, 1])
-        fall, end = rows["u_top"][-1], float(rows["time"][-1])
-        lost_at = end if ending.lost_at_s is None else ending.lost_at_s
-        deep = rows.get("penetration")  # a rigid model has none
-        summary = dict(
-            case_id=self.case.id,
-            title=self.case.title,
-            **self.code,
-            engine=plan.engine,
-            dofs=dofs,
-            steps=self.step,
-            dt=plan.dt_s,
-            motion=self.motion.name if self.motion else "",
-            duration_s=end,
-            motion_cut_at_s=self.cut_at_s,
-            outcome=ending.outcome,
-            ended_by=ending.ended_by,
-            # what overturns or slides off goes further than the analysis: its largest displacement
-            # is where that stopped, and no peak
-            u_max_m=float(top.max()),
-            u_max_censored=overturned or slid_off,
-            overturned=overturned,
-            overturn_time_s=lost_at if overturned else None,
-            overturn_direction_deg=float(np.degrees(np.arctan2(fall[1], fall[0])))
-            if overturned
-            else None,
-            slid_off=slid_off,
-            slid_off_time_s=end if slid_off else None,
-            slid_off_direction_deg=float(np.degrees(np.arctan2(slide[1], slide[0])))
-            if slid_off
-            else None,
-            **self.limits(),
-            energy_left_j=None if overturned else self.energy_left(),
-            energy_to_overturn_j=self.barrier_j,
-            tilt_max_rad=float(rows["tilt"].max()),
-            residual_slide_m=float(np.hypot(*rows["slide"][-1])),
-            **({"penetration_max_m": float(deep.max())} if deep is not None else {}),
-            ranks=self.comm.size,
-            wall_s=self.earlier_s + time.perf_counter() - self.began,
-            cpu_s=self.cpu_s,
-            s_per_step=self.stepping_s / max(self.step, 1),
-            energy_closure_rel=energy_closure(rows),
-            energy_j={name: float(rows[f"energy/{name}"][-1]) for name in TERMS},
-        )
-        summary |= more
         self.write_history()
         if self.comm.rank == 0:
             summary = write_sealed(self.folder, summary)
@@ -524,18 +391,3 @@ def cut_text(file: Path | str, end_s: float, motion_s: float) -> str:
         f"lasts {motion_s:g} s; without integration.duration_s "
         "the whole motion is analysed"
     )
-
-
-def energy_closure(rows: dict[str, Any]) -> float:
-    """Largest closure error relative to the largest energy that moved, or is held [-].
-
-    Reference is the largest of kinetic energy, swing of the gravity energy, work of the base
-    motion, and strain energy: that which a standing structure holds where nothing moves.
-    """
-    moved = max(
-        rows["energy/kinetic"].max(),
-        np.ptp(rows["energy/gravity"]),
-        np.abs(rows["energy/base_work"]).max(),
-        np.max(rows.get("energy/strain", 0.0)),
-    )
-    return float(np.abs(rows["energy/closure"]).max() / moved) if moved > 0 else 0.0

@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
-from fecolumn.engines.analysis import CHECKPOINT
 from fecolumn.engines.ending import Ending
 from fecolumn.engines.pace import Pace
 from fecolumn.engines.reduced_engine import begins_unstrained
+from fecolumn.engines.resume import CHECKPOINT
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.fem.rotation import out_of_frames

@@ -20,7 +20,7 @@ from fecolumn.contact.known_base import KnownBase
 from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.problem import list_present
 from fecolumn.contact.unbounded_base import UnboundedBase
-from fecolumn.engines.analysis import CHECKPOINT, AnalysisFailed
+from fecolumn.engines.analysis import AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
@@ -32,6 +32,7 @@ from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.engines.reduced.run import advance
 from fecolumn.engines.reduced.states import States, state_of
 from fecolumn.engines.reduced_engine import begins_unstrained, engine_of, upright
+from fecolumn.engines.resume import CHECKPOINT
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.foundation._compiled import compiled, interpreted

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.overturning import FELL, critical_displacement, critical_tilt_along
 from fecolumn.contact.points import GROUND
-from fecolumn.engines.analysis import CHECKPOINT, Analysis, AnalysisFailed
+from fecolumn.engines.analysis import Analysis, AnalysisFailed
 from fecolumn.engines.ending import AT_REST, OVERTURNED, REST_SHARE, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.engines.fallen_bodies import FallenBodies
 from fecolumn.engines.left_part import way_out
 from fecolumn.engines.peaks import peaks
+from fecolumn.engines.resume import CHECKPOINT
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import feet_on_springs, least_barrier, stances

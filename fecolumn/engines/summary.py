@@ -30,7 +30,7 @@ _OPTIONAL = (
     "parts",
     "factorizations",
     "ranks",
-    "dt",
+    "dt_s",
     "motion_cut_at_s",
 )
 _MOST_BYTES = 10_000_000

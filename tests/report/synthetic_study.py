@@ -107,7 +107,7 @@ def _summary(analysis, effect, scatter, cost) -> dict:
         "kinematics": "corotated",
         "dofs": 20964,
         "steps": steps,
-        "dt": dt,
+        "dt_s": dt,
         "alpha_hht": values.get(ALPHA, -0.2),
         "motion": motion,
         "duration_s": end,

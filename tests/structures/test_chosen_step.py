@@ -97,7 +97,7 @@ def test_rattling_before_the_impacts_that_count_is_none():
 def test_bodies_without_give_lose_the_same_at_every_step_and_take_the_longest(tmp_path, capsys):
     summary = simulation.run(_case(), tmp_path / "auto")
     chosen = summary["dt_chosen"]
-    assert summary["dt"] == chosen["dt_s"] == 2e-3 and summary["steps"] == 500
+    assert summary["dt_s"] == chosen["dt_s"] == 2e-3 and summary["steps"] == 500
     assert chosen["converged"] and chosen["agrees_at_half"] and chosen["impacts"] == 3
     assert [one["dt_s"] for one in chosen["trials"]] == [2e-3, 1e-3, 1.25e-4]
     assert all(one["loss"] == pytest.approx(1.0, abs=2e-3) for one in chosen["trials"])
@@ -131,7 +131,7 @@ def test_what_was_interrupted_goes_on_with_the_step_chosen_before(tmp_path, monk
     assert case.id == kept["id"]
     summary = simulation.run(_case(), tmp_path / "out", quiet=True)
     assert summary == simulation.run(case, tmp_path / "out", file=file, quiet=True)
-    assert summary["dt"] == 5e-4 and summary["steps"] == 2000
+    assert summary["dt_s"] == 5e-4 and summary["steps"] == 2000
     assert summary["dt_chosen"] == kept["dt_chosen"]
     # the folder is this case's
     monkeypatch.setattr(step_choice, "StepChoice", Choice)

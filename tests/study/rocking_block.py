@@ -79,7 +79,7 @@ def rock(case, draw) -> dict:
         "kinematics": "rigid",
         "dofs": 1,
         "steps": step + 1,
-        "dt": dt,
+        "dt_s": dt,
         "alpha_hht": alpha,
         "duration_s": (step + 1) * dt,
         "u_max_m": u_max,
