@@ -22,7 +22,7 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.bonds import pulls_of_bonds
-from fecolumn.structures.meetings import Meeting
+from fecolumn.structures.meeting import Meeting
 from fecolumn.structures.model import JointModel, StructureModel
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.place import Standing, footing

@@ -21,7 +21,8 @@ from fecolumn.contact.tolerances import EDGE_REACH, ROUND_NODES
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.faces import Face, apart, over, triangles_of
 from fecolumn.structures.feet import ball_of, foot_of
-from fecolumn.structures.meetings import Meeting, allowance_of, place_of
+from fecolumn.structures.meeting import Meeting, place_of
+from fecolumn.structures.meetings import allowance_of
 from fecolumn.structures.outlines import convex_outline, crossings, inwards, outline_of
 from fecolumn.structures.patches import Patch, node_patch, whole_face
 

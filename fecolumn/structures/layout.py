@@ -19,7 +19,8 @@ from fecolumn.structures.edges import Edge, edge_patch, edges_of
 from fecolumn.structures.faces import Face
 from fecolumn.structures.feet import ball_of, lifted
 from fecolumn.structures.hulls import HULL, hull_patch
-from fecolumn.structures.meetings import Meeting, meetings_of, place_of, zones_of
+from fecolumn.structures.meeting import Meeting, place_of
+from fecolumn.structures.meetings import meetings_of, zones_of
 from fecolumn.structures.patches import Patch, master_patch, slave_patch
 from fecolumn.structures.shapes import Spot
 from fecolumn.structures.size import refuse_too_large

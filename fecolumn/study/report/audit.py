@@ -9,7 +9,6 @@ import numpy as np
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.study.mixture import codes, listed
-from fecolumn.study.report.distributions import axis_columns
 from fecolumn.study.report.document import (
     Figure,
     PageBlock,
@@ -20,6 +19,7 @@ from fecolumn.study.report.document import (
 )
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import axis_name, count, fixed, number
+from fecolumn.study.report.setting_columns import axis_columns
 from fecolumn.study.report.sweep import Setting, Sweep
 from fecolumn.study.store import DONE, FAILED
 

@@ -13,7 +13,6 @@ from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.statistics.bands import wilson
 from fecolumn.statistics.fragility import DegenerateData, Fragility, logit, lognormal
-from fecolumn.study.report.distributions import axis_columns
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.intensity import NOT_FOUND, SCALE, Intensities, Runs, across_scales
@@ -26,6 +25,7 @@ from fecolumn.study.report.notation import (
     p_value,
     sentence,
 )
+from fecolumn.study.report.setting_columns import axis_columns
 from fecolumn.study.report.sweep import Sweep
 
 LABEL = "PGV, RotD50 [m/s]"

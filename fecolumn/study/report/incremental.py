@@ -16,12 +16,12 @@ from fecolumn.pictures.figures.incremental_figure import incremental_figure
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.statistics.fragility import DegenerateData, Fragility
 from fecolumn.statistics.incremental import IncrementalCurve, first_overturning, incremental_curves
-from fecolumn.study.report.distributions import axis_columns
 from fecolumn.study.report.document import PageBlock, PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.fragility import LABEL, curve_axis
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.intensity import NOT_FOUND, SCALE, Intensities, across_scales
 from fecolumn.study.report.notation import axis_name, count, fixed, interval, millimetres
+from fecolumn.study.report.setting_columns import axis_columns
 from fecolumn.study.report.sweep import Setting, Sweep
 
 _LEAST_SCALES, _LEAST_MOTIONS, _FOLD = 3, 3, 20

@@ -10,7 +10,6 @@ from fecolumn.engines.ending import lost
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.pair_figure import Variable, pair_figure
 from fecolumn.study.alpha import ALPHA_KEY
-from fecolumn.study.report.distributions import setting_words
 from fecolumn.study.report.document import (
     Figure,
     PageBlock,
@@ -30,6 +29,7 @@ from fecolumn.study.report.notation import (
     p_value,
     percent,
 )
+from fecolumn.study.report.setting_columns import setting_words
 from fecolumn.study.report.sweep import Line, Sweep
 
 _VARIABLES, _MATRICES, _FOLD = 6, 4, 20

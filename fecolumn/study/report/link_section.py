@@ -6,9 +6,9 @@ from collections.abc import Callable
 from typing import Any
 
 from fecolumn.study.device_peaks import BOND_COLUMNS, LINK_COLUMNS, peaks_of_bonds, peaks_of_links
-from fecolumn.study.report.distributions import axis_columns
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.notation import count, number
+from fecolumn.study.report.setting_columns import axis_columns
 from fecolumn.study.report.sweep import Sweep
 
 _FOLD = 40

@@ -21,10 +21,10 @@ from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import censored, ecdf, percentile, proportion_interval
 from fecolumn.statistics.equivalence import distance_bound
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
-from fecolumn.study.report.distributions import axis_columns
 from fecolumn.study.report.document import PageBlock, PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import count, interval, millimetres, number, p_value, percent
+from fecolumn.study.report.setting_columns import axis_columns
 from fecolumn.study.report.sweep import ENGINE_KEY, Setting, Sweep, common_motions
 
 #: What the others are measured against: the first of these with the most motions that one of them

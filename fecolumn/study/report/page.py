@@ -18,7 +18,7 @@ from fecolumn.study.report.audit import audit
 from fecolumn.study.report.claim import MARGIN, SUPPORTED, Claim, ClaimList
 from fecolumn.study.report.cost import cost_claims
 from fecolumn.study.report.distribution_claims import distribution_claims
-from fecolumn.study.report.distributions import TARGET_NOTE, distributions
+from fecolumn.study.report.distributions import distributions
 from fecolumn.study.report.document import (
     PageColumn,
     PageSection,
@@ -37,6 +37,7 @@ from fecolumn.study.report.intensity import Intensities
 from fecolumn.study.report.link_section import bond_section, link_section
 from fecolumn.study.report.models import models
 from fecolumn.study.report.notation import axis_name, count, percent
+from fecolumn.study.report.overturning_table import TARGET_NOTE
 from fecolumn.study.report.pair import ComparedPair, read_pairs
 from fecolumn.study.report.podium import podium
 from fecolumn.study.report.power import power

@@ -8,7 +8,6 @@ from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.cost import second_cost
-from fecolumn.study.report.distributions import axis_columns
 from fecolumn.study.report.document import (
     Figure,
     PageBlock,
@@ -19,6 +18,7 @@ from fecolumn.study.report.document import (
 )
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import axis_name, number, sentence
+from fecolumn.study.report.setting_columns import axis_columns
 from fecolumn.study.report.sweep import DT_KEY, Setting, Sweep
 
 _CURVES, _FOLD = 7, 40
