@@ -105,6 +105,19 @@ def _constants(node) -> list[str]:
     return [one.id for one in found if isinstance(one, ast.Name) and one.id.isupper()]
 
 
+def test_compiled_functions_have_no_comprehension():
+    """With one in a function numba (0.68) drops what it writes into arrays of a record."""
+    found = [
+        f"{file}:{function.lineno} {function.name}"
+        for file, tree in _modules()
+        for function in ast.walk(tree)
+        if isinstance(function, ast.FunctionDef) and _is_kernel(function)
+        for part in ast.walk(function)
+        if isinstance(part, ast.ListComp | ast.GeneratorExp | ast.Lambda)
+    ]
+    assert not found
+
+
 def test_a_public_name_is_defined_once():
     """Functions, classes, aliases of types and constants of modules, whatever the folder."""
     homes = collections.defaultdict(list)

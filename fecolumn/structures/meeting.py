@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from fecolumn.case.case import Case
 
 #: Over the slave's width: what faces a body across a smaller gap was meant to touch it
-NEAR = 0.05
+MEANT_TO_TOUCH = 0.05
 #: Cosine from which faces look at one another, and sine up to which they are parallel
 OPPOSITE = 1e-5
 

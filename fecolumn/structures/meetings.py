@@ -14,7 +14,7 @@ from fecolumn.case.case import Case
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import SAME_PLANE, Face, any_over, triangles_of
 from fecolumn.structures.feet import ball_of
-from fecolumn.structures.meeting import NEAR, OPPOSITE, Gap, Meeting, place_of
+from fecolumn.structures.meeting import MEANT_TO_TOUCH, OPPOSITE, Gap, Meeting, place_of
 from fecolumn.structures.not_touching import refuse_joint
 from fecolumn.structures.overlaps import depth_along
 from fecolumn.structures.patches import plane_box
@@ -98,7 +98,7 @@ def _of_interface(
             one for one in gaps if frozenset((one.meeting.slave, one.meeting.master)) not in met
         ]
         found += across
-    near = [one for one in gaps if abs(one.gap) <= NEAR * one.width]
+    near = [one for one in gaps if abs(one.gap) <= MEANT_TO_TOUCH * one.width]
     if near or not found:
         refuse_joint(case, name, interface, near or gaps, bool(near), faces, file)
     return found

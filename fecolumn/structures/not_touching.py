@@ -11,7 +11,7 @@ from fecolumn.case.case import Case
 from fecolumn.case.joint import Joint
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.faces import Face
-from fecolumn.structures.meeting import NEAR, OPPOSITE, Gap, place_of
+from fecolumn.structures.meeting import MEANT_TO_TOUCH, OPPOSITE, Gap, place_of
 from fecolumn.structures.overlaps import common_ball
 
 # Sine of the angle up to which faces were meant to look at one another
@@ -121,7 +121,7 @@ def _inclined(case: Case, name: str, faces: dict[str, list[Face]]) -> str:
                         continue
                     theirs = facing.corners.reshape(-1, 3)
                     apart = np.linalg.norm(mine[:, None] - theirs, axis=2).min()
-                    if apart <= NEAR * np.ptp(theirs, axis=0).max():
+                    if apart <= MEANT_TO_TOUCH * np.ptp(theirs, axis=0).max():
                         least, angle = sine, np.degrees(np.arcsin(sine))
                         told = (
                             f'the faces of "{_name(case, one)}" and "{_name(case, other)}" that '

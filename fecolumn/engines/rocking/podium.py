@@ -141,16 +141,14 @@ class Podium:
         """What `podium_motion.shake` returns for accelerations (n, 2) along x and up [m/s2] at
         steps dt [s].
         """
-        from fecolumn.engines.rocking.podium_motion import shake
+        from fecolumn.engines.rocking.podium_motion import PodiumCase, shake
 
         building, root = self.building, math.sqrt(self.building_mass)
         base = np.array(
             [self.slenderness, self.half_diagonal, self.inertia, self.gamma, self.eta, GRAVITY]
         )
         modes = np.array([building.omega, building.damping, building.participation / root])
-        return shake(
-            np.ascontiguousarray(ground, float),
-            dt,
+        case = PodiumCase(
             base,
             modes,
             building.storey_shears / root,
@@ -158,9 +156,8 @@ class Podium:
             self.restitution,
             self.law == CRV,
             2 * math.pi / building.omega[-1] / _SHARE,
-            float(tilt),
-            float(tilt_rate),
         )
+        return shake(np.ascontiguousarray(ground, float), dt, case, float(tilt), float(tilt_rate))
 
     def respond(
         self,

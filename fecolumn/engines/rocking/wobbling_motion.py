@@ -210,7 +210,8 @@ def wobble(
         ]
     )
     k = np.zeros((13, 5))
-    passages = [0.0 for _ in range(0)]
+    passages = [0.0]
+    passages.clear()  # a list of numbers, empty
     rows[0, WOBBLE_TILT:WOBBLE_WORK] = y[:4]
     h = 0.1 * dt
     for sample in range(n - 1):
