@@ -101,8 +101,7 @@ def case_tables(name: str, engine: str, dt: float) -> dict:
     """Tables of the case of a structure, without its motion.
 
     engine: "rigid": bodies that do not deform and touch at their corners, the tube at the nodes of
-    its rim; others: elastic bodies on meshes of their own, drums of which may slide by a whole
-    face.
+    its rim; others: elastic bodies on meshes of their own.
     """
     if name == "tube":
         return _tube(engine, dt)
@@ -113,9 +112,6 @@ def case_tables(name: str, engine: str, dt: float) -> dict:
             body["youngs_modulus_pa"] = _GRANITE
             body["element_size_m"] = body["width_m"] / _ACROSS
             del body["rigid"]
-        if name == "drums":
-            for joint in tables["joints"].values():
-                joint["allowance_m"] = tables["bodies"][joint["slave"]]["length_m"]
     return tables | dict(title=name)
 
 
