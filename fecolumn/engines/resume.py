@@ -23,7 +23,7 @@ CHECKPOINT = "checkpoint.npz"
 
 
 class Resumable:
-    """What an analysis can go on from.
+    """An analysis that can go on from its checkpoint.
 
     Attributes
     ----------
