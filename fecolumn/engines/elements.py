@@ -21,7 +21,7 @@ from fecolumn.structures.made_layout import check_drawings, said_of
 from fecolumn.structures.model import BodyModel, StructureModel
 from fecolumn.structures.patches import Patch, face_weights
 from fecolumn.structures.reduction import bare_model, body_of, top_face
-from fecolumn.structures.shapes import Shape
+from fecolumn.structures.shape import Shape
 from fecolumn.structures.structure import assembled
 
 if TYPE_CHECKING:

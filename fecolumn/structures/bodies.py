@@ -25,7 +25,8 @@ from fecolumn.structures.matrices import SystemMatrices, matrices_model, read_sy
 from fecolumn.structures.model import BodyModel
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.reduction import elastic_model, rigid_model
-from fecolumn.structures.shapes import Meshable, Shape, Spot, shape_of
+from fecolumn.structures.shape import Meshable, Shape, Spot
+from fecolumn.structures.shapes import shape_of
 from fecolumn.structures.storeys import storeys_model
 from fecolumn.structures.weighed import weighed_shares
 

@@ -22,7 +22,7 @@ from fecolumn.structures.hulls import HULL, hull_patch
 from fecolumn.structures.meeting import Meeting, place_of
 from fecolumn.structures.meetings import meetings_of, zones_of
 from fecolumn.structures.patches import Patch, master_patch, slave_patch
-from fecolumn.structures.shapes import Spot
+from fecolumn.structures.shape import Spot
 from fecolumn.structures.size import refuse_too_large
 
 

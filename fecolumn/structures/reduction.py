@@ -16,7 +16,7 @@ from fecolumn.mesh.mass import mass_properties
 from fecolumn.structures.faces import Face
 from fecolumn.structures.model import BodyModel, Surface
 from fecolumn.structures.patches import Patch, face_weights
-from fecolumn.structures.shapes import Shape
+from fecolumn.structures.shape import Shape
 
 if TYPE_CHECKING:
     from mpi4py.MPI import Intracomm

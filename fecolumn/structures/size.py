@@ -20,7 +20,8 @@ from fecolumn.mesh.imported import own_mesh
 from fecolumn.structures.drawn_pieces import DrawnScene
 from fecolumn.structures.ground import sized_ground
 from fecolumn.structures.model import BodyModel
-from fecolumn.structures.shapes import Gridded, Meshable, Spot, counts_of, element_size
+from fecolumn.structures.shape import Gridded, Meshable, Spot, element_size
+from fecolumn.structures.shapes import counts_of
 
 #: [m]: the largest element size that a key takes, and size of a body from which its lengths are
 #: likely not in metres

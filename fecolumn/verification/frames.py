@@ -52,7 +52,7 @@ from fecolumn.engines.dynamics.system import State, System
 from fecolumn.engines.elements import checked_layout
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.pictures.figures.style import LINES
-from fecolumn.structures.shapes import Shape
+from fecolumn.structures.shape import Shape
 from fecolumn.verification import FULL
 from fecolumn.verification.models import (
     column_case,

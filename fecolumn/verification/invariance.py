@@ -41,7 +41,7 @@ from fecolumn.foundation._mpi import launch_environment
 from fecolumn.foundation.toml_file import merge
 from fecolumn.pictures.figures.style import LINES
 from fecolumn.structures.layout import Layout
-from fecolumn.structures.shapes import Shape
+from fecolumn.structures.shape import Shape
 from fecolumn.verification import FULL
 from fecolumn.verification.models import COARSE, column_case, shaking, system_of, with_shape
 from fecolumn.verification.reduced_trial import begin_trial

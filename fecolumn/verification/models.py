@@ -31,7 +31,7 @@ from fecolumn.structures.faces import plane_faces
 from fecolumn.structures.layout import Layout
 from fecolumn.structures.model import BodyModel, JointModel, Part, StructureModel, Surface
 from fecolumn.structures.reduction import bare_model
-from fecolumn.structures.shapes import Shape
+from fecolumn.structures.shape import Shape
 from fecolumn.verification import REDUCED
 from fecolumn.verification.trial import highest_nodes
 

@@ -18,7 +18,7 @@ from fecolumn.mesh.gmsh_section import swept_grid
 from fecolumn.mesh.surface import nodal_areas
 from fecolumn.mesh.tie import adjust, tie
 from fecolumn.structures.reduction import body_of
-from fecolumn.structures.shapes import Shape
+from fecolumn.structures.shape import Shape
 
 # Strain of the tests: square terms of the strain measures are 1e-7 of it, rounding of positions
 # 1e-8 a brick
