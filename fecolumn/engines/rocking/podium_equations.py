@@ -26,7 +26,7 @@ from typing import NamedTuple
 from fecolumn.foundation._compiled import njit
 from fecolumn.foundation.arrays import Array
 
-_SUMS = {"reassoc", "contract", "nsz"}  # sums over modes in any order
+SUMS = {"reassoc", "contract", "nsz"}  # sums over modes in any order
 
 
 class PodiumNumbers(NamedTuple):
@@ -76,7 +76,7 @@ def acceleration_at(ground: GroundPiece, h: float) -> tuple[float, float]:
     return ground.along + h * ground.slope, ground.up + h * ground.slope_up
 
 
-@njit(alone=True, fastmath=_SUMS)
+@njit(alone=True, fastmath=SUMS)
 def podium_rates(
     x: Array, side: float, podium: PodiumNumbers, ground: GroundPiece, h: float, out: Array
 ) -> float:
@@ -84,7 +84,7 @@ def podium_rates(
 
     side: leaned to, 1 along x, -1 against it, 0 while it stands.
     """
-    a, az = ground.along + h * ground.slope, ground.up + h * ground.slope_up
+    a, az = acceleration_at(ground, h)
     radius, gamma, eta, n = podium.radius, podium.gamma, podium.eta, len(podium.part)
     s, c, shift, speed = podium.sine, podium.cosine, 0.0, 0.0
     if side != 0.0:
@@ -133,7 +133,7 @@ def podium_push(
     return push, abs(push) - holds
 
 
-@njit(alone=True, fastmath=_SUMS)
+@njit(alone=True, fastmath=SUMS)
 def podium_energy(x: Array, side: float, podium: PodiumNumbers) -> tuple[float, float, float]:
     """Kinetic, strain and gravity, per mass of the columns [J/kg]."""
     radius, gamma, eta, n = podium.radius, podium.gamma, podium.eta, len(podium.part)

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from fecolumn.engines.rocking.podium_equations import (
+    SUMS,
     GroundPiece,
     PodiumNumbers,
     podium_push,
@@ -19,7 +20,6 @@ from fecolumn.foundation.arrays import Array
 
 # what these functions are compiled with
 _EQUATIONS = ("podium_equations.py",)
-_SUMS = {"reassoc", "contract", "nsz"}  # sums over modes in any order
 _TRIES = 60  # for the instant of an impact or of lifting off
 _WITHIN = 1e-13  # of a step: how exactly that instant is found
 _PROGRESS = 1e-6  # of a step: the least that an impact takes, so that time goes on
@@ -37,7 +37,7 @@ class PodiumRates(NamedTuple):
     last: Array
 
 
-@njit(alone=_EQUATIONS, fastmath=_SUMS)
+@njit(alone=_EQUATIONS, fastmath=SUMS)
 def _advance(
     x: Array,
     side: float,
@@ -94,14 +94,12 @@ def stand_on(
 
 @njit(alone=_EQUATIONS)
 def _past(
-    x: Array, side: float, podium: PodiumNumbers, ground: GroundPiece, h: float, out: Array
+    x: Array, side: float, podium: PodiumNumbers, ground: GroundPiece, h: float, shear: float
 ) -> float:
-    """How far a state h [s] after the begin of a step is past landing or, of one that stands,
-    past lifting off, where its rates go into out.
+    """How far a state h [s] after the begin of a step is past landing or, of one that stands and
+    has this base shear, past lifting off.
     """
-    if side != 0.0:
-        return -side * x[0]
-    return podium_push(podium, podium_rates(x, side, podium, ground, h, out), ground, h)[1]
+    return -side * x[0] if side != 0.0 else podium_push(podium, shear, ground, h)[1]
 
 
 @njit(alone=_EQUATIONS)
@@ -124,12 +122,14 @@ def _instant(
     """
     # false position, the end that stays counting half each time (Illinois)
     early, late, kept = 0.0, times[0], 0
-    early_past = _past(x, side, podium, ground, 0.0, rates.second)
+    shear = podium_rates(x, side, podium, ground, 0.0, rates.second)
+    early_past = _past(x, side, podium, ground, 0.0, shear)
     for _ in range(_TRIES):
         share = early_past / (early_past - late_past) if early_past < 0 else 0.5
         middle = early + share * (late - early)
         _advance(x, side, podium, ground, middle, rates, out)
-        past = _past(out, side, podium, ground, middle, rates.last)
+        shear = podium_rates(out, side, podium, ground, middle, rates.last)
+        past = _past(out, side, podium, ground, middle, shear)
         if past > 0:
             late, late_past = middle, past
             early_past *= 0.5 if kept == 1 else 1.0
@@ -177,7 +177,7 @@ def podium_step(
     else:
         _advance(x, side, podium, ground, h, rates, out)
     shear = podium_rates(out, side, podium, ground, h, rates.last)
-    past = -side * out[0] if side != 0.0 else podium_push(podium, shear, ground, h)[1]
+    past = _past(out, side, podium, ground, h, shear)
     if past > 0:
         h = _instant(x, side, podium, ground, times, past, rates, out)
         _advance(x, side, podium, ground, h, rates, out)

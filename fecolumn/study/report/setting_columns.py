@@ -38,14 +38,9 @@ def setting_labels(sweep: Sweep) -> dict[int, str]:
         setting_in_figure({axis: one.values[axis] for axis in sweep.varied}) or "all analyses"
         for one in sweep.settings
     ]
-    if are_long(texts):
+    if max(map(len, texts)) > _LONGEST:
         texts = [f"setting {number}" for number in range(1, len(texts) + 1)]
     return {id(one): text for one, text in zip(sweep.settings, texts)}
-
-
-def are_long(texts: list[str]) -> bool:
-    """Whether names of settings are too long for a legend."""
-    return max(map(len, texts)) > _LONGEST
 
 
 def setting_in_figure(values: dict[str, Any]) -> str:
