@@ -17,7 +17,7 @@ from fecolumn import simulation
 from fecolumn.cli import main
 from fecolumn.engines.dynamics.energy import TERMS
 
-KEYS = """engine kinematics dofs steps dt alpha_hht duration_s u_max_m overturned
+KEYS = """engine kinematics dofs steps dt_s alpha_hht duration_s u_max_m overturned
 residual_slide_m wall_s s_per_step iterations factorizations
 energy_closure_rel version case_id""".split()
 UNITS = {
