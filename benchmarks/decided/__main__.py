@@ -17,14 +17,13 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 import signal
 import sys
 from pathlib import Path
 from typing import Any
 
 from benchmarks.beside import markdown, pair_cells
-from benchmarks.tables.runs import read_runs, write_runs
+from benchmarks.tables.study_rows import keep_rows, kept_rows
 from fecolumn.cli import main as fecolumn
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import Plan, read_plan
@@ -36,8 +35,6 @@ HERE = Path(__file__).parent
 STUDIES = sorted(file.stem for file in HERE.glob("*.toml"))
 #: Motions of these studies, made unless they are there
 MOTIONS = HERE.parents[1] / "results" / "lick1000.h5"
-#: Of a summary, what is kept
-KEPT = "u_max_m", "overturned", "slid_off"
 HEAD = (
     "settings",
     "motions",
@@ -51,43 +48,6 @@ HEAD = (
     "at the second alone",
     "McNemar p",
 )
-
-
-def kept_name(study: str, values: dict[str, Any]) -> str:
-    """Of the rows of a setting in benchmarks/tables."""
-    return f"decided/{'-'.join([study, *(f'{value:g}' for value in values.values())])}"
-
-
-def number_of(values: dict[str, Any]) -> int:
-    """Of the motion of an analysis, by its axis values."""
-    return int(re.split("[#:]", values["motion.source"])[-1])
-
-
-def kept_rows(study: str, plan: Plan) -> dict[str, dict[str, Any]]:
-    """Rows of a ledger, by id, of what comes with the repository."""
-    runs: dict[str, dict] = {}
-    rows = {}
-    for analysis in plan.analyses:
-        name = kept_name(study, analysis.combination)
-        if name not in runs:
-            runs[name] = read_runs(name)
-        if summary := runs[name].get(number_of(analysis.values)):
-            rows[analysis.id] = {"id": analysis.id, "state": DONE, "summary": summary}
-    return rows
-
-
-def keep(study: str, plan: Plan, rows: list[dict[str, Any]]) -> None:
-    """Have the rows of a study come with the repository."""
-    summaries = {row["id"]: row["summary"] for row in rows if row["state"] == DONE}
-    runs: dict[str, dict[int, dict]] = {}
-    for analysis in plan.analyses:
-        if summary := summaries.get(analysis.id):
-            kept = {key: summary.get(key, False) for key in KEPT}
-            into = runs.setdefault(kept_name(study, analysis.combination), {})
-            into[number_of(analysis.values)] = kept
-    for name, found in runs.items():
-        title = f"{plan.title}: {name.partition('/')[2]}, largest displacement [m] and outcome"
-        write_runs(name, found, title, f"python -m benchmarks.decided {study} --keep")
 
 
 def table(plan: Plan, rows: list[dict[str, Any]], verdicts: list[Verdict], rule: Rule) -> str:
@@ -134,7 +94,7 @@ def main(given=None) -> int:
         fecolumn(["motions", "make", "seeded", "-n", "1000", "-o", str(MOTIONS)])
     plan, rule = read_plan(HERE / f"{args.study}.toml"), Rule(most=args.most)
     rule.check("benchmarks.decided")
-    kept, folder = kept_rows(args.study, plan), args.output / args.study
+    kept, folder = kept_rows(f"decided/{args.study}", plan), args.output / args.study
     signal.signal(signal.SIGTERM, signal.default_int_handler)
 
     def work(only: set[str]) -> list[dict[str, Any]]:
@@ -157,7 +117,8 @@ def main(given=None) -> int:
         code = stop_code(error)
     rows = [kept.get(row["id"], row) for row in complete_study(plan, folder, only=set())]
     if args.keep:
-        keep(args.study, plan, rows)
+        command = f"python -m benchmarks.decided {args.study} --keep"
+        keep_rows(f"decided/{args.study}", plan, rows, command)
     print(table(plan, rows, verdicts, rule) if verdicts else "no stage is done yet")
     return code
 

@@ -2,12 +2,16 @@
 alphas, with the step as it is asked for and with rims followed in parts of it.
 
     ./containers/run python -m benchmarks.substeps.paper [-o DIR] [-j N] [--motions N]
-        [--literal | --parts]
+        [--literal | --parts] [--report] [--keep]
 
-Three tables, a line for each reading and step: how many overturn, by alpha; D of two steps, its p
+Four tables. A line for each reading and step: how many overturn, by alpha; D of two steps, its p
 (steps swapped within motions) and McNemar's p, by alpha; and of all pairs of alphas the largest D,
-its p, and the least p of McNemar. No p is corrected for the number of pairs. Resumed where it was
-stopped.
+its p, the least p of any D, and the least p of McNemar. No p of these is corrected for the number
+of pairs. A line for each claim of the paper: whether each reading supports it, judged as
+`fecolumn report` judges, with p corrected.
+
+The same command goes on where it was stopped. What benchmarks/tables/paper holds is not computed
+again; --keep writes what is done there, --report computes nothing.
 """
 
 from __future__ import annotations
@@ -15,15 +19,26 @@ from __future__ import annotations
 import argparse
 import itertools
 import os
+import signal
+import sys
 from pathlib import Path
 
 from benchmarks.beside import compared, markdown, told
+from benchmarks.tables.study_rows import OUTCOME, keep_rows, kept_rows
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.conclusion import settings_of
-from fecolumn.study.plan import read_plan
-from fecolumn.study.run import complete_study
+from fecolumn.study.plan import Plan, read_plan
+from fecolumn.study.report.claim import Claim
+from fecolumn.study.report.page import claims_of
+from fecolumn.study.report.pair import read_pairs
+from fecolumn.study.report.sweep import Setting, Sweep
+from fecolumn.study.run import StudyError, complete_study, stop_code
 
 READINGS = {"literal": "paper_study", "rim in parts": "paper_parts"}
+_OPTION = {"literal": "literal", "rim in parts": "parts"}
+_COMMAND = "python -m benchmarks.substeps.paper"
+#: Of a summary, what is kept: its outcome, and what tells the cost
+KEPT = *OUTCOME, "steps", "duration_s", "s_per_step", "iterations"
 STEPS, ALPHAS = (0.02, 1e-3, 1e-4), (0, -0.05, -0.1, -0.2, -0.333)
 
 
@@ -41,8 +56,9 @@ def pair(first: dict, second: dict) -> str:
 
 
 def tables(found: dict[tuple[str, float, float], dict]) -> str:
-    """The three tables, of the settings that are done: summaries by motion, by reading, step and
-    alpha.
+    """The first three tables, of the settings that are done.
+
+    found: summaries by motion, by reading, step and alpha.
     """
 
     def line(name, cell, *steps):
@@ -60,12 +76,20 @@ def tables(found: dict[tuple[str, float, float], dict]) -> str:
             there = [found[name, dt, alpha] for alpha in ALPHAS if (name, dt, alpha) in found]
             pairs = [compared(*two) for two in itertools.combinations(there, 2)]
             if pairs:
-                widest = max(pairs)
+                widest, least = max(pairs), min(one[1] for one in pairs)
                 flips = min(one[4] for one in pairs)
-                cells = str(len(pairs)), f"{widest[0]:.2f}", told(widest[1]), told(flips)
+                cells = f"{widest[0]:.2f}", *map(told, (widest[1], least, flips))
+                cells = str(len(pairs)), *cells
                 alphas.append((f"{name}, {dt:g} s", *cells))
     heads = [f"alpha {alpha:g}" for alpha in ALPHAS]
-    of_alphas = ("reading and step", "pairs of alphas", "largest D", "p of it", "least McNemar p")
+    of_alphas = (
+        "reading and step",
+        "pairs of alphas",
+        "largest D",
+        "p of it",
+        "least p",
+        "least McNemar p",
+    )
     return "\n\n".join(
         [
             markdown(("reading and step", *heads), counts),
@@ -75,7 +99,32 @@ def tables(found: dict[tuple[str, float, float], dict]) -> str:
     )
 
 
-def main(given=None) -> None:
+def claims(plan: Plan, rows: list[dict]) -> list[Claim]:
+    """The claims of the paper put to a reading, as `fecolumn report` does."""
+    settings = [
+        Setting(values, len(runs), 0, runs) for values, runs in settings_of(plan, rows) if runs
+    ]
+    axes = {key: sorted({one.values[key] for one in settings}) for key in settings[0].values}
+    case = dict(plan.case)
+    limit = case["overturn"]["displacement_m"]
+    sweep = Sweep(Path(), plan.title, axes, tuple(settings), rows, len(rows), limit, case)
+    return claims_of(sweep, read_pairs(sweep))
+
+
+def claims_table(found: dict[str, list[Claim]]) -> str:
+    """A line for each claim of a reading."""
+    head = "reading and claim", "of the paper", "here", "what was found"
+    return markdown(
+        head,
+        [
+            (f"{name}, {one.key}", one.paper, one.verdict, one.ours.replace("|", "/"))
+            for name, claims in found.items()
+            for one in claims
+        ],
+    )
+
+
+def main(given=None) -> int:
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.substeps.paper", description=__doc__.split("\n")[0]
     )
@@ -85,21 +134,37 @@ def main(given=None) -> None:
     only = parser.add_mutually_exclusive_group()
     only.add_argument("--literal", action="store_true", help="the step as it is asked for alone")
     only.add_argument("--parts", action="store_true", help="rims followed in parts of it alone")
+    parser.add_argument("--report", action="store_true")
+    parser.add_argument("--keep", action="store_true")
     args = parser.parse_args(given)
-    found = {}
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    found, judged, code = {}, {}, 0
     for name, file in READINGS.items():
         if args.literal and name != "literal" or args.parts and name == "literal":
             continue
-        plan = read_plan(Path(__file__).parents[1] / f"{file}.toml")
+        plan, kept_as = read_plan(Path(__file__).parents[1] / f"{file}.toml"), f"paper/{file}"
         first = {f"lick:{number}" for number in range(1, args.motions + 1)}
-        only = {one.id for one in plan.analyses if one.values["motion.source"] in first}
-        folder = Path(args.output) / file
-        rows = complete_study(plan, folder, workers=args.jobs, retry_failed=True, only=only)
+        wanted = {one.id for one in plan.analyses if one.values["motion.source"] in first}
+        kept, folder = kept_rows(kept_as, plan), Path(args.output) / file
+        todo = set() if args.report else wanted - kept.keys()
+        try:
+            complete_study(plan, folder, workers=args.jobs, retry_failed=True, only=todo)
+        except (KeyboardInterrupt, StudyError) as error:
+            code = stop_code(error)
+        rows = [kept.get(row["id"], row) for row in complete_study(plan, folder, only=set())]
+        if args.keep:
+            keep_rows(kept_as, plan, rows, f"{_COMMAND} --{_OPTION[name]} --keep", KEPT)
+        rows = [row for row in rows if row["id"] in wanted]
         for values, runs in settings_of(plan, rows):
             key = name, values["integration.dt_s"], values["integration.alpha_hht"]
             found[key] = runs
-    print(tables(found))
+        if any(reading == name for reading, _, _ in found):
+            judged[name] = claims(plan, rows)
+        if code:
+            break
+    print(f"{tables(found)}\n\n{claims_table(judged)}" if found else "no analysis is done yet")
+    return code
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

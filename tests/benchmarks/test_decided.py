@@ -6,6 +6,7 @@ import pytest
 
 from benchmarks import tables
 from benchmarks.decided import __main__ as decided
+from benchmarks.tables.study_rows import OUTCOME, keep_rows, kept_rows, number_of
 from fecolumn.study.plan import read_plan
 from fecolumn.study.sequential import Rule, until_decided
 from fecolumn.study.store import DONE
@@ -25,7 +26,7 @@ def plan(tmp_path):
 
 def peak(analysis):
     """Motion by motion larger; one in four is lost at 1e-3 s, one in two at 1e-4 s."""
-    number = decided.number_of(analysis.values)
+    number = number_of(analysis.values)
     often = 4 if analysis.values["integration.dt_s"] == 1e-3 else 2
     return {
         "u_max_m": number / 1000,
@@ -42,16 +43,16 @@ def rows(plan):
 
 def test_rows_that_are_kept_are_those_that_were_computed(plan, rows, tmp_path, monkeypatch):
     monkeypatch.setattr(tables, "FOLDER", tmp_path)
-    assert decided.kept_rows("two", plan) == {}
+    assert kept_rows("decided/two", plan) == {}
     half = [
         row | {"state": "planned", "summary": None} if n % 2 else row for n, row in enumerate(rows)
     ]
-    decided.keep("two", plan, half)
-    assert len(decided.kept_rows("two", plan)) == len(rows) // 2
-    decided.keep("two", plan, rows[len(rows) // 2 :])
-    decided.keep("two", plan, rows)
-    kept = decided.kept_rows("two", plan)
-    wanted = {row["id"]: {key: row["summary"][key] for key in decided.KEPT} for row in rows}
+    keep_rows("decided/two", plan, half, "none")
+    assert len(kept_rows("decided/two", plan)) == len(rows) // 2
+    keep_rows("decided/two", plan, rows[len(rows) // 2 :], "none")
+    keep_rows("decided/two", plan, rows, "none")
+    kept = kept_rows("decided/two", plan)
+    wanted = {row["id"]: {key: row["summary"][key] for key in OUTCOME} for row in rows}
     assert {name: row["summary"] for name, row in kept.items()} == wanted
     assert sorted(file.name for file in (tmp_path / "decided").glob("*.csv")) == [
         "two-0.0001.csv",

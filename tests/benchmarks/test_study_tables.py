@@ -46,7 +46,7 @@ def test_paper_tables_have_a_line_for_each_reading_and_step():
     # nine fall of twelve against one: both tails of a binomial of eight, 2 / 2^8
     assert steps[1][2] == "0.67; 0.008; 0.008"
     assert alphas[1][:3] == ["literal, 0.02 s", "10", "0.00"]
-    assert alphas[2] == ["literal, 0.001 s", "10", "0.75", "0.004", "0.004"]
+    assert alphas[2] == ["literal, 0.001 s", "10", "0.75", "0.004", "0.004", "0.004"]
 
 
 def test_models_are_set_beside_full_order_on_the_motions_that_it_has():

@@ -1,0 +1,58 @@
+"""Rows of a study that come with the repository, one file a setting: a clone goes on from them."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from benchmarks.tables.runs import read_runs, write_runs
+from fecolumn.study.plan import Plan
+from fecolumn.study.store import DONE
+
+#: Of a summary, what tells its outcome
+OUTCOME = "u_max_m", "overturned", "slid_off"
+
+
+def kept_name(study: str, values: dict[str, Any]) -> str:
+    """Of the rows of a setting in benchmarks/tables; study: such as "decided/own_mesh"."""
+    return "-".join([study, *(f"{value:g}" for value in values.values())])
+
+
+def number_of(values: dict[str, Any]) -> int:
+    """Of the motion of an analysis, by its axis values."""
+    return int(re.split("[#:]", values["motion.source"])[-1])
+
+
+def kept_rows(study: str, plan: Plan) -> dict[str, dict[str, Any]]:
+    """Rows of a ledger, by id, of what comes with the repository."""
+    runs: dict[str, dict] = {}
+    rows = {}
+    for analysis in plan.analyses:
+        name = kept_name(study, analysis.combination)
+        if name not in runs:
+            runs[name] = read_runs(name)
+        if summary := runs[name].get(number_of(analysis.values)):
+            rows[analysis.id] = {"id": analysis.id, "state": DONE, "summary": summary}
+    return rows
+
+
+def keep_rows(
+    study: str,
+    plan: Plan,
+    rows: list[dict[str, Any]],
+    command: str,
+    columns: tuple[str, ...] = OUTCOME,
+) -> None:
+    """Have the rows of a study that are done come with the repository; columns: entries of their
+    summaries, nil where a summary has none.
+    """
+    summaries = {row["id"]: row["summary"] for row in rows if row["state"] == DONE}
+    runs: dict[str, dict[int, dict]] = {}
+    for analysis in plan.analyses:
+        if summary := summaries.get(analysis.id):
+            kept = {key: summary.get(key, False) for key in columns}
+            into = runs.setdefault(kept_name(study, analysis.combination), {})
+            into[number_of(analysis.values)] = kept
+    for name, found in runs.items():
+        title = f"{plan.title}: {name.partition('/')[2]}, largest displacement [m] and outcome"
+        write_runs(name, found, title, command)
