@@ -4,7 +4,8 @@
 
 Analyses go to DIR and are gone on with there. Figures of benchmarks that take hours are drawn from
 their tables in benchmarks/. `cdf` runs the 80 analyses of benchmarks/quick_study.toml, or draws the
-finished study of --study. Ten minutes on two cores; each figure says what it was made from.
+finished study of --study. Ten minutes on two cores; each figure says what it was made from, and
+benchmarks/tables/figures.csv by which code.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import sys
 from pathlib import Path
 
 from benchmarks.gallery.figures import FIGURES, Work, make
+from benchmarks.gallery.made import note
 
 
 def main(argv) -> int:
@@ -49,6 +51,7 @@ def main(argv) -> int:
         parser.error(f"--study: {args.study}: holds no study (no study.json)")
     for name in args.figures or FIGURES:
         print(make(name, Work(args.output, args.jobs, args.study)), flush=True)
+        note(name)
     return 0
 
 

@@ -99,6 +99,18 @@ def impact(_: Work, target: Path) -> str:
     return f"{len(rows)} impacts of {table.relative_to(ROOT)}"
 
 
+def impact_map(_: Work, target: Path) -> str:
+    """Loss of one impact in the limit of short steps, over stiffness and slenderness, from the
+    tables that `python -m benchmarks.impact map` made in hours.
+    """
+    from benchmarks.impact.figure import draw_map
+    from benchmarks.impact.kept_map import kept_cells, kept_formula
+
+    cells = kept_cells()
+    draw_map(cells, kept_formula(), target.with_suffix(""))
+    return f"{len(cells)} cells of benchmarks/tables/impact_map.csv"
+
+
 def rim(_: Work, target: Path) -> str:
     """How the points of a round rim roll in a step; all of it from `contact.rolling`."""
     rolling(target)
@@ -168,6 +180,7 @@ FIGURES = {
     "collapse": ("fecolumn/case/manual/collapse.png", collapse),
     "arch": ("fecolumn/case/manual/arch.png", arch),
     "colonnade": ("fecolumn/case/manual/colonnade.gif", colonnade),
+    "impact-map": ("fecolumn/case/manual/impact-map.png", impact_map),
 }
 
 

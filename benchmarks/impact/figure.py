@@ -121,7 +121,8 @@ def draw_map(cells, formula, path):
             if shape == "block":
                 for one in MEASURED:
                     at = formula.group(one.ratio, one.group) if formula else one.group
-                    axes.plot([at, at], one.losses, color=GREY, marker="_", linewidth=1)
+                    (drawn,) = axes.plot([at, at], one.losses, color=GREY, marker="_", linewidth=1)
+                axes.legend([drawn], ["measured"])
             axes.axhline(1.0, color=GREY, linewidth=0.8)
             power = f"^{{{formula.power:.1f}}}" if formula else ""
             axes.set(

@@ -1,19 +1,20 @@
-"""What is not known of the granite rock and of its table, within bounds that tests of other rocks
-or the campaign's own files give; no outcome of the campaign enters.
+"""What is not known of the granite rock and of its table: within bounds that the literature or the
+campaign's own files give, or that are assumed where these give none; no outcome enters.
 
 | name | bounds | from |
 |---|---|---|
 | friction | 0.55 to 0.85 | dry granite: Barton and Choubey (1977) to Byerlee (1978) |
-| restitution | 0 to 0.5 | of a point: converged impacts take 1 to 0.75 of Housner's loss |
+| restitution | 0 to 0.5 | of a point: assumed, see below |
 | youngs | 30 to 70 GPa, log | granite (Jaeger, Cook and Zimmerman 2007, table 7.1) |
 | softer | 1 to 10, log | compliance of a rough contact over that of a smooth one |
 | rounding | 0 to 0.01 m | radius of the edges: assumed; no scan shows less than its triangles |
-| direction | -5 to 5 degrees | the rock was put on the table by hand |
+| direction | -5 to 5 degrees | assumed; the rock was put on the table by hand |
 | crossover | 0.1 to 3 Hz, log | displacement of the table below it, its accelerometer above |
 | upper | 25 to 100 Hz, log | the source's own filter, and one an octave above the table's band |
 
-Basic friction angles of dry granite are 29 to 35 degrees, up to a coefficient of 0.85; the range of
-converged impacts is that of benchmarks/RESULTS.md.
+Basic friction angles of dry granite are 29 to 35 degrees, up to a coefficient of 0.85. With a
+restitution of 0.5 a quarter of the energy of the approach is left, so that an impact takes 0.75 of
+Housner's loss: what stiff elastic bodies lose in the limit of short steps (benchmarks/RESULTS.md).
 """
 
 from __future__ import annotations

@@ -114,13 +114,14 @@ def from_markdown(text: str) -> list[list[list[str]]]:
 
 
 def commit() -> str:
-    """Of this checkout; "-dirty" where anything but kept tables differs from it."""
+    """Of this checkout; "-dirty" where anything but kept tables and figures differs from it."""
     git = ["git", "-C", str(FOLDER)]
     try:
         found = subprocess.run(
             [*git, "rev-parse", "--short", "HEAD"], capture_output=True, text=True
         )
-        kept = ("benchmarks/tables/*.csv", "benchmarks/tables/*/*.csv", "benchmarks/RESULTS.md")
+        csv_files = "benchmarks/tables/*.csv", "benchmarks/tables/*/*.csv"
+        kept = *csv_files, "benchmarks/RESULTS.md", "*.png", "*.gif"
         others = [":/", *(f":(exclude,top){one}" for one in kept)]
         changed = subprocess.run([*git, "diff", "--quiet", "HEAD", "--", *others]).returncode
     except FileNotFoundError:

@@ -24,12 +24,12 @@ from fecolumn.verification.result import Row
 DRUMS_DT = 1e-3
 # Heights [m] from below, widths of foot and head of the column [m], density [kg/m3], friction
 _HEIGHTS, _WIDTHS, _DENSITY, _FRICTION = 7 * (0.82,) + (0.21,), (1.11, 0.90), 2620.0, 0.7
-# Of a first half of the pulse [s], accelerations [g] and whether the independent planar program
-# (1e-4 s) says that they overturn. UDEC, HybriDFEM and LMGC90 say 3.6, 4.16, 4.3 g at 0.1 s; .27,
-# .25, .25 at 0.5 s; .20, .21, .21 at 1 s; .46, .39, .44 at 0.34 s, where the planar one has
-# windows: .435 to .445, .465 to .475, .490 to .505, and from .757 on. At 0.1 s rounding decides
-# from 4.1 to 4.3 g: there a pulse stronger by 1e-9 g overturns it or does not.
-_OUTCOMES = {
+#: Of a first half of the pulse [s], accelerations [g] and whether the independent planar program
+#: (1e-4 s) says that they overturn. UDEC, HybriDFEM and LMGC90 say 3.6, 4.16, 4.3 g at 0.1 s; .27,
+#: .25, .25 at 0.5 s; .20, .21, .21 at 1 s; .46, .39, .44 at 0.34 s, where the planar one has
+#: windows: .435 to .445, .465 to .475, .490 to .505, and from .757 on. At 0.1 s rounding decides
+#: from 4.1 to 4.3 g: there a pulse stronger by 1e-9 g overturns it or does not.
+OUTCOMES = {
     0.1: {4.0: False, 4.4: True},
     0.34: {
         0.43: False,
@@ -52,7 +52,7 @@ def multi_drum_rows() -> Iterator[Row]:
     with tempfile.TemporaryDirectory() as folder:
         case = drum_case(Path(folder))
         model = structure_model(case)
-    for tp, outcomes in _OUTCOMES.items():
+    for tp, outcomes in OUTCOMES.items():
         found = [
             bool(engine_of(case, model, "verify").advance(drum_pulse(a, tp, 12.0 - 3 * tp))[1])
             for a in outcomes

@@ -35,6 +35,7 @@ def test_a_table_tells_where_it_comes_from(name):
     table = tables.read(name)
     first = [cells[0] for cells in table.rows]
     assert len(set(first)) == len(first) and re.fullmatch("none|[0-9]+", table.about["physics"])
+    assert "dirty" not in table.about["commit"], "made by code that no commit holds"
     used = {quote["table"] for quote in QUOTED}
     page = TEXT["RESULTS.md"]
     assert name in used or table.about["title"] in page or f"(tables/{name}.csv)" in page

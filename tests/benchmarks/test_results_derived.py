@@ -1,0 +1,160 @@
+"""Numbers of RESULTS.md that follow from several cells of tables: each is computed from them."""
+
+import re
+
+import numpy as np
+import pytest
+
+from benchmarks import tables
+from benchmarks.impact.kept_map import kept_cells
+from benchmarks.results import RESULTS
+from fecolumn.statistics.holm import holm
+from fecolumn.verification.multi_drum import OUTCOMES
+
+PAGE = " ".join(RESULTS.read_text(encoding="utf-8").split())
+ROOT = RESULTS.parents[1]
+
+
+def column(name, head):
+    """Cells of a column by the name of their row."""
+    table = tables.read(name)
+    return {row[0]: row[table.columns.index(head)] for row in table.rows}
+
+
+def numbers(cell):
+    """p-values and others of a cell such as "0.27; <0.001; 0.020"."""
+    return [float(one.strip().lstrip("<")) for one in cell.split(";")]
+
+
+def pairs(name, row):
+    """D, p and McNemar's p of a row of pairs of steps, by alpha."""
+    table = tables.read(name)
+    (found,) = [cells for cells in table.rows if cells[0] == row]
+    return {
+        head.removeprefix("alpha "): numbers(cell)
+        for head, cell in zip(table.columns, found)
+        if cell != row
+    }
+
+
+def test_literal_steps_are_told_apart_as_the_text_says():
+    short, shortest = (
+        pairs("paper_steps", f"literal, 0.02 and {dt} s").values() for dt in ("0.001", "0.0001")
+    )
+    largest = [max(one[k] for one in found) for found in (short, shortest) for k in (1, 2)]
+    assert largest[1] < 0.03 and largest[2] <= 0.001
+    told = f"(p at most {largest[0]:.3f}) and 1e-4 s (p < 0.001), and fewer columns fall"
+    assert f"{told} (McNemar's p at most {largest[1]:.3f} and {largest[3]:.3f})" in PAGE
+    fine = pairs("paper_steps", "literal, 0.001 and 0.0001 s").values()
+    assert min(p for one in fine for p in one[1:]) > 0.05
+
+
+def test_steps_with_rims_in_parts_are_told_apart_as_the_text_says():
+    short, shortest, fine = (
+        pairs("paper_parts_steps", f"rim in parts, {steps} s")
+        for steps in ("0.02 and 0.001", "0.02 and 0.0001", "0.001 and 0.0001")
+    )
+    told = {alpha for alpha, one in short.items() if one[1] < 0.05}
+    others = [one[1] for alpha, one in short.items() if alpha not in told]
+    assert told == {"-0.333"}
+    assert f"(-0.333: p < 0.001, else {min(others):.2f} to {max(others):.2f})" in PAGE
+    told = {alpha: one[1] for alpha, one in shortest.items() if one[1] < 0.05}
+    assert list(told) == ["-0.05", "-0.1", "-0.333"]
+    assert "(-0.05, -0.1 and -0.333: 0.015, 0.002 and < 0.001; by Holm's rule for five" in PAGE
+    corrected = dict(zip(shortest, holm([one[1] for one in shortest.values()])))
+    assert [alpha for alpha, p in corrected.items() if p < 0.05] == list(told)
+    least = sorted(one[1] for one in fine.values())[:2]
+    assert f"1e-3 and 1e-4 s at two ({least[0]} and {least[1]}; by Holm's rule at none)" in PAGE
+    assert min(holm([one[1] for one in fine.values()])) > 0.05
+    flips = holm([one[2] for one in shortest.values()])
+    assert [alpha for alpha, p in zip(shortest, flips) if p < 0.05] == ["-0.333"]
+
+
+def test_alphas_with_rims_in_parts():
+    largest = [float(p) for p in column("paper_parts_alphas", "p of it").values()]
+    flips = min(float(p) for p in column("paper_parts_alphas", "least McNemar p").values())
+    assert f"not told (p {min(largest):.3f} to {max(largest):.3f})" in PAGE
+    assert f"the least McNemar's p of thirty is {flips:.3f}" in PAGE and 30 * flips > 0.05
+
+
+def test_map_of_impacts():
+    stiff = [one for one in kept_cells() if one["group"] >= 1e6]
+    low, high = np.quantile([one["loss"] for one in stiff], [0.25, 0.75])
+    most = max(one["loss"] for one in stiff if one["ratio"] <= 3)
+    told = f"half of the cells lose {low:.2f} to {high:.2f} of Housner's loss"
+    assert f"{told}, with H/B 2 and 3 up to {most:.1f} times" in PAGE
+    assert f"of 180 cells {len(kept_cells())} have a value" in PAGE
+
+
+def test_cost_of_shaken_structures():
+    rigid, elastic, soft, stiff = (
+        np.array([float(cell) for cell in column("shaken", head).values()])
+        for head in ("rigid [us]", "ten modes [us]", "MuJoCo [us]", "MuJoCo, stiff [us]")
+    )
+    cheaper = int((rigid < soft).sum())
+    assert cheaper == 5 and "in five of eight rows" in PAGE
+    drums = list(column("shaken", "rigid [us]")).index("drums of 8, shaken by 1.5 of uplift")
+    assert round(rigid[drums] / soft[drums]) == 11 and round(rigid[drums] / stiff[drums]) == 3
+    assert "eleven times as much, three times what MuJoCo takes at stiff settings" in PAGE
+    weak = [shaken.endswith("0.1 of uplift") for shaken in column("shaken", "rigid [us]")]
+    ratio = elastic / rigid
+    assert 2 <= ratio[weak].min() and ratio[weak].max() <= 3
+    standing = list(column("shaken", "rigid [us]")).index("drums of 8, shaken by 0.5 of uplift")
+    rest = np.delete(ratio, [*np.flatnonzero(weak), standing])
+    assert round(rest.min()) == 7 and round(rest.max()) == 26
+    assert "seven to twenty-six times where feet open, slip, lift and land" in PAGE
+
+
+def test_models_agree_little_more_often_than_by_chance():
+    share = {name: float(p) / 100 for name, p in column("models_beside", "P [%]").items()}
+    (full,) = [name for name in share if "(full)" in name]
+    chance = [
+        100 * (share[full] * p + (1 - share[full]) * (1 - p))
+        for name, p in share.items()
+        if name != full
+    ]
+    assert f"would agree on {min(chance):.0f} to {max(chance):.0f} %" in PAGE
+    agree = [
+        float(one) for one in column("models_beside", "same outcome [%]").values() if one != "-"
+    ]
+    assert f"on more than {max(agree):.0f} % of the outcomes" in PAGE
+
+
+def test_podium_claims_and_slenderness():
+    words = {2: "two", 3: "three"}
+    verdicts = list(column("podium", "verdict").values())
+    counts = [words[verdicts.count(one)] for one in ("supported", "not supported", "undecided")]
+    told = "podium structures {} are supported here, {} are not and {} stay undecided"
+    assert told.format(*counts) in PAGE
+    ours = column("podium", "here")["p1"]
+    distances = re.findall(r"0\.\d{3}", ours.partition("Distance")[2])
+    assert f"at most {max(distances)} apart" in PAGE
+    ratios = [
+        float(ratio)
+        for kind in ("one-sine", "one-cosine")
+        for ratio in column("design_slenderness", f"{kind}: formula over computed").values()
+    ]
+    less = [100 * (1 - ratio) for ratio in ratios if ratio < 1]
+    assert len(ratios) == 10 and len(less) == 9 and "in nine of ten places" in PAGE
+    assert f"{min(less):.0f} to {max(less):.0f} % less than" in PAGE
+
+
+def test_lost_structures_that_are_not_told_apart():
+    p = {pair: float(cell) for pair, cell in column("fragility_pairs", "p (McNemar)").items()}
+    corrected = dict(zip(p, holm(list(p.values()))))
+    for pair in ("monolith and elastic monolith", "trilith and elastic trilith"):
+        assert corrected[pair] > 0.05
+    for pair in ("3 drums and 6 drums", "4 drums and 8 drums", "monolith and 8 drums"):
+        assert corrected[pair] < 0.05
+    assert f"one of {len(p)} pairs and not told by Holm's rule" in PAGE
+
+
+@pytest.mark.parametrize("page", ["README.md", "fecolumn/case/manual/structures.md"])
+def test_pushes_that_overturn_the_column_of_drums_are_those_that_verify_checks(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for tp, outcomes in OUTCOMES.items():
+        stood = max(a for a, falls in outcomes.items() if not falls)
+        fell = min(a for a, falls in outcomes.items() if falls)
+        told = f"between {stood} and {fell}".replace(" 0.", " .")
+        if stood < fell and (tp == 0.1 or page != "README.md"):
+            assert told in text
