@@ -5,8 +5,11 @@ import re
 import numpy as np
 import pytest
 
+from benchmarks import tables
 from benchmarks.gallery.__main__ import main
 from benchmarks.gallery.figures import FIGURES, ROOT, Work, make
+from benchmarks.gallery.made import TABLE, digest
+from fecolumn.foundation.sources import PHYSICS
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "fecolumn" / "case" / "manual").glob("*.md"))]
 PLACES = {place for place, _ in FIGURES.values()}
@@ -32,6 +35,14 @@ def test_picture_is_there_and_no_blank(place):
     with Image.open(ROOT / place) as image:
         pixels = np.asarray(image.convert("L"), float)
     assert min(pixels.shape) > 300 and pixels.std() > 10
+
+
+@pytest.mark.parametrize("place", sorted(PLACES))
+def test_picture_was_made_by_code_of_these_motions(place):
+    """The file is the one that was noted, and its motions are those of today."""
+    rows = {row[0]: row for row in tables.read(TABLE).rows}
+    _, noted, _, commit, _, physics = rows[place]
+    assert noted == digest(place) and physics == str(PHYSICS) and "dirty" not in commit
 
 
 @pytest.mark.parametrize("name", ["impact", "rolling"])
