@@ -25,6 +25,7 @@ FITTED = ("questions", "Which parameters fit a test?")
 KEYS = {
     "restitution": "block.restitution = ",
     "tilt": "initial.tilt_rad = ",
+    "trade": "block.restitution and initial.tilt_rad trade",
     "fit": "The fit leaves ",
 }
 
@@ -35,7 +36,7 @@ def answers(page: str, heading: str, folder: Path) -> list[str]:
 
 
 def first(lines: list[str], begin: str) -> str:
-    """The first line that begins so, without a full stop at its end.
+    """The first line that begins so, without a full stop at its end; one blank between its words.
 
     Raises
     ------
@@ -44,7 +45,7 @@ def first(lines: list[str], begin: str) -> str:
     """
     for line in lines:
         if line.startswith(begin):
-            return line.removesuffix(".")
+            return " ".join(line.split()).removesuffix(".")
     raise ValueError(f"no line of the answer begins with {begin!r}")
 
 

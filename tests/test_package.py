@@ -1,11 +1,13 @@
 """The package as `pip install` gets it: sdist and wheel, in an environment without the checkout."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
 import sysconfig
 import tarfile
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -26,7 +28,15 @@ def said(*command, cwd) -> str:
     return done.stdout
 
 
-@pytest.mark.slow
+def test_every_file_that_states_the_version_states_the_same():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8").splitlines()
+    changelog = ROOT / "fecolumn" / "case" / "manual" / "changelog.md"
+    newest = re.search("^## (.*)$", changelog.read_text(encoding="utf-8"), re.MULTILINE)[1]
+    assert project["version"] == __version__ == newest.split(" - ")[0]
+    assert f"version: {__version__}" in citation
+
+
 def test_sdist_and_wheel_hold_every_file_and_run_in_a_fresh_environment(tmp_path):
     """The wheel is built from the sdist. Other libraries are those of this environment, by a .pth
     file that leads to them.
@@ -66,5 +76,7 @@ def test_sdist_and_wheel_hold_every_file_and_run_in_a_fresh_environment(tmp_path
     program = fresh / "bin" / "fecolumn"
     assert said(program, "--version", cwd=tmp_path).split()[-1] == __version__
     assert "# Commands" in said(program, "help", "commands", cwd=tmp_path)
+    rows = said(python, "-c", "import fecolumn; print(len(fecolumn.outcomes()))", cwd=tmp_path)
+    assert int(rows) > 100_000
     said(program, "new", "tube", "new", cwd=tmp_path)
     assert "[bodies.column]" in said(program, "show", "new/case.toml", cwd=tmp_path)
