@@ -142,7 +142,7 @@ def test_podium_claims_and_slenderness():
 def test_lost_structures_that_are_not_told_apart():
     p = {pair: float(cell) for pair, cell in column("fragility_pairs", "p (McNemar)").items()}
     corrected = dict(zip(p, holm(list(p.values()))))
-    for pair in ("monolith and elastic monolith", "trilith and elastic trilith"):
+    for pair in [pair for pair in p if "elastic" in pair]:
         assert corrected[pair] > 0.05
     for pair in ("3 drums and 6 drums", "4 drums and 8 drums", "monolith and 8 drums"):
         assert corrected[pair] < 0.05
