@@ -14,8 +14,8 @@ from fecolumn.statistics.ecdf import proportion_interval
 
 @dataclass(frozen=True)
 class Confusion:
-    """Counts of tests: overturned and told so, overturned and told to stand, stood and told to
-    overturn, stood and told so.
+    """Counts of tests: overturned as predicted, overturned and predicted to stand, stood and
+    predicted to overturn, stood as predicted.
     """
 
     hit: int
@@ -59,8 +59,8 @@ def chance(measured, told, other) -> float:
 def table(scores: dict[str, Confusion]) -> str:
     """Table of Markdown, a line for each that tells, as `benchmarks/tables` keeps it."""
     lines = [
-        "| told by | right | 95 % interval | overturned: told so | told to stand | "
-        "stood: told to overturn | told so |",
+        "| predicted by | right | 95 % interval | overturned: predicted | predicted to stand | "
+        "stood: predicted to overturn | predicted |",
         "|---|--:|---|--:|--:|--:|--:|",
     ]
     for name, c in scores.items():
