@@ -19,6 +19,8 @@ from fecolumn.foundation.sources import PHYSICS
 FOLDER = Path(__file__).parent
 #: Not a table of measurements: which sentences of which pages print which numbers.
 QUOTED = "quoted"
+# of /proc/cpuinfo, beside the processor's name
+_WHICH = "cpu family", "model"
 #: physics: PHYSICS of the code; "none": no motion computed by fecolumn enters.
 HEADER = ("title", "command", "version", "commit", "date", "machine", "physics")
 
@@ -131,7 +133,14 @@ def commit() -> str:
 
 
 def _machine() -> str:
-    """Processor and number of cores."""
-    lines = Path("/proc/cpuinfo").read_text().splitlines()
-    models = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
-    return f"{models[0] if models else 'unknown processor'}, {len(models)} cores"
+    """Processor, by its family and model, too, which decide how libraries round; number of
+    cores.
+    """
+    told: dict[str, list[str]] = {}
+    for line in Path("/proc/cpuinfo").read_text().splitlines():
+        key, _, value = line.partition(":")
+        told.setdefault(key.strip(), []).append(value.strip())
+    names = told.get("model name", [])
+    which = [f"{key.removeprefix('cpu ')} {told[key][0]}" for key in _WHICH if key in told]
+    name = " ".join([names[0] if names else "unknown processor", *which])
+    return f"{name}, {len(names)} cores"

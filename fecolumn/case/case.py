@@ -214,6 +214,12 @@ class Case:
         return self.contact.points_inside(len(self.bodies))
 
     @property
+    def motions(self) -> tuple[Motion, ...]:
+        """All ground motions: that of the case, then those that grounds have of their own."""
+        own = (ground.motion for ground in self.grounds.values())
+        return tuple(motion for motion in (self.motion, *own) if motion)
+
+    @property
     def n_modes(self) -> int:
         """Elastic modes of a body that does not state its own."""
         return 0 if self.integration.engine == "rigid" else self.integration.n_modes
@@ -461,5 +467,7 @@ def identity(section: Section) -> dict[str, Any]:
     table = section_table("", section)
     for key in FILES.get(table.get("kind", ""), ()):
         table[key] = content(table[key])
+    if motion := getattr(section, "motion", None):  # of a ground
+        table["motion"] = section_table("motion", motion)
     table.pop("between", None)  # a joint is told by slave and on, whichever way it was written
     return table

@@ -35,7 +35,8 @@ def check(case: CheckedCase, file: Path | str) -> None:
     if 0 < (cap := case.overturn.displacement_m) < _LEAST_WAY:
         told = f"must be 0 for none, or at least {_LEAST_WAY:g} m: less is no overturning"
         refuse("overturn.displacement_m", cap, told)
-    if case.own:  # checked by the model
+    if case.own:  # the rest is checked by the model
+        _check_integration(case, refuse)
         return
     check_step(case.integration, refuse)
     if not case.bodies:

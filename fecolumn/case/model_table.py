@@ -109,7 +109,10 @@ def fields_of_table(
             )
     if not isinstance(tables.get("title", ""), str):
         raise InputError(file, "title", tables["title"], "must be text in quotes")
-    tables["integration"] = {**tables.get("integration", {}), "engine": engine}
+    stated = tables.get("integration", {})
+    if not isinstance(stated, dict):
+        raise InputError(file, "integration", stated, "must be a table")
+    tables["integration"] = {**stated, "engine": engine}
     found = {
         name: located(name, build(kind, tables.get(name, {}), file, f"{name}."), file)
         for name, kind in _COMMON.items()

@@ -9,17 +9,17 @@ by every analysis on the same plate.
 
 from __future__ import annotations
 
-import os
-import tempfile
+import functools
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 import numpy as np
 
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.foundation.arrays import Array
+from fecolumn.foundation.atomic import write_file
 from fecolumn.foundation.lock import alone
 
 if TYPE_CHECKING:
@@ -104,10 +104,11 @@ def keep_base(plate: BasePlate, file: Callable[..., Any]) -> None:
         ("compliance", np.ascontiguousarray(plate.compliance.transpose(0, 2, 1, 3))),
         ("known", plate.known),
     ):
-        with tempfile.NamedTemporaryFile(dir=file(name).parent, delete=False) as partial:
-            np.save(partial, values)
-        os.chmod(partial.name, 0o644)
-        os.replace(partial.name, file(name))
+        write_file(file(name), functools.partial(_save, values))
+
+
+def _save(values: Array, file: BinaryIO) -> None:
+    np.save(file, values)
 
 
 def under(points: Array, feet: list[Array], allowance: float) -> Array:

@@ -130,8 +130,8 @@ def unbounded_base(
 
 
 def rigid_base(reference: Array) -> UnboundedBase:
-    """A rigid flat: squares as wide as the foot that do not give."""
-    size = float(np.ptp(reference[:, 0]))
+    """A rigid flat below points (n, 3) [m]: squares as wide as all of them, which do not give."""
+    size = float(np.ptp(reference[:, :2], axis=0).max())
     sides = 4 * window(size, reference) + 1
     return UnboundedBase(size, np.zeros((sides, sides, 3, 3)), reference, np.inf)
 

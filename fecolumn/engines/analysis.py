@@ -89,8 +89,16 @@ class Analysis(Resumable):
         self.standing_j = 0.0
         self.dt_chosen: dict[str, Any] | None = None
         self.step_times: StepTimes | None = None
-        grounds = self.motion.acceleration[: self.steps + 1] if self.motion else np.zeros((0, 3))
-        self._steepest = steepest_to_come(np.array([0.0, 0.0, -GRAVITY]), grounds)
+        self._steepest = np.zeros(self.steps + 1)
+        for motion in self.moving_grounds():
+            to_come = motion.acceleration[: self.steps + 1]
+            steepest = steepest_to_come(np.array([0.0, 0.0, -GRAVITY]), to_come)
+            own = self._steepest[: len(steepest)]
+            np.maximum(own, steepest, out=own)
+
+    def moving_grounds(self) -> list[GroundMotion]:
+        """The motion of each ground that moves."""
+        return [self.motion] if self.motion else []
 
     def run(self, stop: Callable[[], bool]) -> dict[str, Any]:
         """Step to the end, or until `stop` says so; the summary."""

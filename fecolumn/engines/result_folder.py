@@ -40,23 +40,15 @@ def held(
         try:
             made = not folder.exists()
             folder.mkdir(parents=True, exist_ok=True)
-            if known.is_file():
-                other = read_json(known)["id"]
-                if other != case.id:
-                    refusal = (
-                        "-o",
-                        str(folder),
-                        f"holds the results of another case ({other}, this one is "
-                        f"{case.id}); give a new folder",
-                    )
-            elif any(folder.iterdir()) and not (folder / ".lock").exists():
-                refusal = "-o", str(folder), "must be a new or empty folder, or one of this case"
+            refusal = _of_another_case(known, case)
             if refusal is None:
                 lock = open_lock(folder / ".lock")
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 # its holder has just given the folder up
                 if not os.path.samestat(os.fstat(lock.fileno()), os.stat(folder / ".lock")):
                     raise BlockingIOError
+                # another run may have claimed the folder, and ended, since
+                refusal = _of_another_case(known, case)
         except (BlockingIOError, FileNotFoundError):
             refusal = "-o", str(folder), "another run is writing into this folder"
         except (NotADirectoryError, FileExistsError):
@@ -91,6 +83,21 @@ def held(
                 if made:
                     folder.rmdir()
             lock.close()
+
+
+def _of_another_case(known: Path, case: Case) -> tuple[str, str, str] | None:
+    """Why a folder, its case.json at `known`, is not this case's: as of InputError; else None."""
+    folder, told = known.parent, None
+    if known.is_file():
+        other = read_json(known)["id"]
+        if other != case.id:
+            told = (
+                f"holds the results of another case ({other}, this one is {case.id}); give a new "
+                "folder"
+            )
+    elif any(folder.iterdir()) and not (folder / ".lock").exists():
+        told = "must be a new or empty folder, or one of this case"
+    return ("-o", str(folder), told) if told else None
 
 
 def kept_choice(folder: Path) -> dict[str, Any] | None:

@@ -152,8 +152,13 @@ class StepChoice:
             "output.states_every_s": 0.0,
             "output.fields_every_s": 0.0,
         }
-        if shift and case.motion:
-            keys["motion.delay_s"] = case.motion.delay_s + shift * dt
+        if shift and case.motions:
+            if case.motion:
+                keys["motion.delay_s"] = case.motion.delay_s + shift * dt
+            for name, ground in case.grounds.items():
+                if ground.motion:
+                    later = ground.motion.delay_s + shift * dt
+                    keys[f"grounds.{name}.motion.delay_s"] = later
         elif shift:
             keys["integration.dt_s"] = dt / (1 + shift * dt / lands)
         return case.replace(keys)

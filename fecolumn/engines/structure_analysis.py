@@ -135,6 +135,10 @@ class OfStructure(Analysis):
         )
         return max(filter(None, self.motions), key=lambda one: len(one.acceleration), default=None)
 
+    def moving_grounds(self) -> list[GroundMotion]:
+        """The motion of each ground that moves."""
+        return [motion for motion in self.motions if motion is not None]
+
     def grounds(self, steps: range) -> NDArray[Any]:
         """Accelerations (k, 3 G) of all grounds at k successive steps [m/s2]."""
         return accelerations(self.motions, steps)

@@ -11,7 +11,7 @@ import os
 import tempfile
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, BinaryIO
 
 from fecolumn.foundation.sealed import sealed
 
@@ -36,8 +36,13 @@ def disk_full(error: BaseException | None) -> bool:
 
 
 def write_bytes(path: Path, content: bytes) -> None:
-    """Write a file so that a reader, and a crash of the machine, sees the old content or the new,
-    whoever else writes it, too.
+    """As `write_file`, of bytes."""
+    write_file(path, lambda file: file.write(content))
+
+
+def write_file(path: Path, fill: Callable[[BinaryIO], object]) -> None:
+    """Write the file that `fill(file)` makes so that a reader, and a crash of the machine, sees the
+    old content or the new, whoever else writes it, too.
 
     Raises
     ------
@@ -48,7 +53,7 @@ def write_bytes(path: Path, content: bytes) -> None:
     try:
         with open(handle, "wb") as file:
             os.fchmod(handle, 0o666 & ~_umask())
-            file.write(content)
+            fill(file)
             file.flush()
             os.fsync(handle)
         os.replace(partial, path)

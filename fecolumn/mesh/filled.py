@@ -16,6 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from fecolumn.foundation._compiled import cache_folder
+from fecolumn.foundation.atomic import write_file
 from fecolumn.foundation.content import content
 from fecolumn.foundation.lock import alone
 from fecolumn.foundation.sources import digest_of
@@ -68,10 +69,7 @@ def filled(file: MeshFile) -> Filled:
                 arrays = _made(file)
                 for note in arrays.pop("notes", ()):
                     warnings.warn(f"{file.path}: {note}", stacklevel=2)
-                handle, partial = tempfile.mkstemp(dir=kept.parent, prefix=".writing-")
-                with open(handle, "wb") as out:
-                    np.savez(out, **arrays)
-                os.replace(partial, kept)
+                write_file(kept, lambda out: np.savez(out, **arrays))
                 found = _of_arrays(arrays)
     return found
 

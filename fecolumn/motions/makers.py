@@ -139,6 +139,8 @@ def _with(
 
         try:
             ensemble = maker(args)
+        except InputError:
+            raise
         except ValueError as error:
             raise InputError("fecolumn motions make", "", None, str(error)) from None
         result: int = store(ensemble, args.output)

@@ -46,6 +46,11 @@ class Ecdf:
         return self.lost
 
 
+def _check_share(where: str, name: str, value: float) -> None:
+    if not 0 < value < 1:
+        raise InputError(where, name, value, "must lie between 0 and 1")
+
+
 def ecdf(u_max: ArrayLike, lost: ArrayLike, confidence: float = 0.95) -> Ecdf:
     """Distribution of u_max, lost runs censored at the right.
 
@@ -73,8 +78,10 @@ def ecdf(u_max: ArrayLike, lost: ArrayLike, confidence: float = 0.95) -> Ecdf:
     Raises
     ------
     InputError
-        empty sample, lengths that differ, or a run that stood without a finite u_max.
+        empty sample, lengths that differ, a run that stood without a finite u_max, or a confidence
+        out of range.
     """
+    _check_share("ecdf", "confidence", confidence)
     standing, n = _standing(u_max, lost)
     x, counts = np.unique(standing, return_counts=True)
     cdf = np.cumsum(counts) / n
@@ -87,9 +94,14 @@ def percentile(u_max: ArrayLike, lost: ArrayLike, fraction: float) -> float:
 
     The inverse of the ECDF (type 1 of Hyndman & Fan 1996, The American Statistician 50): no
     interpolation, which would have no meaning between a run that stood and one that was lost.
+
+    Raises
+    ------
+    InputError
+        as of `ecdf`, or a fraction that is not in (0, 1].
     """
-    if not 0 < fraction <= 1:
-        raise ValueError(f"fraction = {fraction}: must lie in (0, 1]")
+    if fraction != 1:
+        _check_share("percentile", "fraction", fraction)
     standing, n = _standing(u_max, lost)
     rank = math.ceil(round(fraction * n, 9))  # 0.07 * 100 is 7.000000000000001 in binary
     return float(np.sort(standing)[rank - 1]) if rank <= standing.size else math.inf
@@ -111,9 +123,22 @@ def proportion_interval(
     method
         "wilson", the score interval (Wilson 1927, J. Am. Stat. Assoc. 22), close to its level on
         average; "exact", Clopper and Pearson (1934, Biometrika 26), never below its level, wider.
+
+    Raises
+    ------
+    InputError
+        n below 1, k not in [0, n], a confidence out of range, or another method.
     """
     from scipy.stats import binomtest
 
+    where = "proportion_interval"
+    _check_share(where, "confidence", confidence)
+    if n < 1:
+        raise InputError(where, "n", n, "must be at least 1")
+    if not 0 <= k <= n:
+        raise InputError(where, "k", k, f"must be in [0, {n}]")
+    if method not in ("wilson", "exact"):
+        raise InputError(where, "method", method, "must be 'wilson' or 'exact'")
     interval = binomtest(int(k), int(n)).proportion_ci(confidence, method=method)
     return float(interval.low), float(interval.high)
 

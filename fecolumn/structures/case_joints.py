@@ -17,6 +17,7 @@ from fecolumn.case.sections import Contact
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.rim import Rim
+from fecolumn.contact.tolerances import LEVEL
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.model import BodyModel, JointModel
@@ -82,7 +83,7 @@ def joint_of(
     ball = ball_of(case.bodies[body]) if contact["slave_surface"] == "foot" else None
     round_rim = (
         not (ball and ball.is_dome)
-        and abs(surface.normal[2]) > 1 - 1e-9
+        and abs(surface.normal[2]) > LEVEL
         and Rim.find(surface.plane(model.arms[surface.nodes])) is not None
     )
     title = case.names_of(body)[number]

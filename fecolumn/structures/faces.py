@@ -12,6 +12,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
+from fecolumn.contact.tolerances import LEVEL
 from fecolumn.mesh.bricks import BrickMesh, outer_faces, outline_edges
 
 #: Over the size of a body: faces within it lie in one plane, and faces of two bodies coincide. What
@@ -52,6 +53,11 @@ class Face:
         first = along - self.normal * (along @ self.normal)
         first /= np.linalg.norm(first)
         return np.stack([first, np.cross(self.normal, first), self.normal], axis=1)
+
+    @property
+    def is_level(self) -> bool:
+        """Whether it looks straight up or down."""
+        return bool(abs(self.normal[2]) > LEVEL)
 
     @property
     def outline(self) -> NDArray[Any]:

@@ -54,7 +54,7 @@ def domed(
 def foot_of(faces: list[Face]) -> Face:
     """The lowest level face of a body."""
     return min(
-        (face for face in faces if face.normal[2] < -1 + 1e-9),
+        (face for face in faces if face.is_level and face.normal[2] < 0),
         key=lambda face: face.corners[:, :, 2].min(),
     )
 

@@ -238,7 +238,7 @@ def _plate(
                     remove_damaged(folder)
                 say(f'finding how the plate "{name}" gives below its feet (once)')
                 plate = make()
-                widest = max(np.ptp(foot[:, 0]) for foot in feet)
+                widest = max(np.ptp(foot[:, :2], axis=0).max() for foot in feet)
                 allowance = max(sized.allowance, LEAST_REACH * widest)
                 plate.need(under(plate.grid.points, feet, allowance))
                 base = dict(

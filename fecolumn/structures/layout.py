@@ -148,14 +148,13 @@ def _spots(
             face = drawings[other[0]].faces[
                 meeting.slave_face if other is meeting.slave else meeting.master_face
             ]
+            if not face.is_level:  # it meets a side of the plate, whose nodes stay as they are
+                continue
             corners = face.corners.reshape(-1, 3) + place_of(case, other) - place_of(case, own)
             low, high = corners[:, :2].min(axis=0), corners[:, :2].max(axis=0)
             side = (high - low).min()
-            allowance = (
-                side / 4
-                if case.joints[meeting.interface].allowance_m is None
-                else case.joints[meeting.interface].allowance_m
-            )
+            stated = case.joints[meeting.interface].allowance_m
+            allowance = side / 4 if stated is None else stated
             size = (
                 side / 4 if drawings[own[0]].is_rigid or drawings[own[0]].order == 1 else side / 2
             )
@@ -240,7 +239,7 @@ def _surface_name(faces: list[Face], number: int, role: str) -> str:
     """Name of a face: "foot", "head" or "face 3"; of a master with ", master", of the edge of one
     with ", edge", as its nodes are others.
     """
-    level = [k for k, face in enumerate(faces) if abs(face.normal[2]) > 1 - 1e-9]
+    level = [k for k, face in enumerate(faces) if face.is_level]
     bottom = min(
         (k for k in level if faces[k].normal[2] < 0), key=lambda k: -faces[k].offset, default=None
     )

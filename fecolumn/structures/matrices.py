@@ -88,15 +88,15 @@ def read_system(key: str, body: Matrices, file: Path | str) -> SystemMatrices:
             name,
             functools.partial(refuse, f"{name}_file"),
         )
-        if (
-            matrix.shape[0] != matrix.shape[1]
-            or abs(matrix - matrix.T).max() > _EXACT * abs(matrix).max()
-        ):
-            refuse(
-                f"{name}_file",
-                f"must hold a symmetric matrix; has {matrix.shape[0]} rows and "
-                f"{matrix.shape[1]} columns, and entries that differ",
-            )
+        rows, columns = matrix.shape
+        if rows != columns:
+            told = f"must hold a symmetric matrix; has {rows} rows and {columns} columns"
+            refuse(f"{name}_file", told)
+        if not np.isfinite(matrix.data).all():
+            refuse(f"{name}_file", "must hold finite entries")
+        if (apart := abs(matrix - matrix.T).max()) > _EXACT * abs(matrix).max():
+            told = f"must hold a symmetric matrix; entries differ by up to {apart:.3g}"
+            refuse(f"{name}_file", told)
         found[name] = matrix
     if found["mass"].shape != found["stiffness"].shape:
         refuse(
@@ -140,16 +140,16 @@ def _nodes(path: str, refuse: Refusal) -> tuple[NDArray[Any], NDArray[Any], NDAr
                 path, delimiter="," if Path(path).suffix == ".csv" else None, ndmin=2
             )
             dofs, coordinates, triangles = table[:, :3], table[:, 3:6], None
-        if (
-            dofs.shape != coordinates.shape
-            or dofs.shape[1:] != (3,)
-            or not np.all(np.isfinite(coordinates))
-            or np.any(dofs != np.rint(dofs))
-        ):
-            refuse("must hold six numbers a node: three whole rows and three finite coordinates")
-        return dofs.astype(np.int64), coordinates, triangles
     except (OSError, ValueError, KeyError, zipfile.BadZipFile) as error:
         refuse(f"cannot be read as nodes: {error}")
+    if (
+        dofs.shape != coordinates.shape
+        or dofs.shape[1:] != (3,)
+        or not np.all(np.isfinite(coordinates))
+        or np.any(dofs != np.rint(dofs))
+    ):
+        refuse("must hold six numbers a node: three whole rows and three finite coordinates")
+    return dofs.astype(np.int64), coordinates, triangles
 
 
 def _hull(coordinates: NDArray[Any], refuse: Refusal) -> NDArray[Any]:

@@ -222,7 +222,7 @@ def _meeting(
 
 def _is_ball(case: Case, copy: tuple[str, int], face: Face) -> bool:
     """Whether a face is a foot that touches with balls: only a slave can."""
-    return ball_of(case.bodies[copy[0]]) is not None and bool(face.normal[2] < -1 + 1e-9)
+    return ball_of(case.bodies[copy[0]]) is not None and face.is_level and face.normal[2] < 0
 
 
 def _is_upper(face: Face, slave: tuple[str, int], master: tuple[str, int]) -> bool:

@@ -190,5 +190,5 @@ def punch_stiffness(area: float, material: Material) -> float:
 
 def top_face(faces: list[Face]) -> Face:
     """The highest level face of a body; its highest face where none is level."""
-    level = [face for face in faces if face.normal[2] > 1 - 1e-9] or faces
+    level = [face for face in faces if face.is_level and face.normal[2] > 0] or faces
     return max(level, key=lambda face: face.corners[:, :, 2].max())

@@ -242,8 +242,8 @@ class _Maker:
         case = case_from_tables(self._tables(places), self.path)
         check_analysis(case, self.path)
         check_stated(case, self.path)
-        if case.motion:
-            self._refuse_missing(case.motion)
+        for motion in case.motions:
+            self._refuse_missing(motion)
         return case
 
     def _tables(self, places: tuple[int, ...]) -> dict[str, Any]:

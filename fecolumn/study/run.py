@@ -161,7 +161,7 @@ def check_motions(plan: Plan) -> None:
     longest_step: dict[Motion, float] = {}
     users: dict[Motion, list[PlannedAnalysis]] = {}
     for analysis in plan.analyses:
-        if motion := analysis.case.motion:
+        for motion in analysis.case.motions:
             key = dataclasses.replace(motion, scale=float(motion.scale != 0), rotation_deg=0.0)
             longest_step[key] = max(
                 longest_step.get(key, 0.0), float(analysis.case.integration.dt_s)

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
+from fecolumn.case.sections import Motion
 from fecolumn.foundation.atomic import UNFINISHED, write_json
 from fecolumn.foundation.content import content
 from fecolumn.foundation.files import Unreadable, read_json
@@ -114,16 +115,22 @@ class Store:
             raise
 
     def _reconcile(self, share: tuple[int, int] | None) -> None:
-        motions: dict[int, str] = {}
+        found: dict[int, str] = {}
 
-        def motion(case: Any) -> str | None:
-            if case.motion and id(case.motion) not in motions:  # sections of the plan are shared
-                sources = (case.motion.source, case.motion.source_y, case.motion.source_z)
-                motions[id(case.motion)] = " ".join(content(source) for source in sources if source)
-            return motions[id(case.motion)] if case.motion else None
+        def content_of(motion: Motion) -> str:
+            if id(motion) not in found:  # sections of the plan are shared
+                sources = (motion.source, motion.source_y, motion.source_z)
+                found[id(motion)] = " ".join(content(source) for source in sources if source)
+            return found[id(motion)]
 
         self.ledger.plan(
-            (a.id, place, json.dumps(a.values), motion(a.case)) for place, a in self.analyses
+            (
+                a.id,
+                place,
+                json.dumps(a.values),
+                " ".join(map(content_of, a.case.motions)) or None,
+            )
+            for place, a in self.analyses
         )
         others = [file for file in _ledgers(self.folder) if file.stem != stem(share)]
         if share is None or self.ledger.is_new:

@@ -6,6 +6,7 @@ import pytest
 from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.points import node_points
 from fecolumn.contact.projection import OFF, ON, UNKNOWN, base_of, nodes_under, project
+from fecolumn.contact.unbounded_base import rigid_base
 
 
 @pytest.fixture
@@ -82,3 +83,13 @@ def test_node_whose_compliance_is_not_known_is_asked_for(top):
 def test_nodes_around_the_edge_are_those_there(top):
     assert len(top.around(np.array([[0.24, 0.39, 0.0]]), 0)) == 4
     assert len(top.around(np.array([[5.0, 5.0, 0.0]]), 1)) == 9
+
+
+@pytest.mark.parametrize("across", [(0.005, 2.5), (2.5, 0.005)])
+def test_squares_of_a_rigid_base_are_as_wide_as_all_feet_whichever_way_they_lie(across):
+    """A row of feet along y takes as few squares as the same row along x."""
+    x, y = across
+    feet = np.array([[0.0, 0.0, 0.0], [x, 0.0, 0.0], [0.0, y, 0.0], [x, y, 0.0]])
+    base = rigid_base(feet)
+    assert len(base.grid.x) == len(base.grid.y) < 20
+    assert np.diff(base.grid.x) == pytest.approx(2.5)

@@ -377,3 +377,14 @@ def test_keys_that_cannot_be_fitted_are_refused_in_a_line(test_of_block, capsys,
     assert calibrate(test_of_block, "refused", *fits) == 2
     told = capsys.readouterr().err
     assert said in told and told.count("\n") == 1
+
+
+@pytest.mark.parametrize("table", ["base", "grounds", "joints"])
+def test_what_stands_on_a_pad_is_fitted_by_its_stiffness_and_no_restitution(table):
+    pad = dict(kind="pad", stiffness_n_m3=2e8)
+    tables = dict(bodies={}) | ({"base": pad} if table == "base" else {table: dict(soil=pad)})
+    name = "base" if table == "base" else f"{table}.soil"
+    assert usual_ranges(tables, "case.toml") == {
+        "contact.friction_coefficient": (0.1, 1.0),
+        f"{name}.stiffness_n_m3": pytest.approx((2e7, 2e9)),
+    }

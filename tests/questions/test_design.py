@@ -296,3 +296,13 @@ def test_question_that_cannot_be_asked_is_refused_in_a_line(
     told = capsys.readouterr().err
     assert said in told and told.count("\n") == 1
     assert not (pulses / "refused").exists()
+
+
+def test_a_part_is_a_whole_name_or_its_first_words():
+    """Of "tendon 12" this is "tendon", not "tendon 1"."""
+    links = {f"tendon {number}": {"tension_max_n": 1e3 * number} for number in (1, 2, 12)}
+    summary = dict(overturned=False, slid_off=False, engine="rigid", links=links)
+    assert read_event("tension[tendon 1] > 5 kN", "").peak(summary) == 1e3
+    assert read_event("tension[tendon] > 5 kN", "").peak(summary) == 12e3
+    with pytest.raises(InputError, match="there are tendon 1, tendon 2, tendon 12"):
+        read_event("tension[ten] > 5 kN", "").peak(summary)

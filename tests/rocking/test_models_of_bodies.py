@@ -322,3 +322,14 @@ def test_a_rigid_model_passes_over_the_damping_of_elastic_modes(engine, key):
     damped = made.replace({key: 0.05})
     found, exact = (model_of(one, "case.toml").describe() for one in (damped, made))
     assert found == exact
+
+
+@pytest.mark.parametrize("engine, column", [("rocking_frame", PIER), ("wobbling_frame", POST)])
+@pytest.mark.parametrize(
+    "key, value", [("centre_m", [0.05, 0.0, 0.7]), ("inertia_kg_m2", [60.0, 60.0, 3.0])]
+)
+def test_frames_refuse_where_the_mass_of_a_column_is(engine, column, key, value):
+    """They know the mass alone: a weighed centre would be passed over."""
+    weighed = frame(engine, column | {key: value}, SLAB)
+    with pytest.raises(InputError, match=f"bodies.body.{key} = .*must be left out"):
+        model_of(weighed, "case.toml")

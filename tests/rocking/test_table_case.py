@@ -205,3 +205,19 @@ def test_functions_compiled_from_their_own_file_are_kept_for_the_next_tests(tmp_
 
 def test_tables_of_other_programs_come_out_again():
     assert [row for row in rocking_tables.run("models").rows if not row.ok] == []
+
+
+@pytest.mark.parametrize(
+    "keys, told",
+    [
+        (dict(integration="reduced"), "integration = 'reduced': must be a table"),
+        (dict(motion=dict(source="lick:1", strong_part=[0.9, 0.1])), "motion.strong_part"),
+        (dict(integration=dict(tolerance=1e-3)), "integration.tolerance = 0.001: has no effect"),
+        (dict(integration=dict(kinematics="total_lagrangian")), "integration.kinematics"),
+        (dict(integration=dict(dt_s=1e-12, duration_s=10.0)), "must be at least .* steps in 10 s"),
+    ],
+)
+def test_motion_and_integration_of_a_models_own_table_are_checked_as_of_any_case(keys, told):
+    block = dict(block=dict(width_m=0.25, height_m=1.0))
+    with pytest.raises(InputError, match=told):
+        case_from_tables(block | keys, "case.toml")

@@ -120,3 +120,19 @@ def test_row_of_an_ensemble():
         math.inf,
     )
     assert row.energy_closure_worst == 4e-3 and row.s_per_step == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    "call, told",
+    [
+        (lambda: ecdf([1.0, 2.0], [0, 0], 95), "confidence = 95: must lie between 0 and 1"),
+        (lambda: percentile([1.0, 2.0], [0, 0], 2), "fraction = 2: must lie between 0 and 1"),
+        (lambda: proportion_interval(3, 2), r"k = 3: must be in \[0, 2\]"),
+        (lambda: proportion_interval(0, 0), "n = 0: must be at least 1"),
+        (lambda: proportion_interval(1, 2, 0.0), "confidence = 0.0"),
+        (lambda: proportion_interval(1, 2, method="wald"), "must be 'wilson' or 'exact'"),
+    ],
+)
+def test_what_no_share_can_be_is_refused_by_name(call, told):
+    with pytest.raises(InputError, match=told):
+        call()

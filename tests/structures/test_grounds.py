@@ -3,9 +3,11 @@ motions of their own, and sliding off.
 """
 
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
+from mpi4py import MPI
 from small_grounds import (
     BLOCK,
     HEIGHT,
@@ -23,7 +25,7 @@ from small_structures import structure
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.history import read_history
 from fecolumn.foundation.schema import InputError
-from fecolumn.simulation import read_folder_case, run
+from fecolumn.simulation import read_folder_case, run, started_analysis
 from fecolumn.structures.shaking import motions_of
 from fecolumn.structures.structure import structure_model
 
@@ -236,3 +238,42 @@ def test_a_ground_whose_own_motion_cannot_be_is_named():
     )
     with pytest.raises(InputError, match=r"grounds\.table\.motion\.source.*from 1 to 115"):
         motions_of(case, None, "case.toml")
+
+
+def two_moving_grounds(folder, peak_g):
+    """Case of two blocks on grounds of their own: the first shakes weakly for 2 s, the second for
+    1 s by `peak_g`.
+    """
+    for name, peak, seconds in (("weak", 0.05, 2.0), ("strong", peak_g, 1.0)):
+        times = 0.01 * np.arange(round(seconds / 0.01) + 1)
+        shaken = GRAVITY * peak * np.sin(2 * np.pi * times)
+        rows = "".join(f"{t:.3f},{a:.6f},0.0\n" for t, a in zip(times, shaken))
+        (folder / f"{name}.csv").write_text("time_s,ax_m_s2,ay_m_s2\n" + rows)
+    own = dict(source=str(folder / "strong.csv"))
+    return structure(
+        bodies=dict(one=BLOCK, other=BLOCK | dict(at_m=[2.0, 0, 0])),
+        joints=dict(foot=dict(between=["one", "ground"]), beside=dict(between=["other", "dock"])),
+        grounds=dict(ground=dict(kind="rigid"), dock=dict(kind="rigid", motion=own)),
+        motion=dict(source=str(folder / "weak.csv")),
+        integration=dict(engine="rigid", dt_s=1e-3, duration_s=0.0),
+        contact=dict(interior_points=0),
+    )
+
+
+def test_a_case_counts_the_motions_of_grounds_by_what_their_files_hold(tmp_path):
+    made = two_moving_grounds(tmp_path, 0.8)
+    assert [Path(motion.source).name for motion in made.motions] == ["weak.csv", "strong.csv"]
+    known, moved = made.id, tmp_path / "moved"
+    moved.mkdir()
+    assert two_moving_grounds(moved, 0.8).id == known
+    assert two_moving_grounds(tmp_path, 0.9).id != known
+
+
+def test_no_return_reckons_with_the_motion_of_every_ground(tmp_path):
+    """The shorter motion of the other ground is the stronger one."""
+    made = two_moving_grounds(tmp_path, 0.8)
+    (tmp_path / "out").mkdir()
+    analysis = started_analysis(made, tmp_path / "out", MPI.COMM_SELF, "case.toml", quiet=True)
+    steepest = analysis.steepest(range(2000))
+    assert steepest[0] == pytest.approx(0.8, rel=1e-3)
+    assert steepest[1001:].max() == pytest.approx(0.05, rel=1e-3)

@@ -529,3 +529,27 @@ def test_a_link_at_the_circle_of_a_round_body_drawn_with_few_sides_is_taken():
             "drum.toml",
         )
         assert len(structure_model(case).links) == 1
+
+
+@pytest.mark.parametrize("wide", [0.5, 1.0])
+@pytest.mark.parametrize("gap", [0.0, 0.02])
+def test_a_slab_beside_a_wall_is_meshed_as_alone(wide, gap):
+    """A side of the slab that another body meets needs no finer elements in its plan."""
+    stone = dict(density_kg_m3=2400.0, youngs_modulus_pa=3e10, poissons_ratio=0.2)
+    slab = dict(kind="slab", length_m=1.0, width_m=1.0, thickness_m=0.2) | stone
+    wall = dict(kind="block", length_m=0.3, width_m=wide, height_m=0.2, element_size_m=0.1) | stone
+    between = dict(between=["slab", "wall"]) | (dict(open=True) if gap else {})
+    case = case_from_tables(
+        dict(
+            bodies=dict(slab=slab, wall=wall | dict(at_m=[0.65 + gap, 0, 0])),
+            joints=dict(
+                foot=dict(between=["slab", "ground"]),
+                stands=dict(between=["wall", "ground"]),
+                side=between,
+            ),
+            integration=dict(engine="rigid", duration_s=0.01),
+        ),
+        "case.toml",
+    )
+    model = structure_model(case)
+    assert {part.name for part in model.parts} == {"slab", "wall"}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -157,7 +157,7 @@ class _Reader:
 
     def _refuse_laws(self) -> None:
         """Refuse keys of which the model knows nothing."""
-        stated: dict[str, float | None] = {
+        stated: dict[str, Any] = {
             f"{section}.{key}": getattr(getattr(self.case, section), key)
             for section, key in UNKNOWN_KEYS
         }
@@ -166,7 +166,9 @@ class _Reader:
             stated[f"joints.{name}.rolling_resistance"] = interface.rolling_resistance
             stated[f"joints.{name}.bond_tension_pa"] = interface.bond_tension_pa
         for name, body in self.case.bodies.items():
-            for key in ("foot_radius_m", "edge_radius_m", "turned_deg"):
+            # a model of one body takes where that is weighed; frames know the mass alone
+            weighed = () if self.is_of_one else ("centre_m", "inertia_kg_m2")
+            for key in ("foot_radius_m", "edge_radius_m", "turned_deg", *weighed):
                 stated[f"bodies.{name}.{key}"] = getattr(body, key, None)
         for key, value in stated.items():
             if value:

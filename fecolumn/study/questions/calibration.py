@@ -237,11 +237,14 @@ def usual_ranges(tables: dict[str, Any], file: str) -> dict[str, tuple[float, fl
             "must be given for this kind of case, such as --fit frame.restitution 0.5:1",
         )
     found = {"contact.restitution": (0.0, 0.95), "contact.friction_coefficient": (0.1, 1.0)}
+    springs = {"base": tables.get("base")}
     for table in ("grounds", "joints"):
-        for name, one in (tables.get(table) or {}).items():
-            stiffness = one.get("stiffness_n_m3") if isinstance(one, dict) else None
-            if isinstance(stiffness, (int, float)):
-                found[f"{table}.{name}.stiffness_n_m3"] = (0.1 * stiffness, 10.0 * stiffness)
+        springs |= {f"{table}.{name}": one for name, one in (tables.get(table) or {}).items()}
+    for name, one in springs.items():
+        stiffness = one.get("stiffness_n_m3") if isinstance(one, dict) else None
+        if isinstance(stiffness, (int, float)):
+            found[f"{name}.stiffness_n_m3"] = (0.1 * stiffness, 10.0 * stiffness)
+            found.pop("contact.restitution", None)  # a pad has dashpots, and no restitution
     for name, body in (tables.get("bodies") or {}).items():
         stiffness = body.get("contact_stiffness_n_m3") if isinstance(body, dict) else None
         if isinstance(stiffness, (int, float)):

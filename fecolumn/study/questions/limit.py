@@ -84,7 +84,8 @@ class LimitEvent:
     quantity
         name in _QUANTITIES, or of how an analysis ends.
     part
-        how the name of the joint, body, link or storey begins; "" for any of them.
+        name of the joint, body, link or storey, or its first words, such as "foot" for "foot:
+        column on ground"; "" for any of them.
     threshold
         beyond which the event has happened, in SI units; 0 of an ending.
     """
@@ -120,7 +121,7 @@ class LimitEvent:
             part[kind.entry]
             for name, part in parts.items()
             # summaries of earlier versions do not have every entry
-            if name.startswith(self.part or "") and part.get(kind.entry) is not None
+            if is_named(name, self.part) and part.get(kind.entry) is not None
         ]
         if not found:
             engine = summary.get("engine", "")
@@ -146,6 +147,11 @@ class ShareLimit:
     def text(self) -> str:
         """Such as "P(overturn) < 0.1"."""
         return f"P({self.event.text}) {'<' if self.strict else '<='} {self.share:g}"
+
+
+def is_named(name: str, part: str) -> bool:
+    """Whether `part` is a name, or its first words: of "tendon 12" "tendon", not "tendon 1"."""
+    return name.startswith(part) and name[len(part) : len(part) + 1] in ("", " ", ":", ",")
 
 
 def read_event(text: str, command: str, engine: str | None = None) -> LimitEvent:
@@ -200,13 +206,13 @@ def check_event(event: LimitEvent, case: Case, command: str) -> None:
     ------
     InputError
         its engine, which the case need not state, is a rocking model without such parts, or it has
-        no links, or none whose name begins so.
+        no links, or none of this name.
     """
     _check_engine(event, case.integration.engine, command)
     kind = _QUANTITIES.get(event.quantity)
     if kind is None or kind.table != "links":
         return
-    if not any(name.startswith(event.part) for name in case.links):
+    if not any(is_named(name, event.part) or is_named(event.part, name) for name in case.links):
         there = f"there are {', '.join(case.links)}" if case.links else "the case has no [links]"
         raise InputError(command, "--limit", event.text, f"is of links: {there}")
 
