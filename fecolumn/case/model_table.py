@@ -73,7 +73,7 @@ def fields_of_table(
     Parameters
     ----------
     engine
-        name of the model; left out: as `model.model_engine_of` says.
+        name of the model; left out: as `model_names.model_engine_of` says.
 
     Raises
     ------

@@ -113,7 +113,7 @@ def finished(case: ShortForm, file: Path | str) -> ShortForm:
     """
     sizes.check_shape(case, file)
     check_thin_column(case, refuse_in(file))
-    case = sizes.with_sizes(case, file)
+    case = sizes.with_sizes(case)
     sizes.check_sizes(case, file)
     check_short_form(case, file)
     return case

@@ -109,7 +109,7 @@ def check_shape(case: ColumnSections, file: Path | str) -> None:
         )
 
 
-def with_sizes(case: _Case, file: Path | str) -> _Case:
+def with_sizes(case: _Case) -> _Case:
     """The case with every size that it leaves open.
 
     Raises
@@ -142,7 +142,7 @@ def opened(case: _Case) -> _Case:
             trial = dataclasses.replace(
                 case, **{name: dataclasses.replace(getattr(case, name), **{key: None})}
             )
-            if with_sizes(trial, "case") == with_sizes(case, "case"):
+            if with_sizes(trial) == with_sizes(case):
                 case = trial
     return case
 

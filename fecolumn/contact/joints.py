@@ -45,7 +45,7 @@ def joints_of(
     joints: list[Any] | tuple[Any, ...],
     replaced: frozenset[int] = frozenset(),
 ) -> Joints:
-    """Points and interfaces of the joints (`structures.model.Joint`) of parts
+    """Points and interfaces of the joints (`structures.model.JointModel`) of parts
     (`structures.model.Part`), whose nodes come one after another.
 
     replaced: numbers of joints that have no points, as contact between their bodies is found

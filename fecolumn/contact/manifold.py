@@ -136,7 +136,7 @@ def _lay_face(
 
 
 @njit(alone=TOGETHER)
-def _name_at_side(hulls: Hulls, master: int, f: int, k: int, source: int, exchanged: bool) -> int:
+def _name_at_side(hulls: Hulls, f: int, k: int, source: int, exchanged: bool) -> int:
     """Name of the place where an edge of what is left comes to side k of face f of the master."""
     start = hulls.loop_first[f]
     if source >= 0:
@@ -193,7 +193,7 @@ def _clip(
                 share = here / (here - there)
                 for i in range(3):
                     new[left].at[i] = one.at[i] + share * (other.at[i] - one.at[i])
-                new[left].name = _name_at_side(hulls, master, f, k, one.source, exchanged)
+                new[left].name = _name_at_side(hulls, f, k, one.source, exchanged)
                 new[left].source = -1 - k if here <= slack else one.source
                 left += 1
         now, count = 1 - now, left

@@ -11,11 +11,9 @@ T / N is bounded in two ways:
 
 - by friction: T <= mu N, whether the edge sticks, slides, flies or lands;
 - where the edge sticks the body turns about it, I tilt'' = m ((g + v) x - a z) under a ground
-    acceleration a towards the lean and v
-  upwards, so that T / N stays below x / z as long as a / (g + v), the inclination of apparent
-      gravity, does. Of the motion
-  only what is still to come matters; a recording that is interpolated between its samples is
-      steepest at one of them.
+  acceleration a towards the lean and v upwards, so that T / N stays below x / z as long as a /
+  (g + v), the inclination of apparent gravity, does. Of the motion only what is still to come
+  matters; a recording that is interpolated between its samples is steepest at one of them.
 
 A tilt that grows while tan(overhang) exceeds the smaller bound therefore grows for ever: tilt'' >=
 0 from then on, and the overhang grows with the tilt. After the motion's end the bound of a sticking

@@ -44,7 +44,7 @@ class UnboundedBase:
         self, size: float, response: Array, reference: Array, frequency: float, feet: int = 1
     ) -> None:
         self.response, self.frequency = response, frequency
-        self.grid = MovingTop(size, reference, (len(response) - 1) // 4)
+        self.grid = MovingTop(size, (len(response) - 1) // 4)
         self.slot = np.full(len(self.grid.points), -1, np.int64)
         self.known = np.zeros(0, np.int64)
         if feet > 1:
@@ -74,7 +74,7 @@ class UnboundedBase:
 class MovingTop(BaseTop):
     """Equal squares under the foot, moved along with it by whole squares."""
 
-    def __init__(self, size: float, reference: Array, count: int) -> None:
+    def __init__(self, size: float, count: int) -> None:
         lines = size * np.arange(-count, count + 1)
         x, y = np.meshgrid(lines, lines, indexing="ij")
         super().__init__(np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1))

@@ -106,7 +106,7 @@ class FullAnalysis(OfStructure):
         return released(self.system, self.structure.parts, None if self.unstrained else standing)
 
     def drawn(self) -> StructureFields:
-        """What of the bodies is drawn in fields, as `post.fields.FieldWriter` takes it."""
+        """What of the bodies is drawn in fields, as `engines.scene.fields.FieldWriter` takes it."""
         from fecolumn.engines.scene.full_fields import StructureFields
         from fecolumn.engines.scene.structure_scene import scene_of
 

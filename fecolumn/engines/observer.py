@@ -84,7 +84,7 @@ class Observer:
 
     def measure(self, state: State) -> dict[str, Any]:
         """Measures of a state by the names of the history file, in SI units; as
-        `analysis.columns_of` tells them.
+        `history_columns.columns_of` tells them.
         """
         system, structure, interface, R = (
             self.system,

@@ -57,7 +57,7 @@ class OfStructure(Analysis):
         return str(expected(self.case, self.file))
 
     def scene(self) -> Scene:
-        """`post.scene.Scene` of the case."""
+        """`engines.scene.scene.Scene` of the case."""
         from fecolumn.engines.scene.structure_scene import scene_of
 
         return scene_of(self.case, self.structure, self.folder / "case.json")

@@ -179,7 +179,7 @@ def _own_mesh(file: MeshFile, mesh_content: str) -> OwnMesh:
     height, bottom = float(np.ptp(points[:, 2])), float(points[:, 2].min())
     points = points - [0.0, 0.0, bottom]
     mesh = brick_mesh(points, cells, UPPER)
-    _check_elements(mesh, height, refuse)
+    _check_elements(mesh, refuse)
     faces = boundary_faces(mesh, UPPER, 0.0, 1e-6 * height)
     has_foot = len(faces) > 0
     sides = points[faces if has_foot else outer_faces(mesh, UPPER)]
@@ -306,7 +306,7 @@ def _check_dimensions(own: OwnMesh, case: Upright, refuse: ShapeRefusal) -> None
         )
 
 
-def _check_elements(mesh: BrickMesh, height: float, refuse: ShapeRefusal) -> None:
+def _check_elements(mesh: BrickMesh, refuse: ShapeRefusal) -> None:
     bad = np.flatnonzero(corner_jacobians(mesh).min(axis=1) <= 0)
     if len(bad):
         x, y, z = mesh.points[mesh.cells[bad[0]]].mean(axis=0)

@@ -8,15 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY
-from fecolumn.motions.load import higher_between_rows
+from fecolumn.motions.load import RECORDED_G, higher_between_rows
 from fecolumn.motions.processing import integrate, resample
 from fecolumn.motions.record import METRES_PER_S2, GroundMotion, Recording
 from fecolumn.motions.spike import spike_in
 
 # Units that a record without one most likely has
 _USUAL = "g", "m/s2", "cm/s2", "mm/s2"
-# [g]: peaks of ground motions that are worth an analysis lie between; none was recorded beyond
-_LIKELY, _RECORDED = (0.005, 3.0), 5.0
+# [g]: peaks of ground motions that are worth an analysis lie between
+_LIKELY = 0.005, 3.0
 # Of the peak velocity: what may be left at the end of a record without drift
 _LEFT = 0.1
 # Of a record's step, a step at which its peak between its rows is looked for, of so many samples at
@@ -83,7 +83,7 @@ def oddities(motion: GroundMotion) -> list[str]:
         peak = float(np.abs(a).max())
         if not peak:
             continue
-        if peak > _RECORDED * GRAVITY:
+        if peak > RECORDED_G * GRAVITY:
             found.append(
                 f"a{name}: {peak / GRAVITY:.3g} g is more than was ever recorded: another unit?"
             )

@@ -61,8 +61,8 @@ _NETWORKS = (
     (looks_like_smc, read_smc),
     (looks_like_afad, read_afad),
 )
-# [m/s2], 5 g: more was recorded nowhere, and a unit may be wrong
-_UNLIKELY = 50.0
+#: [g]: more was recorded nowhere, and a unit may be wrong
+RECORDED_G = 5.0
 _SOURCES = f"a file of a record, ensemble.h5#NUMBER, lick:NUMBER or {FEMA_PREFIX}SET/INDEX"
 # Over a file's peak: sampled band-limited, a motion of few rows may peak higher between them
 _HIGHER = 0.02
@@ -223,7 +223,7 @@ def read_motion(motion: Motion, file: Path | str) -> GroundMotion:
         ground = sound(
             GroundMotion(acceleration, dt, " + ".join(names), " | ".join(dict.fromkeys(sources)))
         )
-        if (peak := ground.pga.max()) > _UNLIKELY:
+        if (peak := ground.pga.max()) > RECORDED_G * GRAVITY:
             warnings.warn(
                 f"{ground.name} peaks at {peak / GRAVITY:.3g} g, more than was ever recorded: is "
                 "its unit right?",

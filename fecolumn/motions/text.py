@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from fecolumn.foundation.files import Unreadable, read_any_text
 from fecolumn.motions.record import UnusableRecord
+from fecolumn.motions.spike import FARTHER, KNOWN
 
 _SPELLINGS = {
     "g": ("g", "g's"),
@@ -21,8 +22,6 @@ _SPELLINGS = {
 # Times since 1970 are below it [s]; and what numbers of their size may be rounded by, as a share of
 # a step
 _LATEST_S, _RESOLVED = 1e13, 1e-4
-# Samples before a last one that may be told from a spike, and how much farther it jumps than any
-_KNOWN, _SPIKE = 20, 5.0
 _UNITS = {spelling: unit for unit, spellings in _SPELLINGS.items() for spelling in spellings}
 # Units that columns may have besides, each as one of ours and a factor
 _FURTHER = {
@@ -128,10 +127,10 @@ def check_last(text: str, values: NDArray[Any]) -> None:
     UnusableRecord
         so it is.
     """
-    if text[-1:] in "\r\n" or len(values) < _KNOWN:
+    if text[-1:] in "\r\n" or len(values) < KNOWN:
         return
     steps = np.abs(np.diff(values))
-    if steps[-1] > _SPIKE * steps[:-1].max():
+    if steps[-1] > FARTHER * steps[:-1].max():
         raise UnusableRecord(
             f"ends in a spike, {values[-1]:g} after {values[-2]:g}, without a line's end: the file "
             "is cut off inside its last number; end its last line if it is whole"

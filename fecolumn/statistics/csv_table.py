@@ -5,6 +5,7 @@ semicolons, tabs, commas or blanks, with quotes, and with decimal points or comm
 from __future__ import annotations
 
 import csv
+import math
 import re
 from collections.abc import Iterable
 from pathlib import Path
@@ -19,6 +20,14 @@ _QUOTED = re.compile(r'"[^"]*"')
 _NUMBER = re.compile(r"[-+]?\d+(,\d+)?([eEdD][-+]?\d+)?")
 _WITH_COMMA = re.compile(r"[-+]?\d*,\d+([eEdD][-+]?\d+)?")
 _WITH_POINT = re.compile(r"[-+]?(\d+\.\d*|\.\d+)([eEdD][-+]?\d+)?")
+
+
+def number_of(text: str) -> float:
+    """The number of a cell; nan where it holds none. Python's grouping, as in 12_5, is none."""
+    try:
+        return math.nan if "_" in text else float(text)
+    except ValueError:
+        return math.nan
 
 
 def delimiter_of(line: str) -> str:

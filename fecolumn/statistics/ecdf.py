@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.foundation.deprecated import warn_of_older_name
 from fecolumn.foundation.schema import InputError
-from fecolumn.statistics.bands import greenwood
+from fecolumn.statistics.bands import greenwood, wilson
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,6 +139,9 @@ def proportion_interval(
         raise InputError(where, "k", k, f"must be in [0, {n}]")
     if method not in ("wilson", "exact"):
         raise InputError(where, "method", method, "must be 'wilson' or 'exact'")
+    if method == "wilson":
+        low, high = wilson([int(k)], int(n), confidence)
+        return float(low[0]), float(high[0])
     interval = binomtest(int(k), int(n)).proportion_ci(confidence, method=method)
     return float(interval.low), float(interval.high)
 

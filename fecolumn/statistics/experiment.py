@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.foundation.schema import InputError
-from fecolumn.statistics.csv_table import check_columns, check_row, read_csv
+from fecolumn.statistics.csv_table import check_columns, check_row, number_of, read_csv
 
 _TO_METRES = {"u_max_m": 1.0, "u_max_mm": 1e-3, "u_max_cm": 1e-2}
 _WORDS = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
@@ -103,10 +103,7 @@ def overturned_word(path: Path, number: int, word: str) -> bool:
 
 def _number(path: Path, number: int, column: str, text: str) -> float:
     """The displacement of a run that stood, at least 0."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
+    value = number_of(text)
     if not (math.isfinite(value) and value >= 0):
         raise InputError(
             path,

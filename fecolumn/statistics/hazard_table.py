@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.foundation.schema import InputError
-from fecolumn.statistics.csv_table import check_row, read_csv
+from fecolumn.statistics.csv_table import check_row, number_of, read_csv
 from fecolumn.statistics.hazard import HazardCurve
 
 _G = 9.80665  # m/s2
@@ -177,10 +177,7 @@ def _curve(path: Path, name: str, im: NDArray[Any], frequency: NDArray[Any]) -> 
 
 
 def _number(path: Path, number: int, name: str, text: str, zero: bool = False) -> float:
-    try:
-        value = math.nan if "_" in text else float(text)
-    except ValueError:
-        value = math.nan
+    value = number_of(text)
     if not (0 <= value < math.inf and (zero or value > 0)):
         least = "of at least 0" if zero else "greater than 0"
         raise InputError(path, f"line {number}, {name}", text, f"must be a number {least}")

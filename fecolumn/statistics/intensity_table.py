@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.foundation.schema import InputError
-from fecolumn.statistics.csv_table import check_columns, check_row, read_csv
+from fecolumn.statistics.csv_table import check_columns, check_row, number_of, read_csv
 from fecolumn.statistics.experiment import overturned_word
 
 #: Columns that are no intensity measure
@@ -100,7 +100,4 @@ def read_intensity_table(path: Path | str, wanted: tuple[str, ...] = ()) -> Inte
 
 
 def _positive(text: str) -> bool:
-    try:
-        return 0 < float(text) < math.inf
-    except ValueError:
-        return False
+    return 0 < number_of(text) < math.inf

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.foundation.schema import InputError
-from fecolumn.statistics.csv_table import check_row, read_csv
+from fecolumn.statistics.csv_table import check_row, number_of, read_csv
 
 _TIMES = {"time_s": 1.0, "time_ms": 1e-3}
 _TILTS = {"tilt_rad": 1.0, "tilt_mrad": 1e-3, "tilt_deg": math.pi / 180}
@@ -55,10 +55,7 @@ def read_rocking_test(path: Path | str) -> RockingTest:
         cells = []
         for place, factor in columns:
             text = row[place].strip()
-            try:
-                cell = math.nan if "_" in text else factor * float(text)
-            except ValueError:
-                cell = math.nan
+            cell = factor * number_of(text)
             if not math.isfinite(cell):
                 raise InputError(
                     path, f"line {number}, {header[place]}", text, "must be a finite number"

@@ -184,7 +184,7 @@ def _of_pair(
             other = faces[master[0]][other_number]
             gap = -(face.offset + face.normal @ offset) - other.offset
             corners = (face.corners + offset) @ other.axes[:, :2]
-            if not _overlap(face, corners, other):
+            if not _overlap(corners, other):
                 continue
             depths = [depth_along(faces[body], face.normal) for body in (slave[0], master[0])]
             if -gap > _BEHIND * min(depths):
@@ -231,8 +231,8 @@ def _is_upper(face: Face, slave: tuple[str, int], master: tuple[str, int]) -> bo
     return bool(up < -OPPOSITE or abs(up) <= OPPOSITE and slave < master)
 
 
-def _overlap(face: Face, corners: NDArray[Any], other: Face) -> bool:
-    """Whether a face, its corners (n, 4 or 3, 2) [m] in the plane of another, lies over part of
+def _overlap(corners: NDArray[Any], other: Face) -> bool:
+    """Whether a face, by its corners (n, 4 or 3, 2) [m] in the plane of another, lies over part of
     that, more than an edge.
     """
     plane = other.corners @ other.axes[:, :2]

@@ -102,7 +102,7 @@ def made_of(case: Case, models: Mapping[str, BodyModel], scene: DrawnScene) -> E
     models
         by the names of bodies.
     scene
-        `post.scene.Scene` of the case.
+        `engines.scene.scene.Scene` of the case.
     """
     full = case.integration.engine == "full"
     bricks, dofs, loads = {}, {}, []
@@ -251,7 +251,7 @@ def largest_side(body: Prism) -> float:
 
 
 def _largest(body: Gridded) -> float:
-    """The largest element size [m] that a body takes, as `check_keys.check_body` says."""
+    """The largest element size [m] that a body takes, as `case.check_bodies.check_body` says."""
     if isinstance(body, Block):
         return min(body.length_m, body.width_m)
     if isinstance(body, Prism):

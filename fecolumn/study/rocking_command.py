@@ -207,7 +207,7 @@ def _run(args: argparse.Namespace, folder: Path) -> None:
         )
         response_figure(motion, response, case.model, folder / "history", case.title)
     else:
-        ensemble_figure(responses, case.model, args.model, folder / "cdf")
+        ensemble_figure(responses, args.model, folder / "cdf")
 
 
 def _table(

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class StickOperatorCache:
     """Stick operator (`contact.stick`) of a structure in full order.
 
-    stick: Stick, rims: (ni,) of RIM of the present step, both as `contact.problem.solve_linear`
+    stick: Stick, rims: (ni,) of RIM of the present step, both as `contact.forces.solve_linear`
     takes them.
 
     Parameters

@@ -238,7 +238,7 @@ def find_equilibrium(
         MotionState at the start; work.points and work.before bring the first guess of the forces,
         and the anchors.
     free_center, free_modal, advance
-        see `motion.follow`.
+        see `follow.follow`.
     rims
         (ni,) of RIM at the end.
     end

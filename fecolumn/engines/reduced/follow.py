@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 # Times that the motion under present forces is found anew, at most, the change, over a turn of 1 or
 # the largest force of a link, at which it is found, and that at which it is not: the forces of
-# links tight enough for `links.STIFFEST` change by less after as many sweeps
+# links tight enough for `links_of_model.STIFFEST` change by less after as many sweeps
 SWEEPS, SETTLED, UNSETTLED = 30, 1e-14, 1e-6
 
 

@@ -128,9 +128,7 @@ def _place_of(point: Record, motion: MotionState, place: Array) -> None:
 
 
 @njit
-def _velocities_by_motion(
-    structure: Structure, points: Array, poses: Array, listed: Array, end: MotionState
-) -> Array:
+def _velocities_by_motion(points: Array, poses: Array, listed: Array, end: MotionState) -> Array:
     """Matrix (3 k, 6 nb): velocities of the listed points (k,), slave relative to master in the
     frames of their interfaces, by velocities and spins of the bodies.
     """
@@ -232,7 +230,7 @@ def begin_impact(
         stiff &= structure.bodies.body[b].stiff
     listed = touched if stiff else find_together(structure, work, end)
     k = len(listed)
-    J = _velocities_by_motion(structure, work.points, work.poses[END], listed, end)
+    J = _velocities_by_motion(work.points, work.poses[END], listed, end)
     friction, held, given = np.empty(k), np.empty(k, np.bool_), np.empty(3 * k)
     for j in range(k):
         i = listed[j]
@@ -277,7 +275,7 @@ def follow_impact(
     if ledger[APPROACH_SPEED] > 0.0:
         listed, approach = find_together(structure, work, end), 0.0
         if len(listed):
-            J = _velocities_by_motion(structure, work.points, work.poses[END], listed, end)
+            J = _velocities_by_motion(work.points, work.poses[END], listed, end)
             velocity = _velocities(J, work.points, listed, end)
             for j in range(len(listed)):
                 approach = max(approach, -velocity[3 * j + 2])

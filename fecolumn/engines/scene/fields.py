@@ -60,7 +60,7 @@ class FieldWriter(Generic[_D]):
     Parameters
     ----------
     fields
-        what has meshes, of_cells, comm and values as `post.state_fields.StateFields` has.
+        what has meshes, of_cells, comm and values as `engines.scene.state_fields.StateFields` has.
     """
 
     def __init__(self, folder: Path, fields: _D) -> None:

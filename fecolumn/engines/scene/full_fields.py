@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 class StructureFields:
     """Fields on the points of a scene from positions and contact forces, as
-    `post.fields.FieldWriter` takes them.
+    `engines.scene.fields.FieldWriter` takes them.
 
     Parameters
     ----------

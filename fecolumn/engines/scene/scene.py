@@ -203,7 +203,7 @@ class Scene:
     of_cells
         numbers of the elements of all pieces by name, for ParaView.
     expand
-        makes the `post.state_fields.StateFields` of the scene.
+        makes the `engines.scene.state_fields.StateFields` of the scene.
     give
         makes what its `plates` are.
     links
@@ -227,11 +227,11 @@ class Scene:
     planes: dict[int, float] = field(default_factory=dict)
 
     def fields(self) -> SceneFields:
-        """`post.state_fields.StateFields` of the scene; made anew, which takes time."""
+        """`engines.scene.state_fields.StateFields` of the scene; made anew, which takes time."""
         return self.expand(self)
 
     def plates(self) -> list[tuple[ElasticGround, int]]:
-        """`post.state_fields.SunkPlate` and number of the ground of each elastic plate."""
+        """`engines.scene.state_fields.SunkPlate` and number of the ground of each elastic plate."""
         return self.give()
 
     @cached_property
@@ -312,7 +312,7 @@ class Scene:
 
     @property
     def meshes(self) -> list[BrickMesh]:
-        """Mesh of each piece where it stands at first, as `post.fields.FieldWriter` takes it."""
+        """Mesh of each piece where it stands at first, as `scene.fields.FieldWriter` takes it."""
         parts = np.split(self.of_cells["part"], self.first_cell[1:-1])
         return [
             BrickMesh(piece.upright, piece.elements, part)

@@ -147,7 +147,7 @@ def node_forces(
 
 
 class StateFields:
-    """Expands states to fields on the points of a scene, as `post.fields.FieldWriter` takes them.
+    """Expands states to fields on the points of a scene, as `scene.fields.FieldWriter` takes them.
 
     A body of finite elements deforms by its modes and by the static response to its contact forces
     beyond what has gone into the modes already: with f the modal forces of the contact, sum phi (q

@@ -113,10 +113,7 @@ def response_figure(
 
 
 def ensemble_figure(
-    responses: Sequence[tuple[GroundMotion, ModelResponse]],
-    model: Model,
-    name: str,
-    path: Path | str,
+    responses: Sequence[tuple[GroundMotion, ModelResponse]], name: str, path: Path | str
 ) -> list[Path]:
     """Distribution of the peak displacement of the top; `responses`: (GroundMotion, Response) of
     one model.

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from fecolumn.pictures.render.result import Result
 
 
-# A picture's resolution, that of post.style, twice as fine for what VTK draws
+# A picture's resolution, that of figures.style, twice as fine for what VTK draws
 _DPI = 400
 # Frames that are looked at for the range of colours, and for the exaggeration "auto"
 _SAMPLES = 24

@@ -36,7 +36,7 @@ class FrameSeries:
 
 
 class FieldFrames(FrameSeries):
-    """The frames in a folder that `post.fields.FieldWriter` filled; one is in memory at a time.
+    """The frames in a folder that `scene.fields.FieldWriter` filled; one is in memory at a time.
 
     Attributes
     ----------

@@ -43,7 +43,7 @@ _LEGEND = 0.05
 _BAR = (0.07, 0.075, 0.26, 0.018)
 _STRIPS = (0.475, 0.085, 0.27, 0.855)
 _TOP = (0.82, 0.645, 0.165, 0.295)
-# Height of the picture [in] in which the fonts of post.style have their size
+# Height of the picture [in] in which the fonts of figures.style have their size
 _HEIGHT_IN = 5.4
 _VEIL = dict(facecolor="white", alpha=0.68, linewidth=0)
 

@@ -84,7 +84,7 @@ class StateFrames(FrameSeries):
 
     @property
     def drawn(self) -> SceneFields:
-        """What expands states, and what `post.fields.FieldWriter` takes."""
+        """What expands states, and what `engines.scene.fields.FieldWriter` takes."""
         if self._expand is None:
             expand = self._scene.fields()
             self._check(expand.models)
@@ -114,7 +114,7 @@ class StateFrames(FrameSeries):
 def write_fields(
     frames: StateFrames, folder: Path, tell: Callable[[int], object] = lambda done: None
 ) -> None:
-    """Write the fields of all states into a folder, as `post.fields.FieldWriter` does."""
+    """Write the fields of all states into a folder, as `engines.scene.fields.FieldWriter` does."""
     from fecolumn.engines.scene.fields import FieldWriter
 
     writer = FieldWriter(folder, frames.drawn)

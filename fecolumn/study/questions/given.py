@@ -10,6 +10,7 @@ from fecolumn.foundation.paths import absolute, taken_over
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.toml_file import merge, nested, read_toml
 from fecolumn.motions.chosen import chosen_motions
+from fecolumn.statistics.csv_table import number_of
 from fecolumn.study.axes import kind_of_range
 from fecolumn.study.plan import Plan, plan_of
 
@@ -58,10 +59,7 @@ def read_range(key: str, text: str, option: str, command: str) -> tuple[float, f
         no such key, one that is no number, or no range.
     """
     low, _, high = text.partition(":")
-    try:
-        ends = [math.nan, math.nan] if "_" in text else [float(low), float(high)]
-    except ValueError:
-        ends = [math.nan, math.nan]
+    ends = [number_of(low), number_of(high)]
     told = f"{option} {key}"
     if not all(map(math.isfinite, ends)):
         raise InputError(

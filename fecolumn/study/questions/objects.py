@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from fecolumn.foundation.schema import InputError
-from fecolumn.statistics.csv_table import check_row, read_csv
+from fecolumn.statistics.csv_table import check_row, number_of, read_csv
 
 _LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
 _MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3}
@@ -99,10 +98,7 @@ def _place(path: Path, header: list[str], name: str, units: dict[str, float]) ->
 
 
 def _size(path: Path, number: int, column: str, text: str, factor: float, word: str) -> float:
-    try:
-        value = math.nan if "_" in text else factor * float(text)
-    except ValueError:
-        value = math.nan
+    value = factor * number_of(text)
     if not 0 < value <= _MOST[word]:
         unit = "" if _SI[word] == "-" else f" [{_SI[word]}]"
         raise InputError(

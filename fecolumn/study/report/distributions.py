@@ -60,7 +60,7 @@ def distributions(sweep: Sweep, pairs: list[ComparedPair], gallery: Gallery) -> 
                 name,
                 f"Distribution of the largest top displacement: {what}"
                 + (f", a panel for each {' and '.join(other)}" if other and axis else "")
-                + _left_out(sweep, axis, panels)
+                + _left_out(sweep, panels)
                 + f". {'Lost' if sweep.slides else 'Overturned'} runs are censored: a "
                 f"distribution ends at 1 − {sweep.p_lost}. {_bands(panels)}: pointwise "
                 f"95 % bands (Greenwood){_seen(panels)}; in the legend {sweep.p_lost} "
@@ -164,7 +164,7 @@ def _panels(sweep: Sweep, axis: str | None) -> list[CdfPanel]:
     return panels[:_PANELS]
 
 
-def _left_out(sweep: Sweep, axis: str | None, panels: list[CdfPanel]) -> str:
+def _left_out(sweep: Sweep, panels: list[CdfPanel]) -> str:
     drawn, there = sum(len(panel.lines) for panel in panels), len(sweep.done)
     return f" ({drawn} of {there} settings)" if drawn < there else ""
 

@@ -98,11 +98,11 @@ class Parting:
         (n,) [s], rows of the analysis whose rows are further apart, within the time that both
         analysed; the other is taken between its rows along straight lines.
     tolerance
-        of `Pair.parted` [-].
+        of `QuantityPair.parted` [-].
     quantities
-        Pair by the names of QUANTITIES.
+        QuantityPair by the names of QUANTITIES.
     energy
-        Pair by the terms of the ledger [J].
+        QuantityPair by the terms of the ledger [J].
     keys
         (key, value of A, value of B) of the case that differ; None of a section that is absent.
     """
@@ -150,7 +150,7 @@ def parting(a: Analysed, b: Analysed, tolerance: float = TOLERANCE) -> Parting:
             f"{histories[0]['time'][-1]:g} s, B at {histories[1]['time'][-1]:g} s",
         )
     cases = [a.case, b.case]
-    heights, lifted = zip(*(_uplift(case, history) for case, history in zip(cases, histories)))
+    heights, lifted = zip(*map(_uplift, histories))
     lifts = any(lifted)
 
     def pair(values: Iterable[NDArray[Any]], judged: bool = True) -> QuantityPair:
@@ -178,7 +178,7 @@ def _at(time: NDArray[Any], known: NDArray[Any], values: NDArray[Any]) -> NDArra
     )
 
 
-def _uplift(case: Case, history: dict[str, NDArray[Any]]) -> tuple[NDArray[Any], bool]:
+def _uplift(history: dict[str, NDArray[Any]]) -> tuple[NDArray[Any], bool]:
     """Uplift (n,) [m], and whether anything lifts off at all: of a structure the largest of its
     interfaces; 0 of a model whose history has none.
     """
