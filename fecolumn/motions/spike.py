@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 #: Times by which a spike jumps farther, up and down again, than any two samples else; samples that
 #: a record needs for that to be told
-FARTHER, KNOWN = 5.0, 20
+SPIKE_JUMPS, SPIKE_SAMPLES = 5.0, 20
 
 
 def spike_in(values: NDArray[Any]) -> int | None:
@@ -21,11 +21,11 @@ def spike_in(values: NDArray[Any]) -> int | None:
     values
         (n,) of one component.
     """
-    if len(values) < KNOWN:
+    if len(values) < SPIKE_SAMPLES:
         return None
     jumps = np.diff(values)
     back_and_forth = np.minimum(np.abs(jumps[:-1]), np.abs(jumps[1:]))
     back_and_forth[jumps[:-1] * jumps[1:] >= 0] = 0.0
     place = int(back_and_forth.argmax())
     others = np.abs(np.delete(jumps, [place, place + 1])).max()
-    return place + 1 if back_and_forth[place] > FARTHER * others else None
+    return place + 1 if back_and_forth[place] > SPIKE_JUMPS * others else None

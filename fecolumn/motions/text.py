@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from fecolumn.foundation.files import Unreadable, read_any_text
 from fecolumn.motions.record import UnusableRecord
-from fecolumn.motions.spike import FARTHER, KNOWN
+from fecolumn.motions.spike import SPIKE_JUMPS, SPIKE_SAMPLES
 
 _SPELLINGS = {
     "g": ("g", "g's"),
@@ -127,10 +127,10 @@ def check_last(text: str, values: NDArray[Any]) -> None:
     UnusableRecord
         so it is.
     """
-    if text[-1:] in "\r\n" or len(values) < KNOWN:
+    if text[-1:] in "\r\n" or len(values) < SPIKE_SAMPLES:
         return
     steps = np.abs(np.diff(values))
-    if steps[-1] > FARTHER * steps[:-1].max():
+    if steps[-1] > SPIKE_JUMPS * steps[:-1].max():
         raise UnusableRecord(
             f"ends in a spike, {values[-1]:g} after {values[-2]:g}, without a line's end: the file "
             "is cut off inside its last number; end its last line if it is whole"

@@ -68,12 +68,23 @@ def test_source_of_models_that_is_gone_is_an_error_and_no_silent_old_model(key, 
         key()
 
 
-def test_sources_cover_what_reduction_imports():
-    """What is imported from elsewhere has no operators."""
-    found = closure("fem/reduction.py", "contact/known_base.py", "contact/base_plate.py")
+def test_sources_cover_what_bodies_layouts_and_grounds_are_made_from():
+    """What is imported besides reads, checks and tells cases, or is of points, which are made by
+    each analysis.
+    """
+    makers = (
+        "fem/reduction.py",
+        "contact/known_base.py",
+        "contact/base_plate.py",
+        "structures/layout.py",
+        "structures/bodies.py",
+        "structures/ground.py",
+    )
     covered = {str(path.relative_to(ROOT)) for path in sources.files_of(store.SOURCES)}
-    assert found - covered == {
-        "foundation/_form_compiler.py",
-        "foundation/arrays.py",
-        "foundation/lock.py",
-    }
+    besides = {name for name in closure(*makers) - covered if not name.startswith("foundation/")}
+    cases = """case case_tables case_text check_bond check_case check_found check_full check_grounds
+        check_link check_step check_thin checked given link mesh_limits model_keys model_names
+        model_sections model_table reading"""
+    points = "interface pad points record"
+    known = {f"case/{name}.py" for name in cases.split()}
+    assert besides == known | {f"contact/{name}.py" for name in points.split()}

@@ -150,8 +150,11 @@ class ShareLimit:
 
 
 def is_named(name: str, part: str) -> bool:
-    """Whether `part` is a name, or its first words: of "tendon 12" "tendon", not "tendon 1"."""
-    return name.startswith(part) and name[len(part) : len(part) + 1] in ("", " ", ":", ",")
+    """Whether `part` is a name, or its first words, or "" for any: of "tendon 12" "tendon", not
+    "tendon 1".
+    """
+    ends = name[len(part) : len(part) + 1] in ("", " ", ":", ",")
+    return not part or name.startswith(part) and ends
 
 
 def read_event(text: str, command: str, engine: str | None = None) -> LimitEvent:
