@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -23,7 +24,7 @@ from fecolumn.statistics.crossing import (
 )
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.questions.design import grid_of
-from fecolumn.study.questions.limit import read_event, read_limit
+from fecolumn.study.questions.limit import check_event, read_event, read_limit
 
 G = 9.80665
 AMPLITUDES = np.linspace(1.0, 5.0, 40)  # m/s2
@@ -306,3 +307,13 @@ def test_a_part_is_a_whole_name_or_its_first_words():
     assert read_event("tension[tendon] > 5 kN", "").peak(summary) == 12e3
     with pytest.raises(InputError, match="there are tendon 1, tendon 2, tendon 12"):
         read_event("tension[ten] > 5 kN", "").peak(summary)
+
+
+def test_one_copy_of_a_link_may_be_asked_for():
+    links = dict(tendon=None, bar=None)
+    case = SimpleNamespace(links=links, integration=SimpleNamespace(engine="rigid"))
+    for part in ("tendon", "tendon 2", "bar"):
+        check_event(read_event(f"tension[{part}] > 5 kN", ""), case, "")
+    for part in ("ten", "cable"):
+        with pytest.raises(InputError, match="is of links: there are tendon, bar"):
+            check_event(read_event(f"tension[{part}] > 5 kN", ""), case, "")
