@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from fecolumn.foundation.content import content
+from fecolumn.foundation.gravity import GRAVITY as GRAVITY
 from fecolumn.foundation.paths import OF_SECTIONS as FILES
 from fecolumn.foundation.paths import absolute
 from fecolumn.foundation.schema import Section, parameter, required
@@ -22,7 +23,6 @@ _Stated = TypeVar("_Stated", bound=Section | None)
 #: Words of integration.substeps, for what a step is made in parts: a rim that rolls fast, a point
 #: that lands, nothing at all.
 SUBSTEPS = ("rolling", "impacts", "none")
-GRAVITY = 9.80665  # m/s2, standard gravity (CGPM 1901)
 UNTIL_REST = "rest"  # word of motion.free_vibration_s
 AUTO = "auto"  # word of integration.dt_s
 #: Steps among which integration.dt_s = "auto" chooses [s], each half of the one before

@@ -55,6 +55,7 @@ DECIDING = (
     "fem",
     "foundation/_dolfinx.py",
     "foundation/content.py",
+    "foundation/gravity.py",
     "mesh",
     "motions",
     "statistics/csv_table.py",

@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fecolumn.foundation.gravity import GRAVITY
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.csv_table import check_row, number_of, read_csv
 from fecolumn.statistics.hazard import HazardCurve
 
-_G = 9.80665  # m/s2
 #: Units at the end of a measure's name: that of SI, and the factor to it.
 _UNITS = {
     "_m_s2": ("_m_s2", 1.0),
     "_cm_s2": ("_m_s2", 1e-2),
     "_gal": ("_m_s2", 1e-2),
-    "_g": ("_m_s2", _G),
+    "_g": ("_m_s2", GRAVITY),
     "_cm_s": ("_m_s", 1e-2),
     "_m_s": ("_m_s", 1.0),
     "_mm": ("_m", 1e-3),
@@ -31,11 +31,11 @@ _UNITS = {
 _FREQUENCY, _PERIOD = "annual_frequency", "return_period_years"
 _PROBABILITY = re.compile(r"probability_(\d+(?:\.\d+)?)_years")
 _POE = re.compile(r"poe-(\S+)")
-_OF_OPENQUAKE = {"PGA": ("pga_m_s2", _G), "PGV": ("pgv_m_s", 1e-2)}
+_OF_OPENQUAKE = {"PGA": ("pga_m_s2", GRAVITY), "PGV": ("pgv_m_s", 1e-2)}
 # Bounds: of accelerations 100 g, as of records, and as far beyond what was recorded of the others.
 # More often than 100 a year is no strong motion, but a return period in a column of frequencies;
 # nobody knows what comes less often than once in 1e12 years
-_MOST = {"_m_s2": 100 * _G, "_m_s": 100.0, "_m": 100.0, "_s": 1e4}
+_MOST = {"_m_s2": 100 * GRAVITY, "_m_s": 100.0, "_m": 100.0, "_s": 1e4}
 _LEAST_A_YEAR, _MOST_A_YEAR = 1e-12, 100.0
 _NEEDED = (
     "a column of the intensity, its unit at the end of its name, such as pga_g, pga_m_s2 or "

@@ -108,9 +108,8 @@ def placed(
             pivot, center = _on(standing, between, place, below, turns, found)
             centers.append(center)
         center = np.mean(centers, axis=0) if centers else part.center
-        if centers and np.abs(np.array(centers) - center).max() > _AGREE * (
-            1 + np.ptp(part.model.arms, axis=0).max()
-        ):
+        size = np.ptp(part.model.arms, axis=0).max()
+        if centers and np.abs(np.array(centers) - center).max() > _AGREE * size:
             raise InputError(
                 file,
                 f"initial.{part.name}",

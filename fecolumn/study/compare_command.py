@@ -31,13 +31,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for tables and figure")
     parser.add_argument("--unpaired", action="store_true", help="do not match runs by motion")
     parser.add_argument(
-        "--cap-mm",
+        "--cap-m",
         type=float,
         default=None,
-        metavar="MM",
-        help="displacement of a run in R that overturned or slid off, such as 250 of "
+        metavar="M",
+        help="displacement of a run in R that overturned or slid off, such as 0.25 of "
         "Katsamakas and Vassiliou (default: the largest peak of those that stood)",
     )
+    # its name until 0.10
+    parser.add_argument("--cap-mm", type=float, default=None, help=argparse.SUPPRESS)
     parser.add_argument(
         "--seed", type=int, default=0, help="of the permutations (default: %(default)s)"
     )
@@ -64,26 +66,28 @@ def main(args: argparse.Namespace) -> int:
 
         compare_analyses((args.a, args.b), args.tolerance, args.output)
         return 0
+    from fecolumn.foundation.deprecated import warn_of_older_name
     from fecolumn.foundation.folder import written
     from fecolumn.foundation.schema import InputError
     from fecolumn.statistics.compare import compare
     from fecolumn.statistics.ecdf import largest_peak
     from fecolumn.study.sample import read_sample
 
-    if args.cap_mm is not None and not (math.isfinite(args.cap_mm) and args.cap_mm > 0):
-        raise InputError("fecolumn compare", "--cap-mm", args.cap_mm, "must be greater than 0 [mm]")
+    if args.cap_mm is not None:
+        warn_of_older_name("fecolumn compare", "--cap-mm", "--cap-m")
+        args.cap_m = 1e-3 * args.cap_mm
+    if args.cap_m is not None and not (math.isfinite(args.cap_m) and args.cap_m > 0):
+        raise InputError("fecolumn compare", "--cap-m", args.cap_m, "must be greater than 0 [m]")
     if args.seed < 0:
         raise InputError("fecolumn compare", "--seed", args.seed, "must be at least 0")
     a, b = read_sample(args.a), read_sample(args.b)
     a, b, paired, notes = matched(a, b, args.unpaired)
-    cap_mm = args.cap_mm or 1e3 * largest_peak((a.u_max, a.lost), (b.u_max, b.lost))
-    result = compare(
-        a.u_max, a.lost, b.u_max, b.lost, paired=paired, cap_m=1e-3 * cap_mm, seed=args.seed
-    )
+    cap_m = args.cap_m or largest_peak((a.u_max, a.lost), (b.u_max, b.lost))
+    result = compare(a.u_max, a.lost, b.u_max, b.lost, paired=paired, cap_m=cap_m, seed=args.seed)
     names = _names(a, b)
     print(f"A  {a.source}: {names[0]}\nB  {b.source}: {names[1]}  (reference)")
     print("\n".join(notes) + "\n")
-    print(comparison_text(result, a, b, cap_mm))
+    print(comparison_text(result, a, b, cap_m))
     if args.output:
         with written(args.output, "compare") as draft:
             files = _write(draft, result, a, b, paired)
@@ -118,7 +122,7 @@ def _are_analyses(args: argparse.Namespace) -> bool:
     if analyses:
         for option, value in (
             ("--unpaired", args.unpaired or None),
-            ("--cap-mm", args.cap_mm),
+            ("--cap-m", args.cap_m),
             ("--seed", args.seed or None),
         ):
             if value is not None:
@@ -188,7 +192,7 @@ def matched(a: Sample, b: Sample, unpaired: bool) -> tuple[Sample, Sample, bool,
     )
 
 
-def comparison_text(result: Comparison, a: Sample, b: Sample, cap_mm: float) -> str:
+def comparison_text(result: Comparison, a: Sample, b: Sample, cap_m: float) -> str:
     """The comparison for a reader, with units, intervals and evidence in words."""
     from fecolumn.engines.ending import P_LOST, P_OVERTURN
     from fecolumn.statistics.compare import evidence
@@ -224,7 +228,7 @@ def comparison_text(result: Comparison, a: Sample, b: Sample, cap_mm: float) -> 
                 f"{table[1, 0]} / {table[0, 1]}",
                 result.mcnemar_p,
             ),
-            [f"correlation R, cap {cap_mm:.4g} mm", _defined(result.correlation), "", ""],
+            [f"correlation R, cap {1e3 * cap_m:.4g} mm", _defined(result.correlation), "", ""],
         ]
     of_both.append(["median error e50 = |A - B| / B", _defined(result.e50), "", ""])
     text = f"{_columns(of_each)}\n\n{_columns(of_both)}"

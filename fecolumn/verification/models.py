@@ -23,6 +23,7 @@ from fecolumn.engines.dynamics.structure import kinematics_of, structure_system
 from fecolumn.engines.dynamics.system import System
 from fecolumn.engines.full_system import full_system
 from fecolumn.fem.body import Body
+from fecolumn.foundation.gravity import GRAVITY
 from fecolumn.foundation.toml_file import merge
 from fecolumn.mesh.bricks import LOWER, BrickMesh, boundary_faces
 from fecolumn.mesh.gmsh_section import swept_grid
@@ -205,7 +206,7 @@ _BLOCK = BlockSettings(
     material=Material(youngs_modulus_pa=STEEL, poissons_ratio=0.3, density_kg_m3=7850.0),
     base_material=None,
     friction=0.3,
-    gravity=(0.0, 0.0, -9.80665),
+    gravity=(0.0, 0.0, -GRAVITY),
     filtered=True,
     order=1,
     foot_height=0.0,

@@ -26,6 +26,7 @@ from fecolumn.engines.rocking.frame import RockingFrame
 from fecolumn.engines.rocking.podium import Podium, study_podium
 from fecolumn.engines.rocking.podium_impact import kinetic_energy_kept, podium_restitution
 from fecolumn.engines.rocking.storeys import PROFILES, storeys
+from fecolumn.foundation.gravity import GRAVITY
 from fecolumn.motions.directivity_pulse import MEAN_GAMMA, MEAN_PHASE
 from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES
 from fecolumn.motions.record import GroundMotion
@@ -153,7 +154,7 @@ def steady_shear(podium: Podium) -> float:
     from fecolumn.engines.rocking.podium_motion import PODIUM_SHEAR, PODIUM_TILT
 
     time = np.arange(0, 40, 0.01)
-    ground = np.column_stack([-0.03 * 9.80665 * np.clip(time / 5.0, 0, 6), 0 * time])
+    ground = np.column_stack([-0.03 * GRAVITY * np.clip(time / 5.0, 0, 6), 0 * time])
     rows, *_ = podium.shake(ground, 0.01)
     lifted = int(np.argmax(np.abs(rows[:, PODIUM_TILT]) > 0))
     return float(abs(rows[lifted - 1, PODIUM_SHEAR]) * podium.building_mass / podium.static_shear)

@@ -197,7 +197,7 @@ def test_unfinished_analysis_is_compared_as_far_as_it_is(folders, tmp_path, caps
             ["{fine}", "{fine}", "--tolerance", "0"],
             "--tolerance = 0.0: must be greater than 0 and at most 1",
         ),
-        (["{fine}", "{fine}", "--cap-mm", "250"], "--cap-mm = 250.0: is for ensembles"),
+        (["{fine}", "{fine}", "--cap-m", "0.25"], "--cap-m = 0.25: is for ensembles"),
         (["{study}", "{study}", "--tolerance", "0.1"], "--tolerance = 0.1: is for two analyses"),
     ],
 )

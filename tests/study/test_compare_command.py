@@ -117,8 +117,17 @@ def test_what_is_neither_study_nor_csv_is_refused_with_code_2(tmp_path, capsys):
     assert "holds no study" in capsys.readouterr().err
     assert main(["compare", f"{tmp_path}/none@a=1", str(tmp_path)]) == 2
     assert "no such folder" in capsys.readouterr().err
-    assert main(["compare", "a", "b", "--cap-mm", "0"]) == 2
-    assert "greater than 0 [mm]" in capsys.readouterr().err
+    assert main(["compare", "a", "b", "--cap-m", "0"]) == 2
+    assert "--cap-m = 0.0: must be greater than 0 [m]" in capsys.readouterr().err
+
+
+def test_the_cap_in_millimetres_is_an_older_name(study, capsys):
+    sides = [f"{study}@integration.dt_s={dt},integration.alpha_hht=0" for dt in ("0.02", "5e-3")]
+    said = compared(capsys, *sides, "--cap-m", "0.25")
+    assert "cap 250 mm" in said
+    assert main(["compare", *sides, "--cap-mm", "250"]) == 0
+    told = capsys.readouterr()
+    assert told.out == said and "--cap-mm is an older name of --cap-m" in told.err
 
 
 def test_unfinished_study_is_compared_as_far_as_it_is(study, tmp_path, capsys):

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fecolumn.foundation.arrays import Array
+from fecolumn.foundation.gravity import GRAVITY
 from fecolumn.motions.record import GroundMotion
 
 #: Delta_1/Delta_u and Delta_2/Delta_u by the state of the mortar joints, of Doherty, Griffith, Lam
@@ -77,7 +78,7 @@ class Capacity:
         return float(d0 + (a0 - share * peak) / (a0 - a1) * (d1 - d0))
 
 
-def bilinear(multiplier: float, ultimate: float, gravity: float = 9.80665) -> Capacity:
+def bilinear(multiplier: float, ultimate: float, gravity: float = GRAVITY) -> Capacity:
     """Rigid wall: a = multiplier g (1 - Delta/Delta_u)."""
     return Capacity(np.array([0.0, ultimate]), np.array([multiplier * gravity, 0.0]))
 
@@ -86,7 +87,7 @@ def trilinear(
     multiplier: float,
     ultimate: float,
     ratios: tuple[float, float] = JOINTS["moderate"],
-    gravity: float = 9.80665,
+    gravity: float = GRAVITY,
 ) -> Capacity:
     """Wall of imperfect joints: up to Delta_1 elastic, level up to Delta_2, then along the rigid
     wall's line.
@@ -110,7 +111,7 @@ def trilinear(
 
 
 def rigid_wall_curve(
-    thickness: float, height: float, points: int = 200, gravity: float = 9.80665
+    thickness: float, height: float, points: int = 200, gravity: float = GRAVITY
 ) -> Capacity:
     """Exact curve of a free wall in large rotations: a = g tan(alpha - theta) over the displacement
     R (sin alpha - sin(alpha - theta)) of its centre.
@@ -141,7 +142,7 @@ class Oscillator:
     displacement: float
 
 
-def oscillator(weights: ArrayLike, shape: ArrayLike, gravity: float = 9.80665) -> Oscillator:
+def oscillator(weights: ArrayLike, shape: ArrayLike, gravity: float = GRAVITY) -> Oscillator:
     """Oscillator of a mechanism by its virtual displacements, such that mass, force and kinetic
     energy are those of the mechanism.
 
