@@ -49,6 +49,15 @@ def test_literal_steps_are_told_apart_as_the_text_says():
     assert min(p for one in fine for p in one[1:]) > 0.05
 
 
+def test_claims_of_the_paper_with_literal_steps():
+    here = {row.partition(", ")[2]: cell for row, cell in column("paper_claims", "here").items()}
+    supported = {claim for claim, verdict in here.items() if verdict == "supported"}
+    assert supported == {"a1", "a2, α", "b1", "d1", "d2"} and "five are supported:" in PAGE
+    assert here["a2, Δt"] == "not supported" and {here["b2"], here["c"]} == {"undecided"}
+    least = min(float(p) for p in column("paper_alphas", "least p").values())
+    assert f"the least p is {least:.3f}" in PAGE and 30 * least > 0.05
+
+
 def test_steps_with_rims_in_parts_are_told_apart_as_the_text_says():
     short, shortest, fine = (
         pairs("paper_parts_steps", f"rim in parts, {steps} s")
