@@ -38,7 +38,7 @@ READINGS = {"literal": "paper_study", "rim in parts": "paper_parts"}
 _OPTION = {"literal": "literal", "rim in parts": "parts"}
 _COMMAND = "python -m benchmarks.substeps.paper"
 #: Of a summary, what is kept: its outcome, and what tells the cost
-KEPT = *OUTCOME, "steps", "duration_s", "s_per_step", "iterations"
+KEPT = *OUTCOME, "steps", "duration_s", "s_per_step", "iterations", "contact_iterations"
 STEPS, ALPHAS = (0.02, 1e-3, 1e-4), (0, -0.05, -0.1, -0.2, -0.333)
 
 
@@ -101,13 +101,10 @@ def tables(found: dict[tuple[str, float, float], dict]) -> str:
 
 def claims(plan: Plan, rows: list[dict]) -> list[Claim]:
     """The claims of the paper put to a reading, as `fecolumn report` does."""
-    settings = [
-        Setting(values, len(runs), 0, runs) for values, runs in settings_of(plan, rows) if runs
-    ]
+    settings = [Setting(values, len(runs), 0, runs) for values, runs in settings_of(plan, rows)]
     axes = {key: sorted({one.values[key] for one in settings}) for key in settings[0].values}
-    case = dict(plan.case)
-    limit = case["overturn"]["displacement_m"]
-    sweep = Sweep(Path(), plan.title, axes, tuple(settings), rows, len(rows), limit, case)
+    limit = plan.case["overturn"]["displacement_m"]
+    sweep = Sweep(Path(), plan.title, axes, tuple(settings), rows, len(rows), limit, plan.case)
     return claims_of(sweep, read_pairs(sweep))
 
 

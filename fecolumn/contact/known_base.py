@@ -13,7 +13,7 @@ import functools
 import time
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -104,11 +104,7 @@ def keep_base(plate: BasePlate, file: Callable[..., Any]) -> None:
         ("compliance", np.ascontiguousarray(plate.compliance.transpose(0, 2, 1, 3))),
         ("known", plate.known),
     ):
-        write_file(file(name), functools.partial(_save, values))
-
-
-def _save(values: Array, file: BinaryIO) -> None:
-    np.save(file, values)
+        write_file(file(name), functools.partial(np.save, arr=values))
 
 
 def under(points: Array, feet: list[Array], allowance: float) -> Array:

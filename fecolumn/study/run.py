@@ -167,19 +167,24 @@ def check_motions(plan: Plan) -> None:
                 longest_step.get(key, 0.0), float(analysis.case.integration.dt_s)
             )
             users.setdefault(key, []).append(analysis)
-    cut, told = [], dict[str, warnings.WarningMessage]()
+    told: dict[str, warnings.WarningMessage] = {}
+    # by analysis: how long the longest of its motions lasts, and the step by which it is read [s]
+    lasts: dict[str, tuple[float, float]] = {}
     for motion, dt_s in longest_step.items():
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
             ground = load_motion(motion, dt_s, plan.file)
         told |= {str(warning.message): warning for warning in said}
         for analysis in users[motion]:
-            given, free = analysis.case.integration.duration_s, motion.longest_free_vibration_s
-            if motion.free_vibration_s == UNTIL_REST:
-                free = min(_TO_REST_S, free)
-            analysis.duration_s = given or ground.duration + free
-            if given and given < ground.duration - dt_s:
-                cut.append((ground.duration, given))
+            lasts[analysis.id] = max(lasts.get(analysis.id, (0.0, 0.0)), (ground.duration, dt_s))
+    cut = []
+    for analysis in plan.analyses:
+        if analysis.id not in lasts:
+            continue
+        given, (length, dt_s) = analysis.case.integration.duration_s, lasts[analysis.id]
+        analysis.duration_s = given or length + _free_vibration(analysis.case.motion)
+        if given and given < length - dt_s:
+            cut.append((length, given))
     _tell(list(told.values()), plan.file)
     if cut:
         length, given = max(cut)
@@ -188,6 +193,14 @@ def check_motions(plan: Plan) -> None:
             "analyses are cut)",
             stacklevel=2,
         )
+
+
+def _free_vibration(motion: Motion | None) -> float:
+    """How long an analysis is taken to go on after its motion [s]."""
+    if motion is None:
+        return 0.0
+    free = motion.longest_free_vibration_s
+    return min(_TO_REST_S, free) if motion.free_vibration_s == UNTIL_REST else free
 
 
 def _tell(told: list[warnings.WarningMessage], file: Path) -> None:
