@@ -1,31 +1,42 @@
 """Models of one column beside each other, on the same 115 motions: the study models_beside.toml.
 
-    ./containers/run python -m benchmarks.models [--full] [--motions N] [-o DIR] [-j N]
+    ./containers/run python -m benchmarks.models [--own-mesh] [--full] [--motions N] [-o DIR] [-j N]
+        [--report] [--keep]
 
-Prints the table and draws one figure with all distributions, models.png and .pdf in DIR. D, p,
-McNemar's p and the same outcome are to full order where it is there, else to the reduced engine, on
-the motions that both have. --full: the full order, too, motion after motion when the others are
-done; hours, and what is done is kept.
+Prints the table and draws one figure with all distributions, models.png and .pdf in DIR/beside or
+DIR/own_mesh. D, p, McNemar's p and the same outcome are to full order where it is there, else to
+the reduced engine, on the motions that both have. --full: the full order, too, motion after motion
+when the others are done; hours. --own-mesh: the specimen's own mesh instead of a coarse one,
+models_own_mesh.toml; its full order takes a day of one core.
+
+The same command goes on where it was stopped. What benchmarks/tables/models holds is not computed
+again; --keep writes what is done there, --report computes nothing.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import signal
+import sys
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.beside import SHARE_HEAD, cost, markdown, pair_cells, share_cells
+from benchmarks.tables.study_rows import OUTCOME, keep_rows, kept_rows
 from fecolumn.engines.ending import lost
 from fecolumn.foundation.toml_file import read_toml
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import Plan, plan_of
-from fecolumn.study.run import complete_study
+from fecolumn.study.run import StudyError, complete_study, stop_code
 
-STUDY = Path(__file__).with_name("models_beside.toml")
+#: Study by its name in benchmarks/tables/models
+STUDIES = {name: Path(__file__).with_name(f"models_{name}.toml") for name in ("beside", "own_mesh")}
+#: Of a summary, what is kept
+KEPT = *OUTCOME, "cpu_s"
 ENGINE = "integration.engine"
 LABELS = dict(
     housner="planar block",
@@ -47,12 +58,12 @@ HEAD = (
 )
 
 
-def plan(full: bool) -> Plan:
+def plan(study: str, full: bool) -> Plan:
     """The study, or that of full order on the same motions."""
-    tables = read_toml(STUDY)
+    tables = read_toml(STUDIES[study])
     if full:
         tables["axes"][ENGINE] = ["full"]
-    return plan_of(tables, STUDY)
+    return plan_of(tables, STUDIES[study])
 
 
 def line(engine: str, runs: dict, reference: dict) -> tuple[str, ...]:
@@ -77,22 +88,42 @@ def table(found: dict[str, dict]) -> str:
     return markdown(HEAD, [line(engine, runs, reference) for engine, runs in found.items()])
 
 
-def main(given=None) -> None:
+def main(given=None) -> int:
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.models", description=__doc__.split("\n")[0]
     )
     parser.add_argument("-o", "--output", metavar="DIR", default="results/models")
     parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--motions", metavar="N", type=int, default=115, help="the first of them")
+    parser.add_argument("--own-mesh", action="store_true", help="not a coarse one")
     parser.add_argument("--full", action="store_true", help="the full order, too: hours")
+    parser.add_argument("--report", action="store_true")
+    parser.add_argument("--keep", action="store_true")
     args = parser.parse_args(given)
-    first, found = {f"lick:{number}" for number in range(1, args.motions + 1)}, {}
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    study, found, code = "own_mesh" if args.own_mesh else "beside", {}, 0
+    output = Path(args.output) / study
+    command = f"python -m benchmarks.models{' --own-mesh' * args.own_mesh} --full --keep"
+    first = {f"lick:{number}" for number in range(1, args.motions + 1)}
     for full in (False, True)[: 1 + args.full]:
-        whole = plan(full)
-        only = {one.id for one in whole.analyses if one.values["motion.source"] in first}
-        folder = Path(args.output) / ("full" if full else "others")
-        rows = complete_study(whole, folder, workers=args.jobs, retry_failed=True, only=only)
+        whole, kept_as = plan(study, full), f"models/{study}"
+        wanted = {one.id for one in whole.analyses if one.values["motion.source"] in first}
+        kept, folder = kept_rows(kept_as, whole), output / ("full" if full else "others")
+        todo = set() if args.report else wanted - kept.keys()
+        try:
+            complete_study(whole, folder, workers=args.jobs, retry_failed=True, only=todo)
+        except (KeyboardInterrupt, StudyError) as error:
+            code = stop_code(error)
+        rows = [kept.get(row["id"], row) for row in complete_study(whole, folder, only=set())]
+        if args.keep:
+            keep_rows(kept_as, whole, rows, command, KEPT)
+        rows = [row for row in rows if row["id"] in wanted]
         found |= {values[ENGINE]: runs for values, runs in settings_of(whole, rows)}
+        if code:
+            break
+    if "full" not in found and "reduced" not in found:
+        print("neither full order nor the reduced engine has done an analysis yet")
+        return code
     print(table(found))
     lines = [
         (
@@ -102,9 +133,10 @@ def main(given=None) -> None:
         for engine, runs in found.items()
     ]
     panel = CdfPanel(f"one column under the same motions, {len(found)} models", tuple(lines))
-    for file in cdf_figure([panel], Path(args.output) / "models"):
+    for file in cdf_figure([panel], output / "models"):
         print(f"wrote {file}")
+    return code
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -4,7 +4,7 @@ motions on the reference specimen.
     ./containers/run python -m benchmarks.substeps [-o DIR] [-j N] [--finest]
 
 Three tables: a line for each setting; pairs of settings; and, under the motion as it is sampled at
-0.02 s, what a literal step of 0.02 s errs by: its landing (impacts found in the step), its rolling
+0.02 s, what a fixed step of 0.02 s errs by: its landing (impacts found in the step), its rolling
 (the rim followed in parts), or both; J is what impacts, contact and friction take. Of a pair: D,
 the largest distance of the CDFs of u_max; its p, settings swapped within motions; the motions that
 overturn in one setting alone, and McNemar's p of as many either way. No p is corrected for the
@@ -36,7 +36,7 @@ class Setting(NamedTuple):
     resample_s: float = 0.0
 
     def __str__(self):
-        parts = {"none": "literal", "rolling": "rim in parts", "impacts": "impacts in parts"}[
+        parts = {"none": "fixed step", "rolling": "rolling substeps", "impacts": "impact substeps"}[
             self.substeps
         ]
         return (
@@ -46,30 +46,30 @@ class Setting(NamedTuple):
 
 
 KEYS = "integration.dt_s", "integration.alpha_hht", "integration.substeps", "motion.resample_s"
-LITERAL, ROLLING, IMPACTS = (Setting(0.02, -0.2, word) for word in ("none", "rolling", "impacts"))
+FIXED, ROLLING, IMPACTS = (Setting(0.02, -0.2, word) for word in ("none", "rolling", "impacts"))
 SAMPLED, FINE, FINE_ROLLING = (
     Setting(1e-3, -0.2, "none", 0.02),
     Setting(1e-3, -0.2, "none"),
     Setting(1e-3, -0.2, "rolling"),
 )
 FINEST, FINEST_ROLLING = Setting(1e-4, -0.2, "none"), Setting(1e-4, -0.2, "rolling")
-UNDAMPED, FINE_UNDAMPED = LITERAL._replace(alpha=0), FINE._replace(alpha=0)
+UNDAMPED, FINE_UNDAMPED = FIXED._replace(alpha=0), FINE._replace(alpha=0)
 PAIRS = (
-    (LITERAL, FINE),
+    (FIXED, FINE),
     (UNDAMPED, FINE_UNDAMPED),
-    (LITERAL, UNDAMPED),
+    (FIXED, UNDAMPED),
     (FINE, FINE_UNDAMPED),
     (ROLLING, FINE_ROLLING),
-    (LITERAL, ROLLING),
-    (LITERAL, IMPACTS),
+    (FIXED, ROLLING),
+    (FIXED, IMPACTS),
     (IMPACTS, ROLLING),
     (FINE, FINE_ROLLING),
     (FINE, FINEST),
     (FINE_ROLLING, FINEST_ROLLING),
     (ROLLING, FINEST_ROLLING),
-    (LITERAL, FINEST),
+    (FIXED, FINEST),
 )
-CAUSES = LITERAL, ROLLING, IMPACTS, SAMPLED
+CAUSES = FIXED, ROLLING, IMPACTS, SAMPLED
 
 
 def line(setting: Setting, runs: dict) -> str:

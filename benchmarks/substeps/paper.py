@@ -2,7 +2,7 @@
 alphas, with the step as it is asked for and with rims followed in parts of it.
 
     ./containers/run python -m benchmarks.substeps.paper [-o DIR] [-j N] [--motions N]
-        [--literal | --parts] [--report] [--keep]
+        [--fixed | --rolling] [--report] [--keep]
 
 Four tables. A line for each reading and step: how many overturn, by alpha; D of two steps, its p
 (steps swapped within motions) and McNemar's p, by alpha; and of all pairs of alphas the largest D,
@@ -34,8 +34,8 @@ from fecolumn.study.report.pair import read_pairs
 from fecolumn.study.report.sweep import Setting, Sweep
 from fecolumn.study.run import StudyError, complete_study, stop_code
 
-READINGS = {"literal": "paper_study", "rim in parts": "paper_parts"}
-_OPTION = {"literal": "literal", "rim in parts": "parts"}
+READINGS = {"fixed step": "paper_study", "rolling substeps": "paper_parts"}
+_OPTION = {"fixed step": "fixed", "rolling substeps": "rolling"}
 _COMMAND = "python -m benchmarks.substeps.paper"
 #: Of a summary, what is kept: its outcome, and what tells the cost
 KEPT = *OUTCOME, "steps", "duration_s", "s_per_step", "iterations", "contact_iterations"
@@ -129,15 +129,15 @@ def main(given=None) -> int:
     parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--motions", metavar="N", type=int, default=115, help="the first of them")
     only = parser.add_mutually_exclusive_group()
-    only.add_argument("--literal", action="store_true", help="the step as it is asked for alone")
-    only.add_argument("--parts", action="store_true", help="rims followed in parts of it alone")
+    only.add_argument("--fixed", action="store_true", help="the step as it is asked for alone")
+    only.add_argument("--rolling", action="store_true", help="substeps while the rim rolls alone")
     parser.add_argument("--report", action="store_true")
     parser.add_argument("--keep", action="store_true")
     args = parser.parse_args(given)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     found, judged, code = {}, {}, 0
     for name, file in READINGS.items():
-        if args.literal and name != "literal" or args.parts and name == "literal":
+        if args.fixed and name != "fixed step" or args.rolling and name == "fixed step":
             continue
         plan, kept_as = read_plan(Path(__file__).parents[1] / f"{file}.toml"), f"paper/{file}"
         first = {f"lick:{number}" for number in range(1, args.motions + 1)}

@@ -15,7 +15,8 @@ OUTCOME = "u_max_m", "overturned", "slid_off"
 
 def kept_name(study: str, values: dict[str, Any]) -> str:
     """Of the rows of a setting in benchmarks/tables; study: such as "decided/own_mesh"."""
-    return "-".join([study, *(f"{value:g}" for value in values.values())])
+    told = (value if isinstance(value, str) else f"{value:g}" for value in values.values())
+    return "-".join([study, *told])
 
 
 def number_of(values: dict[str, Any]) -> int:

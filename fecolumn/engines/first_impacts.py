@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fecolumn.case.sections import TRIAL_STEPS
+
 #: Change by half the step, over the value at half the step, of the mean loss at the first impacts
 #: and of the largest tilt after them, below which a step is taken; and standard error of that
 #: change above which it cannot be told. Chosen: the loss of a single impact of elastic bodies
@@ -32,7 +34,7 @@ _COUNTS = 1e-2
 # then nothing but rounding is left
 _TILT_COUNTS = 0.1
 # Time [s] without a landing after which the next is of another impact: ten of the longest steps
-_APART_S = 0.02
+_APART_S = 10 * max(TRIAL_STEPS)
 # Part of the time between impacts that is left out at either end, where trials may still land
 _LEFT_OUT = 0.25
 

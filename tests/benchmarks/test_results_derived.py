@@ -37,19 +37,19 @@ def pairs(name, row):
     }
 
 
-def test_literal_steps_are_told_apart_as_the_text_says():
+def test_fixed_steps_are_told_apart_as_the_text_says():
     short, shortest = (
-        pairs("paper_steps", f"literal, 0.02 and {dt} s").values() for dt in ("0.001", "0.0001")
+        pairs("paper_steps", f"fixed step, 0.02 and {dt} s").values() for dt in ("0.001", "0.0001")
     )
     largest = [max(one[k] for one in found) for found in (short, shortest) for k in (1, 2)]
     assert largest[1] < 0.03 and largest[2] <= 0.001
     told = f"(p at most {largest[0]:.3f}) and 1e-4 s (p < 0.001), and fewer columns fall"
     assert f"{told} (McNemar's p at most {largest[1]:.3f} and {largest[3]:.3f})" in PAGE
-    fine = pairs("paper_steps", "literal, 0.001 and 0.0001 s").values()
+    fine = pairs("paper_steps", "fixed step, 0.001 and 0.0001 s").values()
     assert min(p for one in fine for p in one[1:]) > 0.05
 
 
-def test_claims_of_the_paper_with_literal_steps():
+def test_claims_of_the_paper_with_fixed_steps():
     here = {row.partition(", ")[2]: cell for row, cell in column("paper_claims", "here").items()}
     supported = {claim for claim, verdict in here.items() if verdict == "supported"}
     assert supported == {"a1", "a2, α", "b1", "d1", "d2"} and "five are supported:" in PAGE
@@ -60,7 +60,7 @@ def test_claims_of_the_paper_with_literal_steps():
 
 def test_steps_with_rims_in_parts_are_told_apart_as_the_text_says():
     short, shortest, fine = (
-        pairs("paper_parts_steps", f"rim in parts, {steps} s")
+        pairs("paper_parts_steps", f"rolling substeps, {steps} s")
         for steps in ("0.02 and 0.001", "0.02 and 0.0001", "0.001 and 0.0001")
     )
     told = {alpha for alpha, one in short.items() if one[1] < 0.05}

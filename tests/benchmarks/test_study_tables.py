@@ -4,14 +4,16 @@ the wobbling frame's bins, the map, and slenderness to design with.
 
 import pytest
 
-from benchmarks import models
+from benchmarks import models, tables
 from benchmarks.calibration.__main__ import printed
 from benchmarks.rocking import design
 from benchmarks.substeps import paper
 from benchmarks.tables import from_markdown
+from benchmarks.tables.study_rows import keep_rows
 from benchmarks.wobbling import beside_bodies
 from benchmarks.wobbling.bins import LEVELS
 from fecolumn.study.plan import read_plan
+from fecolumn.study.store import DONE
 
 
 def runs(peaks, fallen):
@@ -23,30 +25,30 @@ def runs(peaks, fallen):
 
 def test_both_readings_have_the_same_settings_and_differ_in_the_step_alone():
     plans = [read_plan(f"benchmarks/{file}.toml") for file in paper.READINGS.values()]
-    literal, parts = (plan.analyses for plan in plans)
-    assert len(literal) == len(parts) == 1725
-    assert [one.values for one in literal] == [one.values for one in parts]
-    assert {one.case.integration.substeps for one in literal} == {"none"}
-    assert {one.case.integration.substeps for one in parts} == {"rolling"}
+    fixed, rolling = (plan.analyses for plan in plans)
+    assert len(fixed) == len(rolling) == 1725
+    assert [one.values for one in fixed] == [one.values for one in rolling]
+    assert {one.case.integration.substeps for one in fixed} == {"none"}
+    assert {one.case.integration.substeps for one in rolling} == {"rolling"}
     step = {"integration.substeps": "none"}
-    assert parts[7].case.replace(step).id == literal[7].id
+    assert rolling[7].case.replace(step).id == fixed[7].id
 
 
 def test_paper_tables_have_a_line_for_each_reading_and_step():
     found = {
-        ("literal", dt, alpha): runs([0.01] * 12, set(range(fallen)))
+        ("fixed step", dt, alpha): runs([0.01] * 12, set(range(fallen)))
         for dt, fallen in ((0.02, 1), (1e-3, 9))
         for alpha in paper.ALPHAS
     }
-    found["literal", 1e-3, 0] = runs([0.01] * 12, set())
+    found["fixed step", 1e-3, 0] = runs([0.01] * 12, set())
     counts, steps, alphas = from_markdown(paper.tables(found))
-    assert counts[1][:2] == ["literal, 0.02 s", "1 of 12; 8.3 % (1.5 to 35.4)"]
+    assert counts[1][:2] == ["fixed step, 0.02 s", "1 of 12; 8.3 % (1.5 to 35.4)"]
     # of a reading that was not asked for there is no line
-    assert counts[3] == ["literal, 0.0001 s", *[""] * 5] and len(counts) == len(steps) == 4
+    assert counts[3] == ["fixed step, 0.0001 s", *[""] * 5] and len(counts) == len(steps) == 4
     # nine fall of twelve against one: both tails of a binomial of eight, 2 / 2^8
     assert steps[1][2] == "0.67; 0.008; 0.008"
-    assert alphas[1][:3] == ["literal, 0.02 s", "10", "0.00"]
-    assert alphas[2] == ["literal, 0.001 s", "10", "0.75", "0.004", "0.004", "0.004"]
+    assert alphas[1][:3] == ["fixed step, 0.02 s", "10", "0.00"]
+    assert alphas[2] == ["fixed step, 0.001 s", "10", "0.75", "0.004", "0.004", "0.004"]
 
 
 def test_models_are_set_beside_full_order_on_the_motions_that_it_has():
@@ -66,8 +68,29 @@ def test_models_are_set_beside_full_order_on_the_motions_that_it_has():
 
 
 def test_full_order_is_asked_for_by_itself():
-    engines = [{one.values[models.ENGINE] for one in models.plan(full).analyses} for full in (0, 1)]
-    assert engines == [{"housner", "wobbling", "rigid", "reduced"}, {"full"}]
+    for study in models.STUDIES:
+        plans = [models.plan(study, full) for full in (False, True)]
+        engines = [{one.values[models.ENGINE] for one in plan.analyses} for plan in plans]
+        assert engines == [{"housner", "wobbling", "rigid", "reduced"}, {"full"}]
+
+
+def test_models_go_on_from_rows_that_are_kept(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(tables, "FOLDER", tmp_path / "tables")
+    whole = models.plan("own_mesh", True)
+    rows = [
+        dict(id=one.id, state=DONE, summary=summary)
+        for one, summary in zip(whole.analyses, runs([0.01, 0.02, 0.03], {1}).values())
+    ]
+    keep_rows("models/own_mesh", whole, rows, "made up", models.KEPT)
+    assert [file.stem for file in tmp_path.rglob("*.csv")] == ["own_mesh-full"]
+    output = tmp_path / "models"
+    assert models.main(["--own-mesh", "--full", "--report", "-o", str(output)]) == 0
+    head, line = from_markdown(capsys.readouterr().out)[0]
+    row = dict(zip(head, line))
+    assert (row["motions"], row["overturned"], row["CPU of a motion [s]"]) == ("3", "1", "2")
+    assert (output / "own_mesh" / "models.png").is_file()
+    assert models.main(["--report", "-o", str(output)]) == 0
+    assert "has done an analysis yet" in capsys.readouterr().out
 
 
 def test_bins_of_the_frame_are_lines_with_those_of_each_level():

@@ -6,8 +6,8 @@ from benchmarks.beside import compared
 from benchmarks.substeps.__main__ import (
     CAUSES,
     FINE,
+    FIXED,
     KEYS,
-    LITERAL,
     PAIRS,
     ROLLING,
     SAMPLED,
@@ -21,7 +21,7 @@ def _plan(name):
     return read_plan(f"benchmarks/{name}.toml")
 
 
-def test_literal_settings_are_analyses_of_the_paper_study():
+def test_fixed_settings_are_analyses_of_the_paper_study():
     paper = {
         (
             a.values["integration.dt_s"],
@@ -83,22 +83,23 @@ def test_a_pair_counts_what_overturns_in_one_alone():
 def test_tables_say_what_is_done_and_leave_out_what_is_not():
     text = tables(
         {
-            LITERAL: _runs([0.01, 0.02, 0.03, 0.04], {3}),
+            FIXED: _runs([0.01, 0.02, 0.03, 0.04], {3}),
             FINE: _runs([0.02] * 4, {2, 3}),
             ROLLING: _runs([0.01] * 4, set(), 9),
         }
     )
     assert (
-        "| 0.02 s, alpha -0.2, literal | 4 | 1 | 25.0 | 4.6 to 69.9 | 20.0 | 100 | 0 | 7 |" in text
+        "| 0.02 s, alpha -0.2, fixed step | 4 | 1 | 25.0 | 4.6 to 69.9 | 20.0 | 100 | 0 | 7 |"
+        in text
     )
-    assert "| 0.02 s, alpha -0.2, rim in parts | 4 | 0 |" in text and " | 100 | 9 | 7 |" in text
+    assert "| 0.02 s, alpha -0.2, rolling substeps | 4 | 0 |" in text and " | 100 | 9 | 7 |" in text
     assert (
-        "| 0.02 s, alpha -0.2, literal; 0.001 s, alpha -0.2, literal | 0.250 | " in text
-        and "impacts in parts" not in text
+        "| 0.02 s, alpha -0.2, fixed step; 0.001 s, alpha -0.2, fixed step | 0.250 | " in text
+        and "impact substeps" not in text
     )
 
 
 def test_energy_is_of_the_motions_that_stand_in_all_four():
     """Motions 0 and 1 of four stand in both: 0.03 and 0.13 J."""
-    text = tables({LITERAL: _runs([0.01] * 4, {3}), SAMPLED: _runs([0.01] * 4, {2})})
-    assert "| 0.02 s, alpha -0.2, literal | 1 | " in text and text.count(" | 7 | 0.080 |") == 2
+    text = tables({FIXED: _runs([0.01] * 4, {3}), SAMPLED: _runs([0.01] * 4, {2})})
+    assert "| 0.02 s, alpha -0.2, fixed step | 1 | " in text and text.count(" | 7 | 0.080 |") == 2
