@@ -22,6 +22,7 @@ from typing import TypeVar
 
 from fecolumn.case.checked import refuse_in
 from fecolumn.case.column_keys import Base, Column, ColumnSections, MeshSizes
+from fecolumn.case.ground_sizes import least_side, open_allowance, open_side, open_thickness
 from fecolumn.case.sections import Cap, Flange
 from fecolumn.foundation.content import content
 from fecolumn.foundation.files import is_file
@@ -204,11 +205,11 @@ def sized(
     ]
     base = _filled(
         base,
-        slide_allowance_m=max(0.0, min(shorter / 4, *room, shorter / 4)),
-        thickness_m=shorter / 4,
+        slide_allowance_m=open_allowance(shorter, room),
+        thickness_m=open_thickness(shorter),
     )
     allowance = _known(base.slide_allowance_m)
-    sides = [side + max(3 * longer, 2 * allowance) for side in foot]
+    sides = [open_side(side, longer, allowance) for side in foot]
     return column, _filled(base, length_m=sides[0], width_m=sides[1]), mesh
 
 
@@ -338,7 +339,7 @@ def check_sizes(case: ColumnSections, file: Path | str) -> None:
                     f"cap.{key}", getattr(cap, key), f"must be at least column.{named} = {side:g} m"
                 )
     for key, side in zip(("length_m", "width_m"), foot_sides(case)) if base.kind == "plate" else ():
-        least = side + 2 * _known(base.slide_allowance_m)
+        least = least_side(side, _known(base.slide_allowance_m))
         if getattr(base, key) < least * (1 - 1e-9):
             refuse(
                 f"base.{key}",

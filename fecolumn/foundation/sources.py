@@ -49,6 +49,7 @@ DECIDING = (
     "case/arch.py",
     "case/polygon.py",
     "case/short_form.py",
+    "case/ground_sizes.py",
     "case/sizes.py",
     "contact",
     "engines",

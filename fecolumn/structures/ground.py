@@ -15,6 +15,7 @@ from fecolumn.case.case import Case
 from fecolumn.case.check_thin import Dimension, refuse_thin
 from fecolumn.case.checked import refuse_in
 from fecolumn.case.ground import Ground
+from fecolumn.case.ground_sizes import least_side, open_allowance, open_side, open_thickness
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.unbounded_base import UnboundedBase, rigid_base, unbounded_base, window
 from fecolumn.foundation._compiled import cache_folder
@@ -127,7 +128,7 @@ def thickness_of(ground: Ground, shorter: float) -> float:
     """Thickness [m] of a plate or layer, where it is left open by the smaller side [m] of the
     smallest foot on it.
     """
-    return shorter / 4 if ground.thickness_m is None else ground.thickness_m
+    return open_thickness(shorter) if ground.thickness_m is None else ground.thickness_m
 
 
 def sized_ground(name: str, ground: Ground, feet: list[NDArray[Any]], file: Path | str) -> Sized:
@@ -154,17 +155,18 @@ def sized_ground(name: str, ground: Ground, feet: list[NDArray[Any]], file: Path
     low, high = everything.min(axis=0), everything.max(axis=0)
     lengths = ground.length_m, ground.width_m
     room = [(length - own) / 2 for length, own in zip(lengths, high - low) if length is not None]
-    allowance = stated("slide_allowance_m", max(0.0, min(shorter / 4, *room, shorter / 4)))
+    allowance = stated("slide_allowance_m", open_allowance(shorter, room))
     lines = []
     for axis, length in enumerate(lengths):
         own = high[axis] - low[axis]
-        length = own + max(3 * longer, 2 * allowance) if length is None else length
-        if length < (own + 2 * allowance) * (1 - 1e-9) and ground.kind == "plate":
+        length = open_side(own, longer, allowance) if length is None else length
+        least = least_side(own, allowance)
+        if length < least * (1 - 1e-9) and ground.kind == "plate":
             raise InputError(
                 file,
                 f"grounds.{name}.{('length_m', 'width_m')[axis]}",
                 length,
-                f"must be at least the feet and twice slide_allowance_m, {own + 2 * allowance:g} m",
+                f"must be at least the feet and twice slide_allowance_m, {least:g} m",
             )
         middle = (low[axis] + high[axis]) / 2
         spans = _joined(

@@ -46,6 +46,7 @@ SOURCES = (
     "case/polygon.py",
     "case/sections.py",
     "case/short_form.py",
+    "case/ground_sizes.py",
     "case/sizes.py",
     "fem",
     "mesh",
