@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,12 @@ from fecolumn.statistics.csv_table import check_row, number_of, read_csv
 
 _TIMES = {"time_s": 1.0, "time_ms": 1e-3}
 _TILTS = {"tilt_rad": 1.0, "tilt_mrad": 1e-3, "tilt_deg": math.pi / 180}
-_NEEDED = f"one column of {', '.join(_TIMES)} and one of {', '.join(_TILTS)}"
+_NEEDED = (
+    f"one column of {', '.join(_TIMES)} and one of {', '.join(_TILTS)}; time [s], tilt [deg] and "
+    "the like do as well"
+)
+# A name with its unit in brackets, as fecolumn writes histories
+_IN_BRACKETS = re.compile(r"(time|tilt) ?\[(\w+)\]")
 _FEWEST = 20  # samples
 # What a test in its right unit keeps to. A block of 50 m falls upright from near its balance within
 # some seconds: samples further apart [s] do not show it rock. The smallest object, of 1 cm, takes
@@ -45,7 +51,8 @@ def read_rocking_test(path: Path | str) -> RockingTest:
     header, rows = read_csv(path, _NEEDED)
     columns = []
     for units in (_TIMES, _TILTS):
-        there = [(place, units[name]) for place, name in enumerate(header) if name in units]
+        names = [_IN_BRACKETS.sub(r"\1_\2", name) for name in header]
+        there = [(place, units[name]) for place, name in enumerate(names) if name in units]
         if len(there) != 1:
             raise InputError(path, "header", ", ".join(header), f"must have {_NEEDED}")
         columns.append(there[0])

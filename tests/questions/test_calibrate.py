@@ -319,6 +319,17 @@ def samples(*, unit="tilt_rad", change=None, step=0.1):
     return "\n".join([f"time_s,{unit}", *lines]) + "\n"
 
 
+@pytest.mark.parametrize("tilt", ["tilt [deg]", "tilt[deg]", "tilt_deg"])
+def test_a_history_that_fecolumn_wrote_will_do_as_a_test(tmp_path, tilt):
+    """Its names have their units in brackets."""
+    lines = samples(unit=f"u_x [m],{tilt}").replace("time_s", "time [s]").splitlines()
+    lines[1:] = [line.replace(",", ",0.3,") for line in lines[1:]]
+    (tmp_path / "history.csv").write_text("\n".join(lines) + "\n")
+    found = read_rocking_test(tmp_path / "history.csv")
+    assert len(found.time) == 30 and found.time[-1] == pytest.approx(2.9)
+    assert found.tilt[0] == pytest.approx(np.radians(0.1))
+
+
 @pytest.mark.parametrize(
     "text, said",
     [
