@@ -72,7 +72,9 @@ def held(
     def claim() -> None:
         if lock and not known.is_file():
             told = {"dt_chosen": chosen} if chosen else {}
-            write_json(known, {"id": case.id, "file": str(file), "case": case.as_stated(), **told})
+            # by the name of summary.json, and by the older one, which earlier versions read
+            own = {"case_id": case.id, "id": case.id, "file": str(file)}
+            write_json(known, {**own, "case": case.as_stated(), **told})
 
     try:
         yield claim

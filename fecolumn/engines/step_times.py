@@ -49,7 +49,7 @@ class StepTimes:
 
     def write(self, folder: Path) -> None:
         """Write the rows."""
-        header = ["time [s]", "step [us]", "carrying points", *COUNTS]
+        header = ["time [s]", "step [us]", "carrying_points", *COUNTS]
         write_csv(folder / STEP_TIMES_FILE, [header, *self._rows])
 
 

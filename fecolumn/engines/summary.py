@@ -19,7 +19,9 @@ _NUMBERS = ("u_max_m", "residual_slide_m", "steps", "wall_s", "s_per_step", "ene
 _OPTIONAL = (
     "tilt_max_rad",
     "duration_s",
+    "overturned_at_s",
     "overturn_time_s",
+    "slid_off_at_s",
     "cpu_s",
     "dofs",
     "iterations",

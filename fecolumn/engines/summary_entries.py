@@ -26,6 +26,7 @@ def entries_of(rows: dict[str, Any], ending: Ending) -> dict[str, Any]:
     overturned, slid_off = ending.outcome == OVERTURNED, ending.outcome == SLID_OFF
     top, slide, end = rows["u_top"], rows["slide"][-1], float(rows["time"][-1])
     lost_at = end if ending.lost_at_s is None else ending.lost_at_s
+    overturned_at, slid_off_at = lost_at if overturned else None, end if slid_off else None
     deep = rows.get("penetration")  # a rigid model has none
     return dict(
         duration_s=end,
@@ -34,10 +35,12 @@ def entries_of(rows: dict[str, Any], ending: Ending) -> dict[str, Any]:
         u_max_m=float(np.hypot(top[:, 0], top[:, 1]).max()),
         u_max_censored=overturned or slid_off,
         overturned=overturned,
-        overturn_time_s=lost_at if overturned else None,
+        overturned_at_s=overturned_at,
+        overturn_time_s=overturned_at,  # its older name
         overturn_direction_deg=_azimuth(top[-1]) if overturned else None,
         slid_off=slid_off,
-        slid_off_time_s=end if slid_off else None,
+        slid_off_at_s=slid_off_at,
+        slid_off_time_s=slid_off_at,  # its older name
         slid_off_direction_deg=_azimuth(slide) if slid_off else None,
         tilt_max_rad=float(rows["tilt"].max()),
         residual_slide_m=float(np.hypot(*slide)),

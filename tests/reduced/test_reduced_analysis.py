@@ -160,7 +160,7 @@ def test_slide_beyond_the_allowance_extends_the_base_and_off_the_plate_is_an_out
         and not summary["overturned"]
         and summary["u_max_censored"]
     )
-    assert summary["slid_off_time_s"] == slid["time"][-1] and summary[
+    assert summary["slid_off_at_s"] == summary["slid_off_time_s"] == slid["time"][-1] and summary[
         "slid_off_direction_deg"
     ] == pytest.approx(0.0, abs=1e-3)
     assert (

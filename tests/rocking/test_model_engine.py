@@ -147,7 +147,7 @@ def test_overturning_ends_at_the_point_of_no_return_with_its_time(tmp_path):
     )
     with h5py.File(tmp_path / "out" / "history.h5") as history:
         assert history["tilt"][-2] <= summary["critical_tilt_rad"] < history["tilt"][-1]
-        assert history["time"][-1] == summary["overturn_time_s"]
+        assert history["time"][-1] == summary["overturned_at_s"] == summary["overturn_time_s"]
 
 
 def test_cap_on_the_displacement_stops_earlier(tmp_path):

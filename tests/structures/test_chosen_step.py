@@ -128,7 +128,7 @@ def test_what_was_interrupted_goes_on_with_the_step_chosen_before(tmp_path, monk
     assert kept["case"]["integration"]["dt_s"] == 5e-4
     monkeypatch.setattr(step_choice, "StepChoice", None)
     case, file = simulation.read_folder_case(tmp_path / "out")
-    assert case.id == kept["id"]
+    assert case.id == kept["id"] == kept["case_id"]
     summary = simulation.run(_case(), tmp_path / "out", quiet=True)
     assert summary == simulation.run(case, tmp_path / "out", file=file, quiet=True)
     assert summary["dt_s"] == 5e-4 and summary["steps"] == 2000

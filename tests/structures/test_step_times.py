@@ -87,7 +87,7 @@ def test_profile_of_a_run_has_each_step_and_all_its_counts(engine, tmp_path, cap
     printed, summary = capsys.readouterr().out, _summary(out)
     with open(out / STEP_TIMES_FILE, encoding="utf-8") as file:
         header = next(csv.reader(file))
-    assert header == ["time [s]", "step [us]", "carrying points", *COUNTS]
+    assert header == ["time [s]", "step [us]", "carrying_points", *COUNTS]
     rows = read_step_times(out / STEP_TIMES_FILE)
     assert len(rows) == summary["steps"] and (rows[:, 1] >= 0).all()
     assert rows[-1, 0] == pytest.approx(summary["duration_s"])
