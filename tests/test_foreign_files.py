@@ -133,6 +133,10 @@ def test_table_of_the_user_beside_an_ensemble_is_not_written_over(tmp_path, caps
     assert (tmp_path / "records.csv").read_text() == "time,ax\n" and not (
         tmp_path / "records.h5"
     ).exists()
+    # one of an earlier version is its own
+    (tmp_path / "records.csv").write_text("name,number,dt_s,length_s,pga_m_s2\n")
+    assert main(make) == 0
+    assert (tmp_path / "records.csv").read_text().startswith("name,number,dt_s,duration_s,")
     (tmp_path / "records.csv").unlink()
     assert main(make) == main(make) == 0  # its own it may write over
 

@@ -24,8 +24,8 @@ HDF5_SUFFIXES = (".h5", ".hdf5")
 FORMAT = "fecolumn ensemble 1"
 _MEMBER = re.compile(r"(?P<file>.+\.(?:h5|hdf5))#(?P<number>[^#]*)", re.IGNORECASE)
 ALL_MOTIONS = "*"
-#: How the table beside an ensemble begins
-TABLE_HEAD = "name,number,dt_s,length_s,"
+#: How the table beside an ensemble begins: now, and in earlier versions
+TABLE_HEADS = ("name,number,dt_s,duration_s,", "name,number,dt_s,length_s,")
 
 
 def file_and_number(source: str) -> tuple[str, str] | None:
@@ -122,8 +122,8 @@ def members(source: str) -> list[str]:
 
 
 def summary(ensemble: Ensemble) -> dict[str, NDArray[Any]]:
-    """Columns of numbers, (n,) each: number, dt_s, length_s, horizontal_components, intensity
-    measures, parameters.
+    """Columns of numbers, (n,) each: number, dt_s, duration_s, horizontal_components,
+    intensity measures, parameters.
 
     Where horizontal_components is 1, the measures are of that component, not RotD50 or a mean over
     x and y.
@@ -135,7 +135,7 @@ def summary(ensemble: Ensemble) -> dict[str, NDArray[Any]]:
     columns = {
         "number": np.arange(1, len(measures) + 1),
         "dt_s": np.array([motion.dt for motion in ensemble.motions]),
-        "length_s": np.array([motion.duration for motion in ensemble.motions]),
+        "duration_s": np.array([motion.duration for motion in ensemble.motions]),
         "horizontal_components": components,
     }
     columns |= {name: np.array([measure[name] for measure in measures]) for name in measures[0]}

@@ -37,7 +37,7 @@ def stored_target(ensemble: Ensemble) -> tuple[Target, float] | None:
 
 def report(ensemble: Ensemble, columns: dict[str, NDArray[Any]]) -> str:
     """Median, spread and agreement with the target.  columns: of ensemble_file.summary."""
-    steps, lengths = np.unique(columns["dt_s"]), columns["length_s"]
+    steps, lengths = np.unique(columns["dt_s"]), columns["duration_s"]
     model, seed = ensemble.provenance.get("model", "not stated"), ensemble.provenance.get("seed")
     lines = [
         f"{ensemble.name}: {len(ensemble.motions)} motions, dt {_range(steps)} s, "

@@ -15,7 +15,10 @@ from fecolumn.statistics.csv_table import check_columns, check_row, number_of, r
 from fecolumn.statistics.experiment import overturned_word
 
 #: Columns that are no intensity measure
-_OTHERS = ("motion", "record", "overturned", "outcome", "notes", "number", "impacts", "end_s")
+_OTHERS = (
+    *("motion", "record", "overturned", "outcome", "notes", "number", "impacts"),
+    *("duration_s", "end_s"),  # now, and in earlier versions
+)
 _RESPONSES = ("u_max", "tilt_max")
 
 

@@ -54,7 +54,7 @@ def store(ensemble: Ensemble, output: Path | str) -> int:
 def ensemble_path(output: Path | str) -> Path:
     """Path of an ensemble that may be written; its folder is there."""
     from fecolumn.foundation.schema import InputError
-    from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, TABLE_HEAD, is_ensemble
+    from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, TABLE_HEADS, is_ensemble
 
     path = Path(output)
     if path.suffix not in HDF5_SUFFIXES:
@@ -70,19 +70,21 @@ def ensemble_path(output: Path | str) -> Path:
     table = path.with_suffix(".csv")
     refuse_foreign(
         table,
-        TABLE_HEAD,
+        TABLE_HEADS,
         "is there and no table of an ensemble; move it away or give the ensemble another name",
     )
     return path
 
 
-def refuse_foreign(path: Path, head: str, allowed: str) -> None:
-    """Refuse to write over a file that does not begin as ours do."""
+def refuse_foreign(path: Path, head: str | tuple[str, ...], allowed: str) -> None:
+    """Refuse to write over a file that does not begin as ours do: by `head`, or one of several."""
     from fecolumn.foundation.files import Unreadable, read_bytes
     from fecolumn.foundation.schema import InputError
 
+    heads = (head,) if isinstance(head, str) else head
+    begins = tuple(one.encode() for one in heads)
     try:
-        own = not os.path.lexists(path) or read_bytes(path).startswith(head.encode())
+        own = not os.path.lexists(path) or read_bytes(path).startswith(begins)
     except Unreadable:
         own = False
     if not own:

@@ -228,9 +228,10 @@ def _table(
             "motion",
             "outcome",
             "u_max_m",
+            "u_max_censored",
             "tilt_max_rad",
             "impacts",
-            "end_s",
+            "duration_s",
             "overturned",
             *_MEASURES,
             *peaks,
@@ -242,7 +243,8 @@ def _table(
             [
                 motion.name,
                 response.outcome(energy_to_overturn),
-                f"{response.u_max:.6g}",
+                "" if response.overturned else f"{response.u_max:.6g}",
+                int(response.overturned),
                 f"{response.tilt.max():.6g}",
                 len(response.impact_times),
                 f"{response.time[-1]:.6g}",
@@ -255,10 +257,10 @@ def _table(
     write_csv(folder / "responses.csv", lines)
     if len(responses) <= 12:
         print(f"\n{'motion':<34}{'outcome':>14}{'u_max [mm]':>12}{'tilt [rad]':>12}{'impacts':>9}")
-        for line in lines[1:]:
-            largest = f"{'> ' if line[6] else ''}{1e3 * float(line[2]):.4g}"
+        for (_, response), line in zip(responses, lines[1:]):
+            largest = f"{'> ' if response.overturned else ''}{1e3 * response.u_max:.4g}"
             print(
-                f"{line[0][:33]:<34}{line[1]:>14}{largest:>12}{float(line[3]):>12.4g}{line[4]:>9}"
+                f"{line[0][:33]:<34}{line[1]:>14}{largest:>12}{float(line[4]):>12.4g}{line[5]:>9}"
             )
     u_max = np.array([response.u_max for _, response in responses])
     overturned = np.array([response.overturned for _, response in responses])

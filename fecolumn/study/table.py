@@ -38,6 +38,7 @@ _TABLE = (
 )
 _ANALYSES = (
     "u_max_m",
+    "u_max_censored",
     "overturned",
     "slid_off",
     "outcome",
@@ -139,6 +140,7 @@ def _analysis_row(row: dict[str, Any]) -> list[Any]:
     return [
         *texts,
         peak,
+        int(lost(summary)),
         int(summary["overturned"]),
         int(bool(summary.get("slid_off"))),
         summary.get("outcome", ""),

@@ -1,5 +1,6 @@
 """fecolumn design: the size by bisection, its interval, what it is told that cannot be used."""
 
+import csv
 import json
 import os
 import signal
@@ -78,7 +79,11 @@ def test_size_and_interval_are_those_of_the_closed_form(pulses, capsys):
     n = AMPLITUDES.size
     kept = [k / n < 0.5 for k in lifted]
     intervals = [proportion_interval(k, n) for k in lifted]
-    assert found["size"] == pytest.approx(grid[np.argmax(kept)], rel=1e-5)
+    assert found["value"] == found["size"] == pytest.approx(grid[np.argmax(kept)], rel=1e-5)
+    with open(pulses / "closed" / "design.csv") as table:
+        reached = {round(float(row["value"]), 5): row["reached"] for row in csv.DictReader(table)}
+    counts = {round(float(width), 5): str(k) for width, k in zip(grid, lifted)}
+    assert reached and all(counts[width] == k for width, k in reached.items())
     least = max(width for width, (low, _) in zip(grid, intervals) if low > 0.5)
     most = min(width for width, (_, high) in zip(grid, intervals) if high < 0.5)
     assert found["interval"] == pytest.approx([least, most], rel=1e-5)

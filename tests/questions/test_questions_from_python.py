@@ -113,7 +113,8 @@ def test_a_calibration_and_a_risk(tmp_path):
     assert answer.table["value"][0] == pytest.approx(0.92, abs=1e-3)
     (tmp_path / "h.csv").write_text("pga_g,annual_frequency\n0.05,0.02\n0.4,0.00025\n3.2,1e-7\n")
     (tmp_path / "f.csv").write_text(
-        "setting,n,records,overturned,median_pga_m_s2,low,high,beta,beta_low,beta_high\n"
+        "setting,n,records,overturned,median_pga_m_s2,median_low,median_high,beta,"
+        "beta_low,beta_high\n"
         "all,120,40,37,7.8,6.9,8.9,0.41,0.28,0.60\n"
     )
     risk = fecolumn.risk(tmp_path / "f.csv", tmp_path / "r", hazard=tmp_path / "h.csv", years=100)

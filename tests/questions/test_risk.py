@@ -126,9 +126,21 @@ def test_what_fragility_wrote_will_do(tmp_path):
 
 
 FRAGILITY = (
-    "setting,n,records,overturned,median_pga_m_s2,low,high,beta,beta_low,beta_high\n"
+    "setting,n,records,overturned,median_pga_m_s2,median_low,median_high,beta,beta_low,beta_high\n"
     "all,120,40,37,7.8,6.9,8.9,0.41,0.28,0.60\n"
 )
+
+
+def test_a_fragility_of_an_earlier_version_gives_the_same_risk(tmp_path):
+    """Its columns low and high are median_low and median_high."""
+    hazard, found = hazard_file(tmp_path, POWER), []
+    older = FRAGILITY.replace("median_low,median_high", "low,high")
+    for name, text in (("now", FRAGILITY), ("older", older)):
+        file = hazard_file(tmp_path, text, f"{name}.csv")
+        out = tmp_path / name
+        assert main(["risk", str(file), "--hazard", str(hazard), "-o", str(out)]) == 0
+        found.append((out / "risk.csv").read_text())
+    assert older != FRAGILITY and found[0] == found[1]
 
 
 @pytest.mark.parametrize(

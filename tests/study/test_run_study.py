@@ -314,6 +314,8 @@ def test_tables_count_what_failed_and_what_overturned(tmp_path):
         line.split(",") for line in (tmp_path / "out" / "analyses.csv").read_text().splitlines()
     ]
     analyses = [dict(zip(header, line)) for line in lines]
+    censored = [one["u_max_censored"] for one in analyses]
+    assert censored == [one["overturned"] for one in analyses]  # empty where it failed
     # what overturned, or failed, has no peak
     assert all((one["u_max_m"] == "") == (one["overturned"] != "0") for one in analyses)
     assert (
@@ -490,7 +492,8 @@ def test_columns_that_slide_off_are_counted_as_such_and_not_as_failures(tmp_path
         for text in [(tmp_path / "analyses.csv").read_text().splitlines()]
         for pair in [(text[0].split(","), one.split(",")) for one in text[1:]]
     ]
-    assert [one["u_max_m"] == "" for one in analyses if one["slid_off"] == "1"] == [True, True]
+    off = [one for one in analyses if one["slid_off"] == "1"]
+    assert [(one["u_max_m"], one["u_max_censored"]) for one in off] == [("", "1")] * 2
     assert "slid off" in table_text(plan, rows)
     stored = (
         sqlite3.connect(tmp_path / "out" / "study.sqlite")

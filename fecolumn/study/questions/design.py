@@ -134,7 +134,7 @@ class DesignQuestion:
     def table(self) -> list[list[Any]]:
         """Header, and a row for each value looked at."""
         rows: list[list[Any]] = [
-            ["key", "value", "n", "beyond", "probability", "wilson_low", "wilson_high"]
+            ["key", "value", "n", "reached", "probability", "wilson_low", "wilson_high"]
         ]
         for place in sorted(self.looked):
             one = self.looked[place]

@@ -192,7 +192,13 @@ def _tell(question: Any, folder: Path) -> None:
         ]
     write_json(
         folder / "design.json",
-        {"key": question.key, "limit": question.limit.text, **ends, "answer": question.answer()},
+        {
+            "key": question.key,
+            "limit": question.limit.text,
+            "value": ends["size"],
+            **ends,
+            "answer": question.answer(),
+        },
     )
     files = design_figure(
         [[float(cell) for cell in row[1:]] for row in rows[1:]],

@@ -9,6 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+# Columns of the interval of the median: now, and in earlier versions
+_ENDS_OF_MEDIAN = (("median_low", "median_high"), ("low", "high"))
+
 
 @dataclass(frozen=True, slots=True)
 class KnownFragility:
@@ -84,8 +87,11 @@ def _stated(source: str, measure: str) -> dict[str, KnownFragility]:
     from fecolumn.statistics.hazard import drawn_parameters
 
     header, rows = read_csv(Path(source), "runs, or what fecolumn fragility writes")
-    medians = [name for name in header if name.startswith("median_")]
-    if not {"beta", "beta_low", "beta_high", "low", "high"} <= set(header) or len(medians) != 1:
+    ends = next((ends for ends in _ENDS_OF_MEDIAN if set(ends) <= set(header)), None)
+    medians = [
+        name for name in header if name.startswith("median_") and name not in _ENDS_OF_MEDIAN[0]
+    ]
+    if not ends or not {"beta", "beta_low", "beta_high"} <= set(header) or len(medians) != 1:
         return {}
     if medians[0] != f"median_{measure}":
         raise InputError(
@@ -100,7 +106,7 @@ def _stated(source: str, measure: str) -> dict[str, KnownFragility]:
         cells = dict(zip(header, row))
         _check_counts(source, number, cells)
         values = []
-        for name in (medians[0], "low", "high", "beta", "beta_low", "beta_high"):
+        for name in (medians[0], *ends, "beta", "beta_low", "beta_high"):
             try:
                 values.append(float(cells[name]))
             except ValueError:

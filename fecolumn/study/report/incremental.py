@@ -201,8 +201,8 @@ def _table(sweep: Sweep, found: list[ScaledSetting]) -> PageTable:
         PageColumn("runs", "runs"),
         PageColumn("overturned", "motions that overturn"),
         PageColumn("stands_again", "that let stand again"),
-        PageColumn("pgv_median_m_s", "median PGV [m/s]", _speed),
-        PageColumn("pgv_low pgv_high", "95 %", lambda low, high: interval(low, high, _speed)),
+        PageColumn("median_pgv_m_s", "median PGV [m/s]", _speed),
+        PageColumn("median_low median_high", "95 %", lambda low, high: interval(low, high, _speed)),
         PageColumn("beta", "β", fixed),
         PageColumn("beta_low beta_high", "95 %", interval),
     )
