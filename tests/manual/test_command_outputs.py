@@ -95,6 +95,10 @@ def test_every_coordinate_and_peak_of_all_rocking_models(pulses):
         with h5py.File(folder / "history.h5") as file:
             own = file["model"]
             units |= {f"model/{name}": own[name].attrs["unit"] for name in own}
+        told = json.loads((folder / "case.json").read_text())
+        # of a step that is stated
+        assert set(listed("outputs", "case.json")) - {"dt_chosen"} == set(told)
+        assert told["case_id"] == told["id"]
         found = json.loads((folder / "summary.json").read_text())["peaks"]
         peaks |= {re.sub(r"storey_\d", "storey_N", name) for name in found}
     assert listed("outputs", "history.h5 of a rocking model") == units
@@ -197,6 +201,15 @@ def test_every_file_and_column_of_motions(pulses):
     words = [f"{pulses / 'p.h5'}#*", "--to-spectrum", pulses / "target.csv"]
     scaled = asked("motions", "scale", *words, pulses / "scaled.h5")
     assert {path.suffix for path in pulses.glob("scaled.*")} == {".h5", ".csv", ".png", ".pdf"}
+    with h5py.File(scaled) as file:
+        first = file["motions/0001"]
+        names = {
+            *file.attrs,
+            *(f"{name}/NUMBER" if name == "motions" else f"{name}/NAME" for name in file),
+        }
+        assert names == set(listed("outputs", "ENSEMBLE.h5"))
+        assert set(first.attrs) == set(listed("outputs", "Motions of ENSEMBLE.h5"))
+        assert first.attrs["units"] == listed("outputs", "ENSEMBLE.h5")["motions/NUMBER"]
     own = set(header(scaled.with_suffix(".csv"))) - set(listed("outputs", "ENSEMBLE.csv"))
     part = PAGES["outputs"].read_text().partition("### ENSEMBLE.csv")[2]
     assert own == set(re.findall(r"`(parameter_[a-z]\w+)`", part))

@@ -23,11 +23,18 @@ from study_files import write_study  # noqa: E402
 from synthetic_study import write_synthetic  # noqa: E402
 from test_podium_section import study as study_of_laws  # noqa: E402
 
+from fecolumn.engines.dynamics.record import Record  # noqa: E402
+from fecolumn.engines.step_times import STEP_TIMES_FILE, StepTimes  # noqa: E402
+from fecolumn.pictures.figures.structure_figures import figure_names  # noqa: E402
 from fecolumn.simulation import chosen_step, run  # noqa: E402
+from fecolumn.study.device_peaks import BOND_COLUMNS, LINK_COLUMNS  # noqa: E402
 from fecolumn.study.plan import read_plan  # noqa: E402
 from fecolumn.study.report.page import write_report  # noqa: E402
 from fecolumn.study.run import complete_study  # noqa: E402
 from fecolumn.study.table import write_tables  # noqa: E402
+from fecolumn.verification import suite  # noqa: E402
+from fecolumn.verification.result import Row  # noqa: E402
+from fecolumn.verification.suite import Finding  # noqa: E402
 
 BLOCK = """
 [column]
@@ -148,6 +155,9 @@ def test_every_entry_of_a_comparison_of_two_analyses(analysis, tmp_path):
         for entry in next(iter(found[name].values()))
     }
     assert set(listed("outputs", "comparison.json")) == set(found) | inner
+    told, columns = listed("outputs", "histories.csv"), header(tmp_path / "out" / "histories.csv")
+    assert list(told) == columns
+    assert all(name.endswith(f" [{unit}]") for name, unit in told.items())
 
 
 def test_every_entry_of_a_summary(analysis):
@@ -176,6 +186,46 @@ def test_every_column_of_a_studys_tables(tmp_path):
     for name in ("table.csv", "analyses.csv", "timing.csv"):
         columns = [column for column in header(tmp_path / "out" / name) if column not in plan.axes]
         assert list(listed("outputs", name)) == columns, name
+    identity = json.loads((tmp_path / "out" / "study.json").read_text())
+    assert list(listed("outputs", "study.json")) == list(identity)
+
+
+@pytest.mark.parametrize("name, columns", [("links", LINK_COLUMNS), ("bonds", BOND_COLUMNS)])
+def test_every_column_of_the_peaks_of_links_and_bonds(name, columns):
+    told = listed("outputs", f"{name}.csv")
+    assert tuple(told) == columns
+    units = {"n": "N", "m": "m", "pa": "Pa", "j": "J"}
+    ends = [column.rpartition("_")[2] if "_" in column else "" for column in columns]
+    assert list(told.values()) == [units.get(end, "-") for end in ends]
+
+
+def test_every_column_of_the_table_of_outcomes():
+    """Name and unit as its own data dictionary has them."""
+    import fecolumn
+
+    about = fecolumn.outcomes().attrs["columns"]
+    told = listed("outputs", "Table of `fecolumn.outcomes()`")
+    assert list(told.items()) == [(name, one["unit"]) for name, one in about.items()]
+
+
+def test_every_column_of_the_times_of_steps(tmp_path):
+    StepTimes(Record()).write(tmp_path)
+    assert list(listed("outputs", "step_times.csv")) == header(tmp_path / STEP_TIMES_FILE)
+
+
+def test_every_column_of_the_table_of_verification(tmp_path):
+    row = Row("period [s]", 2.0, 2.0, 1e-3)
+    (tmp_path / "table.csv").write_text(suite._csv([Finding("patch", "full", (row,), 1.0)]))
+    told = listed("outputs", "table.csv of `fecolumn verify`")
+    assert list(told) == header(tmp_path / "table.csv")
+
+
+def test_figures_of_many_interfaces_are_told():
+    names = {f"interface/joint {n}: a on ground/tilt" for n in range(30)}
+    told = PAGES["outputs"].read_text().partition("### case.json")[0]
+    found = figure_names(sorted(names))
+    assert found[:3] == ["interfaces", "interfaces_2", "interfaces_3"]
+    assert all(f"`{name}`" in told for name in found[:3])
 
 
 def test_every_quantity_of_a_comparison(tmp_path):
