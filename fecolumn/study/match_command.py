@@ -14,7 +14,13 @@ if TYPE_CHECKING:
     from fecolumn.motions.record import GroundMotion
     from fecolumn.motions.spectral_match import TargetSpectrum
 
-from fecolumn.study.motion_files import add_unit_and_step, all_of, ensemble_path, store
+from fecolumn.study.motion_files import (
+    add_components,
+    add_unit_and_step,
+    all_of,
+    ensemble_path,
+    store,
+)
 
 # Beyond it, and below one over it, a factor is told
 _FACTOR = 4.0
@@ -54,10 +60,18 @@ def add_match_actions(actions: Any) -> None:
             metavar="F",
             help="leave out motions whose scale factor is not between 1/F and F (default: none)",
         )
+        if name == "scale":
+            add_components(parser, ", with one SET")
         add_unit_and_step(parser, "a file")
+        parser.set_defaults(source_name="SET")
         if name == "select":
             parser.add_argument(
-                "-n", type=int, required=True, help="how many motions to select, 1 or more"
+                "-n",
+                "--count",
+                metavar="N",
+                type=int,
+                required=True,
+                help="how many motions to select, 1 or more",
             )
             parser.add_argument(
                 "--scaled",
@@ -89,9 +103,9 @@ def _match(name: str, args: argparse.Namespace) -> int:
         _refuse(told, "--most-factor", args.most_factor, "must be at least 1, or 0 for any")
     ensemble_path(args.output)
     motions = all_of(args)
-    if name == "select" and not 1 <= args.n <= len(motions):
+    if name == "select" and not 1 <= args.count <= len(motions):
         _refuse(
-            told, "-n", args.n, f"must be a number from 1 to {len(motions)}, as many as SET has"
+            told, "-n", args.count, f"must be a number from 1 to {len(motions)}, as many as SET has"
         )
     spectra = np.array([horizontal_spectrum(motion, target.periods) for motion in motions])
     for motion, spectrum in zip(motions, spectra):
@@ -104,7 +118,7 @@ def _match(name: str, args: argparse.Namespace) -> int:
     if args.most_factor:
         fits = np.maximum(factors, 1 / factors) <= args.most_factor
         kept = np.flatnonzero(fits)
-        if len(kept) < (args.n if name == "select" else 1):
+        if len(kept) < (args.count if name == "select" else 1):
             _refuse(
                 told,
                 "--most-factor",
@@ -114,7 +128,7 @@ def _match(name: str, args: argparse.Namespace) -> int:
             )
     scaled = spectra * factors[:, None]
     if name == "select":
-        kept = kept[select_motions(scaled[kept], target, args.n)]
+        kept = kept[select_motions(scaled[kept], target, args.count)]
     found = Ensemble(
         Path(args.output).stem,
         tuple(_scaled(scale, motions[row], float(factors[row])) for row in kept),

@@ -7,11 +7,23 @@ import contextlib
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from fecolumn.case.sections import Motion
     from fecolumn.motions.ensemble import Ensemble
     from fecolumn.motions.record import GroundMotion
+
+
+_COMMAND = "fecolumn motions"
+# Flags of the commands for the keys of a case; `source_name` of the arguments is that of
+# motion.source
+_FLAGS = {
+    "motion.units": "--units",
+    "motion.dt_s": "--dt",
+    "motion.source_y": "--source-y",
+    "motion.source_z": "--source-z",
+}
 
 
 def add_output(parser: argparse.ArgumentParser) -> None:
@@ -30,11 +42,26 @@ def add_unit_and_step(parser: argparse.ArgumentParser, file: str = "the file") -
     parser.add_argument(
         "--units",
         default="",
-        help=f"unit of the accelerations where {file} does not state it: g, m/s2, cm/s2 or mm/s2",
+        help=f"unit of the accelerations where {file} does not state it: g, %%g, mg, m/s2, cm/s2, "
+        "mm/s2, ft/s2 or in/s2",
     )
     parser.add_argument(
-        "--dt", type=float, default=0.0, help=f"sampling step [s] where {file} does not state it"
+        "--dt",
+        type=float,
+        default=0.0,
+        help=f"sampling step where {file} does not state it, up to 10 [s]",
     )
+
+
+def add_components(parser: argparse.ArgumentParser, of: str = "") -> None:
+    """Flags of the other components of a record; of: where they are taken, for the help."""
+    for axis in "yz":
+        parser.add_argument(
+            f"--source-{axis}",
+            default="",
+            metavar="FILE",
+            help=f"file of the {axis} component, for formats of one component a file{of}",
+        )
 
 
 def store(ensemble: Ensemble, output: Path | str) -> int:
@@ -91,47 +118,53 @@ def refuse_foreign(path: Path, head: str | tuple[str, ...], allowed: str) -> Non
         raise InputError("fecolumn motions", "-o", str(path), allowed)
 
 
-def read_record(source: str, args: argparse.Namespace, **keys: Any) -> GroundMotion:
-    """One motion as recorded."""
-    from fecolumn.case.sections import Motion
-    from fecolumn.foundation.schema import InputError
+def read_record(source: str, args: argparse.Namespace) -> GroundMotion:
+    """One motion as recorded, with the components, unit and step that the options state.
+
+    Raises
+    ------
+    InputError
+        it cannot be used; names options.
+    """
     from fecolumn.motions.load import read_motion
-    from fecolumn.motions.record import METRES_PER_S2
 
-    if args.units and args.units not in METRES_PER_S2:
-        raise InputError(
-            "fecolumn motions", "--units", args.units, f"must be one of {', '.join(METRES_PER_S2)}"
-        )
-    if not 0 <= args.dt <= 100:
-        raise InputError("fecolumn motions", "--dt", args.dt, "must lie in [0, 100] s")
-    motion = Motion(source, units=args.units, dt_s=args.dt, **keys)
-    with told_by_flags():
-        return read_motion(motion, "fecolumn motions")
+    with told_by_flags(args):
+        return read_motion(stated_motion(source, args), _COMMAND)
 
 
-# Flags of the commands for the keys of a case
-_FLAGS = {
-    "motion.units": "--units",
-    "motion.dt_s": "--dt",
-    "motion.source_y": "--source-y",
-    "motion.source": "SOURCE",
-}
+def stated_motion(source: str, args: argparse.Namespace) -> Motion:
+    """The motion that the options state; InputError as of a case's [motion]."""
+    from fecolumn.case.sections import Motion
+
+    return Motion(
+        source,
+        source_y=getattr(args, "source_y", ""),
+        source_z=getattr(args, "source_z", ""),
+        units=args.units,
+        dt_s=args.dt,
+    )
 
 
 @contextlib.contextmanager
-def told_by_flags() -> Iterator[None]:
+def told_by_flags(args: argparse.Namespace) -> Iterator[None]:
     """Refusals that name the flags of a command, not the keys of a case."""
     from fecolumn.foundation.schema import InputError
 
+    flags = _FLAGS | {"motion.source": getattr(args, "source_name", "SOURCE")}
+
     def told(text: str) -> str:
-        for key, flag in _FLAGS.items():
+        for key, flag in flags.items():
             text = text.replace(key, flag)
         return text
+
+    def of_command(one: InputError) -> InputError:
+        file = _COMMAND if one.file == "case" else one.file
+        return InputError(file, told(one.key), one.value, told(one.allowed))
 
     try:
         yield
     except InputError as error:
-        raise InputError(error.file, told(error.key), error.value, told(error.allowed)) from None
+        raise InputError.of_several([of_command(one) for one in error.all]) from None
 
 
 def stored_ensemble(path: Path | str) -> Ensemble:
@@ -147,11 +180,14 @@ def stored_ensemble(path: Path | str) -> Ensemble:
 
 
 def all_of(args: argparse.Namespace) -> list[GroundMotion]:
-    """The motions of args.sources."""
+    """The motions of args.sources; InputError where they cannot be used."""
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.chosen import chosen_motions
 
-    return [
-        read_record(one, args)
-        for source in args.sources
-        for one in chosen_motions(source, "SOURCE", "fecolumn motions")
-    ]
+    name = getattr(args, "source_name", "SOURCE")
+    found = [one for source in args.sources for one in chosen_motions(source, name, _COMMAND)]
+    for key in ("source_y", "source_z"):
+        if len(found) > 1 and (value := getattr(args, key, "")):
+            told = f"goes with one {name}, not with {len(found)} motions"
+            raise InputError(_COMMAND, f"--{key.replace('_', '-')}", value, told)
+    return [read_record(one, args) for one in found]

@@ -10,10 +10,12 @@ from typing import Any
 
 from fecolumn.motions.formats import FORMATS
 from fecolumn.study.motion_files import (
+    add_components,
     add_unit_and_step,
     all_of,
     ensemble_path,
     read_record,
+    stated_motion,
     store,
     stored_ensemble,
     told_by_flags,
@@ -30,16 +32,16 @@ def add_look_actions(actions: Any) -> None:
     info.add_argument(
         "ensemble", metavar="FILE", help="ENSEMBLE.h5, or a motion as in motion.source of a case"
     )
+    add_components(info)
     add_unit_and_step(info)
+    info.set_defaults(source_name="FILE")
     info.set_defaults(command=_info)
 
     correct = actions.add_parser(
         "correct", help="take the drift out of a record: baseline and band-pass, with a picture"
     )
     correct.add_argument("source", metavar="SOURCE", help="as in motion.source of a case")
-    correct.add_argument(
-        "--source-y", default="", metavar="FILE", help="file of the y component, if any"
-    )
+    add_components(correct)
     add_unit_and_step(correct)
     correct.add_argument(
         "--high-pass",
@@ -73,7 +75,9 @@ def add_look_actions(actions: Any) -> None:
         "plot",
         help="figures of an ensemble: three motions, spectra, distributions, rocking spectra",
     )
-    plot.add_argument("ensemble", metavar="ENSEMBLE.h5")
+    plot.add_argument(
+        "ensemble", metavar="ENSEMBLE.h5", help="what motions make, convert, scale or select wrote"
+    )
     plot.add_argument(
         "-o", "--output", required=True, metavar="DIR", help="folder of the figures, PNG and PDF"
     )
@@ -103,6 +107,7 @@ def add_look_actions(actions: Any) -> None:
         metavar="SOURCE",
         help="as in motion.source of a case; ensemble.h5#* are all of its motions",
     )
+    add_components(convert, ", with one SOURCE")
     add_unit_and_step(convert, "a file")
     convert.add_argument(
         "--format",
@@ -110,34 +115,49 @@ def add_look_actions(actions: Any) -> None:
         default="csv",
         help="of the text files (default: %(default)s)",
     )
-    convert.add_argument("-o", "--output", required=True, metavar="ENSEMBLE.h5|DIR")
+    convert.add_argument(
+        "-o",
+        "--output",
+        required=True,
+        metavar="ENSEMBLE.h5|DIR",
+        help="an ensemble where it ends in .h5, else a folder for a text file of each motion",
+    )
     convert.set_defaults(command=_convert)
 
 
 def _info(args: argparse.Namespace) -> int:
+    from fecolumn.foundation.schema import InputError
     from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, is_foreign_hdf5, summary
     from fecolumn.motions.ensemble_report import report
 
     if Path(args.ensemble).suffix not in HDF5_SUFFIXES or is_foreign_hdf5(args.ensemble):
         return _info_of_motion(args)
+    for key, value in (("--source-y", args.source_y), ("--source-z", args.source_z)):
+        if value:
+            told = f"goes with a file of one component; {args.ensemble} is an ensemble"
+            raise InputError("fecolumn motions", key, value, told)
     ensemble = stored_ensemble(args.ensemble)
     print(report(ensemble, summary(ensemble)))
     return 0
 
 
 def _info_of_motion(args: argparse.Namespace) -> int:
-    from fecolumn.case.sections import Motion
     from fecolumn.motions.inspection import file_lines, oddities, peak_lines, peaks_by_unit
     from fecolumn.motions.load import recording_of
 
-    with told_by_flags():
-        motion = Motion(args.ensemble, dt_s=args.dt)
-        recording = recording_of(motion, "source", "fecolumn motions info")
-    print("\n".join(file_lines(recording, recording.dt or args.dt, args.units or "")))
-    if not (recording.dt or args.dt):
+    with told_by_flags(args):
+        motion = stated_motion(args.ensemble, args)
+        keys = [key for key in ("source", "source_y", "source_z") if getattr(motion, key)]
+        recordings = [recording_of(motion, key, "fecolumn motions info") for key in keys]
+    for one in recordings:
+        print("\n".join(file_lines(one, one.dt or args.dt, args.units)))
+    no_step = any(not (one.dt or args.dt) for one in recordings)
+    no_unit = [one for one in recordings if not (one.units or args.units)]
+    if no_step:
         print("its step is not stated: --dt says it")
-    elif not (recording.units or args.units):
-        print(peaks_by_unit(recording))
+    elif no_unit:
+        for one in no_unit:
+            print(peaks_by_unit(one))
         print("--units says it, and motion.units in a case")
     else:
         with warnings.catch_warnings():
@@ -166,7 +186,7 @@ def _correct(args: argparse.Namespace) -> int:
             raise InputError(
                 "fecolumn motions correct", key, value, f"must lie in [{low:g}, {high:g}]"
             )
-    before = read_record(args.source, args, source_y=args.source_y)
+    before = read_record(args.source, args)
     try:
         after = corrected(before, args.high_pass, args.low_pass, args.order, args.degree)
     except WrongCorner as error:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from fecolumn.motions import lick, makers
 from fecolumn.study.match_command import add_match_actions
 from fecolumn.study.motion_files import (
+    add_components,
     add_output,
     add_unit_and_step,
     ensemble_path,
@@ -43,7 +44,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_output(seeded)
     seeded.add_argument(
-        "-n", type=int, default=lick.COUNT, help="number of motions (default: %(default)s)"
+        "-n",
+        "--count",
+        metavar="N",
+        type=int,
+        default=lick.COUNT,
+        help="number of motions (default: %(default)s)",
     )
     seeded.add_argument(
         "--seed", type=int, default=lick.SEED, help="of the random numbers (default: %(default)s)"
@@ -75,15 +81,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="RECORD",
         help="record as in motion.source of a case, TARGET.toml, or lick",
     )
-    fit.add_argument(
-        "--source-y",
-        default="",
-        metavar="FILE",
-        help="file of the y component, for formats of one component a file",
-    )
+    add_components(fit)
     add_unit_and_step(fit)
+    fit.set_defaults(source_name="RECORD")
     fit.add_argument(
-        "-n", type=int, default=800, help="size of the ensemble fitted on (default: %(default)s)"
+        "-n",
+        "--count",
+        metavar="N",
+        type=int,
+        default=800,
+        help="size of the ensemble fitted on (default: %(default)s)",
     )
     fit.add_argument(
         "--iterations", type=int, default=14, help="steps of the fit (default: %(default)s)"
@@ -105,7 +112,7 @@ def _make_seeded(args: argparse.Namespace) -> int:
     from fecolumn.foundation.schema import InputError
     from fecolumn.motions.seeded import LICK, read_model, seeded_ensemble
 
-    for key, value, low in (("-n", args.n, 1), ("--seed", args.seed, 0)):
+    for key, value, low in (("-n", args.count, 1), ("--seed", args.seed, 0)):
         if value < low:
             raise InputError("fecolumn motions make", key, value, f"must be at least {low}")
     if not 0 < args.time_scale <= 1000:
@@ -118,7 +125,8 @@ def _make_seeded(args: argparse.Namespace) -> int:
     ensemble_path(args.output)
     model = read_model(LICK if args.model == _LICK else args.model)
     return store(
-        seeded_ensemble(model, args.n, args.seed, args.variability, args.time_scale), args.output
+        seeded_ensemble(model, args.count, args.seed, args.variability, args.time_scale),
+        args.output,
     )
 
 
@@ -131,13 +139,13 @@ def _fit(args: argparse.Namespace) -> int:
     from fecolumn.motions.seeded import MODEL_HEAD, write_model
     from fecolumn.motions.target import target_of_record
 
-    for key, value, low in (("-n", args.n, 20), ("--iterations", args.iterations, 1)):
+    for key, value, low in (("-n", args.count, 20), ("--iterations", args.iterations, 1)):
         if value < low:
             raise InputError("fecolumn motions fit", key, value, f"must be at least {low}")
     if args.source == _LICK or args.source.endswith(".toml"):
         target, components = _read_target(args.source)
     else:
-        motion = read_record(args.source, args, source_y=args.source_y)
+        motion = read_record(args.source, args)
         if not motion.acceleration[:, :2].any(axis=0).all():
             raise InputError(
                 "fecolumn motions fit",
@@ -154,10 +162,10 @@ def _fit(args: argparse.Namespace) -> int:
         "is there and no model of motions fit; move it away or give another name",
     )
     model = fit(
-        target, components, args.n, args.iterations, report=lambda line: print(line, flush=True)
+        target, components, args.count, args.iterations, report=lambda line: print(line, flush=True)
     )
     made_by = (
-        f"fecolumn motions fit {args.source} -n {args.n} --iterations {args.iterations}, "
+        f"fecolumn motions fit {args.source} -n {args.count} --iterations {args.iterations}, "
         f"version {__version__}"
     )
     write_model(dataclasses.replace(model, made_by=made_by), args.output)

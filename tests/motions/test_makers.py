@@ -87,9 +87,9 @@ def test_records_scaled_to_a_velocity():
 @pytest.mark.parametrize(
     "arguments, said",
     [
-        (("near-fault", "--magnitudes", "9"), r"magnitude = 9 must lie in \[4, 8\]"),
+        (("near-fault", "--magnitudes", "9"), r"--magnitudes = 9.0: must lie in \[4, 8\]"),
         (("records", "XX"), r"far_field \(FF\)"),
-        (("pulses", "one_sine", "--amplitudes", "0", "--periods", "1"), "amplitude = 0"),
+        (("pulses", "one_sine", "--amplitudes", "0", "--periods", "1"), "--amplitudes = 0"),
         (
             ("pulses", "one_sine", "--amplitudes", "1", "--periods", "1", "--cycles", "2"),
             "only type_c",

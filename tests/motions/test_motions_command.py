@@ -152,3 +152,75 @@ def test_info_tells_of_a_peak_between_few_rows(tmp_path, capsys):
     (tmp_path / "ramp.csv").write_text("time [s],ax [g]\n0,0\n3,0.2935\n6,0.2935\n")
     assert main(["motions", "info", str(tmp_path / "ramp.csv")]) == 0
     assert "g between its rows, 3 s apart, where these peak at 0.2935 g" in capsys.readouterr().out
+
+
+MAKE = "fecolumn: fecolumn motions make: "
+PULSES = "pulses one_sine --amplitudes 1 --periods 1"
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        ("pulses one_sine --amplitudes 1 0 --periods 1", "--amplitudes = 0.0: must be finite and"),
+        ("pulses one_sine --amplitudes 1 --periods 0", "--periods = 0.0: must be finite and great"),
+        (f"{PULSES} --dt 0.5", "--dt = 0.5: must be greater than 0 and at most 0.1 s, a tenth"),
+        (f"{PULSES} --cycles 2", "--cycles = 2: must be 1 for one_sine: only type_c has cycles"),
+        (f"{PULSES} --cycles 0", "--cycles = 0: must be at least 1"),
+        (f"{PULSES} --tail -1", "--tail = -1.0: must be finite and at least 0 s"),
+        ("near-fault --count 0", "-n = 0: must be at least 1"),
+        ("near-fault --seed -1", "--seed = -1: must be at least 0"),
+        ("near-fault --magnitudes 6 20", "--magnitudes = 20.0: must lie in [4, 8]"),
+        ("near-fault --distances -1", "--distances = -1.0: must lie in [0, 40] km"),
+        ("near-fault --dt 1", "--dt = 1.0: must be greater than 0 and at most 0.02 s"),
+        ("records FX", "SET = 'FX': must be one of far_field (FF), "),
+        ("records FF --time-scale -1", "--time-scale = -1.0: must be finite and greater than 0"),
+        ("records FF --pgv 0", "--pgv = 0.0: must be finite and greater than 0 m/s"),
+    ],
+)
+def test_option_of_make_is_named_with_its_value_and_range(capsys, tmp_path, words, said):
+    told = refused(capsys, "make", *words.split(), "-o", tmp_path / "a.h5")
+    assert told.startswith(MAKE + said) and told.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    "words, said",
+    [
+        ("info b.txt --dt 50", "--dt = 50.0: must lie in [0, 10] [s]"),
+        ("correct b.txt --dt 50 -o d", "--dt = 50.0: must lie in [0, 10] [s]"),
+        ("info b.txt --units lb", "--units = 'lb': must be one of g, %g, mg, m/s2, cm/s2, mm/s2"),
+        ("fit gone.csv -o m.toml", "RECORD = 'gone.csv': no such file"),
+        ("fit b.txt --dt 0.01 --source-z gone.csv --units g -o m.toml", "--source-z = 'gone.csv'"),
+        ("convert b.txt c.txt --source-y b.txt -o d", "--source-y = 'b.txt': goes with one SOURCE"),
+        ("info p.h5 --source-y b.txt", "--source-y = 'b.txt': goes with a file of one component"),
+    ],
+)
+def test_option_of_a_record_is_named_as_it_is_given(capsys, tmp_path, monkeypatch, words, said):
+    monkeypatch.chdir(tmp_path)
+    for name in ("b.txt", "c.txt"):
+        (tmp_path / name).write_text("0\n0.1\n0.2\n0.05\n0\n")
+    if "p.h5" in words:
+        assert main(["motions", "make", *PULSES.split(), "-o", "p.h5"]) == 0
+        capsys.readouterr()
+    told = refused(capsys, *words.split())
+    assert f": {said}" in told and told.startswith("fecolumn: fecolumn motions")
+
+
+def test_components_of_three_files_are_one_motion(capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, factor in (("x.txt", 1), ("y.txt", 2), ("z.txt", 3)):
+        (tmp_path / name).write_text("".join(f"{factor * (i % 3 - 1) / 10}\n" for i in range(30)))
+    words = "x.txt --source-y y.txt --source-z z.txt --units m/s2 --dt 0.01".split()
+    assert main(["motions", "info", *words]) == 0
+    told = capsys.readouterr().out
+    assert all(f"{name}.txt: columns of text" in told for name in "xyz") and "az: PGA" in told
+    assert main(["motions", "convert", *words, "-o", "all.h5"]) == 0
+    (motion,) = read_ensemble(tmp_path / "all.h5").motions
+    assert motion.acceleration[0] == pytest.approx([-0.1, -0.2, -0.3])
+
+
+def test_every_action_tells_what_it_does(capsys):
+    for words in (["make"], ["make", "pulses"], ["fit"], ["plot"], ["select"]):
+        with pytest.raises(SystemExit):
+            main(["motions", *words, "--help"])
+        told = capsys.readouterr().out
+        assert told.split("\n\n")[1][0].isupper() and told.split("\n\n")[1].endswith(".")
