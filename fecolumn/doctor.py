@@ -333,7 +333,9 @@ def main(argv: list[str] | None = None) -> int:
     """Print the table and the warnings; 0 if analyses can run here, 1 if something essential is
     missing or broken.
     """
-    parser = argparse.ArgumentParser(prog="fecolumn doctor", description=__doc__.splitlines()[0])
+    parser = argparse.ArgumentParser(
+        prog="fecolumn doctor", description=" ".join(__doc__.partition("\n\n")[0].split())
+    )
     parser.add_argument("--child", nargs="+", help=argparse.SUPPRESS)
     for name in (child := parser.parse_args(argv).child) or []:
         print("@" + json.dumps(asdict(look_at_library(name))), flush=True)

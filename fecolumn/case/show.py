@@ -7,7 +7,7 @@ import argparse
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn show`."""
-    parser.add_argument("case", metavar="CASE.toml")
+    parser.add_argument("case", metavar="CASE.toml", help="case file to print")
     parser.add_argument("--all", action="store_true", help="keys at their defaults, too")
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 from argparse import ArgumentParser, Namespace
 
-from fecolumn.verification import ALL_ENGINES, CASES
+from fecolumn.foundation.deprecated import OlderOption
+from fecolumn.verification import ALL_ENGINES, CASES, FULL
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -15,17 +16,19 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
     parser.add_argument(
         "-k",
-        "--case",
+        "--name",
         metavar="NAME",
         default="",
         help=f"cases whose name contains NAME, of {', '.join(CASES)}",
     )
+    parser.add_argument("--case", dest="name", action=OlderOption, newer="--name")
     parser.add_argument(
         "--engine",
         metavar="E",
         action="append",
-        choices=ALL_ENGINES,
-        help="engine, of %(choices)s (default: each)",
+        choices=("full", *ALL_ENGINES),
+        help="engine, of %(choices)s; full: both kinematics of full order, corotated and "
+        "total_lagrangian (default: each)",
     )
     parser.add_argument(
         "-j",
@@ -39,6 +42,9 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--long",
         action="store_true",
         help="finer meshes and smaller steps as well, about three hours on two cores",
+    )
+    parser.add_argument(
+        "-q", "--quiet", action="store_true", help="no rows as cases end: the verdict alone"
     )
 
 
@@ -54,17 +60,30 @@ def main(args: Namespace) -> int:
     from fecolumn.foundation.schema import InputError
     from fecolumn.verification.suite import tasks, verdict, verify
 
-    pairs = tasks(args.case, args.engine or ALL_ENGINES)
+    engines = set(args.engine or ALL_ENGINES)
+    if "full" in engines:
+        engines |= set(FULL)
+    pairs = tasks(args.name, engines)
     if not pairs:
+        of = f" of engine {' or '.join(args.engine)}" if args.engine else ""
+        known = ", ".join(dict.fromkeys(case for case, _ in tasks("", engines)))
         raise InputError(
-            "fecolumn verify", "-k", args.case, f"must be part of a case's name: {', '.join(CASES)}"
+            "fecolumn verify", "-k", args.name, f"must be part of the name of a case{of}: {known}"
         )
     if args.jobs < 1:
         raise InputError("fecolumn verify", "-j", args.jobs, "must be at least 1")
     with written(args.output, "verify", names=("table.csv", "table.txt")) as draft:
         findings = verify(
-            pairs, draft, args.long, args.jobs, show=lambda text: print(text, flush=True)
+            pairs, draft, args.long, args.jobs, show=_nothing if args.quiet else _show
         )
     print(f"wrote {os.path.join(args.output, 'table.csv')}")
     print(verdict(findings))
     return 0 if all(finding.ok for finding in findings) else 1
+
+
+def _show(text: str) -> None:
+    print(text, flush=True)
+
+
+def _nothing(text: str) -> None:
+    """In the place of `_show` where nobody wants to see."""

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fecolumn.foundation.atomic import write_bytes
+from fecolumn.foundation.interrupt import ended_at_a_stop
 from fecolumn.verification import ALL_ENGINES, CASES
 from fecolumn.verification.result import Row
 
@@ -91,7 +92,8 @@ def verify(
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     show(header())
     found = {}
-    with ProcessPoolExecutor(max_workers=workers, mp_context=get_context("spawn")) as pool:
+    pool = ProcessPoolExecutor(max_workers=workers, mp_context=get_context("spawn"))
+    with pool, ended_at_a_stop(pool):
         futures = {
             pool.submit(run_case, case, engine, folder, long): (case, engine)
             for case, engine in pairs

@@ -120,7 +120,7 @@ def test_instants_are_chosen_at_peaks_within_the_time_shown(block):
             ["--exaggerate", "20"],
             "--exaggerate = 20.0: needs fields or states at least every 0.06 s, and there are none",
         ),
-        (["--color", "stress"], "--color = 'stress': needs fields or states"),
+        (["--colour", "stress"], "--colour = 'stress': needs fields or states"),
         (["--exaggerate", "0.1"], "--exaggerate = 0.1: must be auto, or lie between"),
         (["--paraview"], "--paraview: needs fields or states"),
     ],

@@ -169,7 +169,7 @@ def test_surfaces_too_fine_for_a_page_are_made_coarser(drum, monkeypatch):
         (["--gif"], "--gif: is not for --html"),
         (["--only", "movie"], "--only: is not for --html"),
         (["--paraview"], "--paraview: is not for --html"),
-        (["--color", "stress"], "--color: is not for --html"),
+        (["--colour", "stress"], "--colour: is not for --html"),
         (["--exaggerate", "20"], "--exaggerate: is not for --html"),
         (["--instants", "0.1"], "--instants: is not for --html"),
         (["--size", "640x360"], "--size: is not for --html"),

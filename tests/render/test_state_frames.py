@@ -90,7 +90,7 @@ def test_states_of_other_modes_are_refused_and_the_history_still_drawn(drum, tmp
     )
     with h5py.File(folder / "states.h5", "r+") as file:
         file["signature"][0] *= -1  # a mode of the other sign, as another machine's may be
-    with pytest.raises(InputError, match="of other modes .*--color displacement"):
+    with pytest.raises(InputError, match="of other modes .*--colour displacement"):
         render(folder, RenderOptions(only="pictures", instants=(0.08,)), quiet=True)
     assert render(
         folder, RenderOptions(only="pictures", instants=(0.08,), color="displacement"), quiet=True

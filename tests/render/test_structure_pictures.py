@@ -68,7 +68,7 @@ def test_stills_and_sequence_of_a_building_without_stress(building):
     assert {file.name for file in files} == {"sequence.pdf", "sequence.png", "still_0.060s.png"}
     frames = Frames(read_result(building), np.array([0.06]), 0.04)
     assert frames.colour == "displacement" and frames.frame(0).struts.shape == (8, 2, 3)
-    with pytest.raises(InputError, match="--color = 'stress': no body of this structure deforms"):
+    with pytest.raises(InputError, match="--colour = 'stress': no body of this structure deforms"):
         render(building, RenderOptions(only="pictures", color="stress"), quiet=True)
 
 

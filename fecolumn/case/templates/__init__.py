@@ -12,6 +12,7 @@ _FOLDER = Path(__file__).parent
 TEMPLATES = {
     "tube": "steel tube with a cap plate",
     "solid": "marble cylinder",
+    "cylinder": "the same",
     "block": "marble block",
     "mesh": "mesh of your own (an Abaqus .inp is given)",
     "arch": "stone arch of eleven voussoirs",
@@ -20,6 +21,7 @@ TEMPLATES = {
 
 # Files of a kind and their templates, where they are other than those of the first ones
 _OTHERS = {
+    "cylinder": {"case.toml": "solid.toml"},
     "mesh": {"column.inp": "column.inp"},
     "arch": {"study.toml": "arch_study.toml"},
     "statue": {"study.toml": "statue_study.toml"},
@@ -53,7 +55,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="of a statue: its shape, as .stl, .obj, .ply, .step, .iges, .geo or elements",
     )
-    parser.add_argument("--unit", choices=tuple(METRES), help="unit of the lengths in FILE")
+    parser.add_argument(
+        "--unit", "--units", choices=tuple(METRES), help="unit of the lengths in FILE"
+    )
     parser.add_argument(
         "--cut-foot",
         type=float,

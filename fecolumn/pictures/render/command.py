@@ -50,7 +50,9 @@ def add_arguments(parser: ArgumentParser) -> None:
         "1, true)",
     )
     parser.add_argument(
+        "--colour",
         "--color",
+        dest="color",
         choices=("stress", "displacement", "none"),
         default="",
         help="by von Mises stress (default where fields were written), by displacement, or none "

@@ -87,7 +87,7 @@ class Frames:
         if colour == "stress" and not self.scene.has_stress:
             raise InputError(
                 "fecolumn render",
-                "--color",
+                "--colour",
                 colour,
                 "no body of this structure deforms as a continuum: all are rigid, "
                 "storeys or matrices",
@@ -103,7 +103,7 @@ class Frames:
         self.colour = colour or ("stress" if stressed else "displacement")
         if not self.from_fields and (self.colour == "stress" or exaggerate != 1.0):
             asked, value = (
-                ("--exaggerate", exaggerate) if exaggerate != 1.0 else ("--color", colour)
+                ("--exaggerate", exaggerate) if exaggerate != 1.0 else ("--colour", colour)
             )
             have = (
                 f"these are every {fields.interval:.3g} s"

@@ -111,7 +111,7 @@ class RenderOptions:
             ("--paraview", self.paraview),
             ("--instants", self.instants),
             ("--exaggerate", self.exaggerate != 1.0),
-            ("--color", self.color),
+            ("--colour", self.color),
             ("--fps", self.fps != 25.0),
             ("--size", self.size != (1280, 720)),
         ):

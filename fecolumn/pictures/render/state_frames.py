@@ -106,7 +106,7 @@ class StateFrames(FrameSeries):
                         None,
                         f'is of other modes of "{piece.name}" than those made of it now: '
                         "deformation, stress and pressure cannot be made from it; "
-                        "--color displacement draws the history, and the case run into a new "
+                        "--colour displacement draws the history, and the case run into a new "
                         "folder has them again",
                     )
 
