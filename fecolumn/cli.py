@@ -21,22 +21,37 @@ from typing import TYPE_CHECKING, Any, TextIO, cast
 if TYPE_CHECKING:
     from fecolumn.case.case import Case
 
+# What a command says that was stopped: one that keeps nothing on its way, one that does
+_AGAIN = "stopped; run the same command again"
+_ON = "stopped; what is done is kept, the same command does the rest"
+_FROM_CHECKPOINT = "stopped; the same command goes on from the last checkpoint"
 # Warnings that this command has told
 _WARNED: set[str] = set()
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command; returns 0, 1 where an analysis failed, 2 where the input is refused, 130 after
-    Ctrl-C.
+    Ctrl-C or SIGTERM.
     """
-    arguments = list(sys.argv[1:] if argv is None else argv)
-    if arguments[:1] == ["doctor"]:
-        from fecolumn import doctor
+    from fecolumn.foundation.interrupt import termination_as_interrupt
 
-        return doctor.main(arguments[1:])
-    args = _parser().parse_args(arguments)
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    with termination_as_interrupt():
+        try:
+            if arguments[:1] == ["doctor"]:  # stands alone: no library may be loaded here
+                from fecolumn import doctor
+
+                return doctor.main(arguments[1:])
+            return _answer(_parser().parse_args(arguments))
+        except KeyboardInterrupt:  # outside of what a command does
+            print(f"fecolumn: {_AGAIN}", file=sys.stderr)
+            return 130
+
+
+def _answer(args: argparse.Namespace) -> int:
+    """Run the command of `args`, and tell in a line what ends it; the exit code."""
     from fecolumn.foundation.atomic import disk_full
-    from fecolumn.foundation.deprecated import TOLD
+    from fecolumn.foundation.deprecated import TOLD, tell_older_options
     from fecolumn.foundation.schema import InputError
 
     # a terminal that cannot write a folder's name must not end what is at work there
@@ -47,6 +62,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     _WARNED.clear()
     # Python hides what is told of older names, which is for those who write files
     warnings.filterwarnings("default", f".*{TOLD}", DeprecationWarning)
+    tell_older_options(args)
     try:
         code: int = args.command(args)
         sys.stdout.flush()
@@ -57,9 +73,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     except InputError as error:
         return _refuse(error, 2)
     except KeyboardInterrupt:
-        return _refuse("stopped; the same command goes on from the last checkpoint", 130)
+        return _refuse(args.stopped, 130)
     except Exception as error:
         code = 1
+        if _is_failure(error):  # on every rank alike
+            return _refuse(error, code)
         if disk_full(error):
             print(
                 "fecolumn: the disk is full; free room and run the same command again",
@@ -77,6 +95,12 @@ def main(argv: Sequence[str] | None = None) -> int:
             traceback.print_exc()
         _abandon_other_ranks(code)
         return code
+
+
+def _is_failure(error: Exception) -> bool:
+    """Whether an analysis could not go on, which is no fault of the program."""
+    engines = sys.modules.get("fecolumn.engines.analysis")  # loaded where it is raised
+    return engines is not None and isinstance(error, engines.AnalysisFailed)
 
 
 def _abandon_other_ranks(code: int) -> None:
@@ -113,10 +137,39 @@ def _refuse(message: object, code: int) -> int:
 class _Parser(argparse.ArgumentParser):
     """A parser of whole names of options: beside an abbreviation another option might come to be
     called alike.
+
+    Attributes
+    ----------
+    in_any_order
+        whether options may stand between words of which one may be left out.
     """
 
     def __init__(self, *args: Any, **options: Any) -> None:
         super().__init__(*args, **options | {"allow_abbrev": False})
+        self.in_any_order = False
+
+    def parse_known_args(  # type: ignore[override]  # of two overloads
+        self, args: Sequence[str] | None = None, namespace: argparse.Namespace | None = None
+    ) -> tuple[argparse.Namespace, list[str]]:
+        """As argparse does, options first where they may stand in any order."""
+        if not self.in_any_order:
+            return super().parse_known_args(args, namespace)
+        self.in_any_order = False  # as argparse asks for this function again
+        try:
+            return self.parse_known_intermixed_args(args, namespace)
+        finally:
+            self.in_any_order = True
+
+
+def _describe(parser: argparse.ArgumentParser) -> None:
+    """Give each command and action what is told of it in the list of all as its description."""
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            words = {one.dest: one.help or "" for one in action._choices_actions}
+            for name, below in action.choices.items():
+                if below.description is None:
+                    below.description = f"{words[name][:1].upper()}{words[name][1:]}."
+                _describe(below)
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -153,38 +206,43 @@ def _parser() -> argparse.ArgumentParser:
         words: str,
         module: ModuleType | None = None,
         main: Callable[[argparse.Namespace], int] | None = None,
-    ) -> argparse.ArgumentParser:
-        command = commands.add_parser(
-            name, help=words, description=f"{words[0].upper()}{words[1:]}."
-        )
+        stopped: str = _AGAIN,
+    ) -> _Parser:
+        command = commands.add_parser(name, help=words)
         if module:
             module.add_arguments(command)
+        command.set_defaults(stopped=stopped)
         if main := main or getattr(module, "main", None):
             command.set_defaults(command=main)
         return command
 
-    add("new", "write a commented case and a study of it to start from", templates)
+    new = add("new", "write a commented case and a study of it to start from", templates)
     mesh = add("mesh", "build and check the meshes of a case", main=_mesh)
-    mesh.add_argument("case", metavar="CASE.toml")
+    mesh.add_argument("case", metavar="CASE.toml", help="case file whose meshes are built")
     mesh.add_argument(
         "-o", "--output", required=True, metavar="DIR", help="folder for meshes, picture and table"
     )
-    run = add("run", "run one analysis, or go on with it", main=_run)
-    run.add_argument("case", metavar="CASE.toml")
+    run = add("run", "run one analysis, or go on with it", main=_run, stopped=_FROM_CHECKPOINT)
+    run.add_argument("case", metavar="CASE.toml", help="case file to analyse")
     run.add_argument(
         "-o", "--output", required=True, metavar="DIR", help="result folder, one a case"
     )
-    run.add_argument("-q", "--quiet", action="store_true", help="no progress line")
-    run.add_argument(
-        "--profile",
-        action="store_true",
-        help="time each step: a table and a histogram of what the time went to",
+    resume = add(
+        "resume",
+        "go on with an analysis from its last checkpoint",
+        main=_resume,
+        stopped=_FROM_CHECKPOINT,
     )
-    resume = add("resume", "go on with an analysis from its last checkpoint", main=_resume)
     resume.add_argument("output", metavar="DIR", help="result folder of fecolumn run")
-    resume.add_argument("-q", "--quiet", action="store_true", help="no progress line")
+    for one in (run, resume):
+        one.add_argument("-q", "--quiet", action="store_true", help="no progress line")
+        one.add_argument(
+            "--profile",
+            action="store_true",
+            help="time each step: a table and a histogram of what the time went to",
+        )
     add("cost", "measure what an analysis takes, and by how much keys make it cheaper", cost)
-    add("study", "run a sweep of analyses and compare their CDFs", study)
+    add("study", "run a sweep of analyses and compare their CDFs", study, stopped=_ON)
     add(
         "compare",
         "compare two analyses, or two ensembles: settings, studies, computation and experiment",
@@ -197,20 +255,28 @@ def _parser() -> argparse.ArgumentParser:
         "of your own table",
         fragility,
     )
-    add("design", "the least or largest value of a key for which a limit state holds", design)
+    add(
+        "design",
+        "the least or largest value of a key for which a limit state holds",
+        design,
+        stopped=_ON,
+    )
     add("risk", "how often a limit state is reached: fragility and hazard curve of a site", risk)
-    add("screen", "rank a list of objects by how likely they overturn or slide", screen)
-    add("calibrate", "fit keys of a case to a measured free-rocking test", calibrate)
+    add(
+        "screen", "rank a list of objects by how likely they overturn or slide", screen, stopped=_ON
+    )
+    add("calibrate", "fit keys of a case to a measured free-rocking test", calibrate, stopped=_ON)
     add(
         "render",
         "draw an analysis: movie, stills, sequence figure, a page, ParaView's view",
         render,
     )
-    add(
+    model = add(
         "rocking",
         "run a rocking model of rigid bodies in a motion or an ensemble; overturning spectra",
         rocking,
     )
+    new.in_any_order = model.in_any_order = True
     add("motions", "make, fit, look at and convert ground motions", motions)
     add("show", "print the full form of a case: bodies, grounds, joints", show)
     add("keys", "every key of a case and of a study: meaning, unit, range, default", keys)
@@ -219,6 +285,7 @@ def _parser() -> argparse.ArgumentParser:
     add("prepare", "compile what each machine compiles once; the set-up does it", main=_prepare)
     add("doctor", "versions and known traps of this machine")
     add("completion", "completion of the command line by the Tab key", completion, _completion)
+    _describe(parser)
     return parser
 
 
@@ -288,7 +355,7 @@ def _resume(args: argparse.Namespace) -> int:
     from fecolumn.simulation import read_folder_case
 
     case, file = read_folder_case(args.output)
-    return _analyse(case, args.output, file, args.quiet)
+    return _analyse(case, args.output, file, args.quiet, args.profile)
 
 
 def _analyse(case: Case, folder: str, file: str, quiet: bool, profile: bool = False) -> int:
@@ -297,13 +364,10 @@ def _analyse(case: Case, folder: str, file: str, quiet: bool, profile: bool = Fa
     from fecolumn.engines.ending import ending_text, peak_text
     from fecolumn.foundation.interrupt import held_interrupts
     from fecolumn.pictures.figures.history_figures import has_figures, history_figures
-    from fecolumn.simulation import AnalysisFailed, run
+    from fecolumn.simulation import run
 
-    try:
-        with held_interrupts() as stop:
-            summary = run(case, folder, file=file, quiet=quiet, profile=profile, stop=stop)
-    except AnalysisFailed as error:
-        return _refuse(error, 1)
+    with held_interrupts() as stop:
+        summary = run(case, folder, file=file, quiet=quiet, profile=profile, stop=stop)
     if MPI.COMM_WORLD.rank == 0:
         if not has_figures(folder):
             history_figures(folder)

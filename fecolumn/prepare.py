@@ -13,6 +13,8 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
+from fecolumn.foundation.interrupt import ended_at_a_stop
+
 # A short tube of few bricks: what is compiled does not depend on it
 _TUBE = dict(
     column=dict(outer_diameter_m=0.1, wall_m=0.02, height_m=0.3, fine_height_m=0.0),
@@ -57,6 +59,7 @@ def prepare(say: Callable[..., Any]) -> None:
         for lot in _LOTS:
             alone = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"))
             process = stack.enter_context(alone)
+            stack.enter_context(ended_at_a_stop(alone))
             began += [process.submit(_compile, *one) for one in lot]
         for done in as_completed(began):
             say(done.result())

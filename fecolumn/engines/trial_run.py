@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Callable
 from pathlib import Path
 
-from fecolumn.engines.analysis import Analysis
+from fecolumn.engines.analysis import Analysis, AnalysisFailed
 
 
 def trial(
@@ -52,4 +52,7 @@ def trial(
         except KeyboardInterrupt:
             if asked != [True]:
                 raise
+        except AnalysisFailed as error:  # its state goes with the folder
+            kept = [one for one in str(error).split("; ") if folder not in one]
+            raise AnalysisFailed("; ".join(kept)) from None
     return analysis, ""

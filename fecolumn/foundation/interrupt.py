@@ -3,9 +3,28 @@
 from __future__ import annotations
 
 import contextlib
+import multiprocessing
 import signal
+import threading
 from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from types import FrameType
+
+
+@contextlib.contextmanager
+def termination_as_interrupt() -> Iterator[None]:
+    """SIGTERM, by which batch systems stop a command, raises KeyboardInterrupt as Ctrl-C does.
+
+    In the main thread alone, as Python handles signals there; in another nothing changes.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    earlier = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, earlier)
 
 
 @contextlib.contextmanager
@@ -27,3 +46,19 @@ def held_interrupts() -> Iterator[Callable[[], bool]]:
     finally:
         for number, handler in earlier.items():
             signal.signal(number, handler)
+
+
+@contextlib.contextmanager
+def ended_at_a_stop(pool: ProcessPoolExecutor) -> Iterator[None]:
+    """End the processes of a pool at once where an interrupt or an error leaves the block; they
+    would do all that was handed in first.
+    """
+    others = set(multiprocessing.active_children())
+    try:
+        yield
+    except BaseException:
+        pool.shutdown(wait=False, cancel_futures=True)
+        for process in set(multiprocessing.active_children()) - others:
+            process.kill()
+            process.join()
+        raise

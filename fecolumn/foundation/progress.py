@@ -37,6 +37,8 @@ class Bar:
 
     def draw(self, done: float, words: str) -> None:
         """Draw it; a log on a full disk, or a terminal that is gone, ends nothing."""
+        if self._quiet:
+            return
         self._shown = time.monotonic()
         with contextlib.suppress(OSError):
             if not self._in_place:

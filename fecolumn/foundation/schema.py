@@ -185,7 +185,7 @@ def _word(kind: typing.Any) -> str:
 def _number_range(metadata: Mapping[str, typing.Any]) -> str:
     unit = "" if metadata["unit"] == "-" else f" [{metadata['unit']}]"
     if metadata["choices"]:
-        return "one of " + ", ".join(filter(None, metadata["choices"]))
+        return "must be one of " + ", ".join(filter(None, metadata["choices"]))
     if metadata["above"] is not None:
         upper = f" and at most {metadata['high']:g}" if metadata["high"] is not None else ""
         return f"must be greater than {metadata['above']:g}{upper}{unit}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import signal
 import sys
 import textwrap
 from collections.abc import Callable
@@ -92,6 +91,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--retry-failed", action="store_true", help="run the analyses again that failed before"
     )
+    parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
     parser.add_argument(
         "--entry",
         metavar="MODULE:FUNCTION",
@@ -214,11 +214,10 @@ def _run(
             for analysis in plan.analyses
             if analysis.case.integration.engine not in MODEL_ENGINES
         ]
-        if meshed:
+        if meshed and not args.quiet:
             print(expected_of_all(meshed, args.study), file=sys.stderr, flush=True)
     entry, rule = args.entry or ENTRY, _rule(args, share, plan)
-    # a batch system's stop is answered like Ctrl-C
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    again = iter([args.retry_failed])  # once, not at each stage
 
     def work(only: set[str] | None = None) -> list[dict[str, Any]]:
         team = team_of(entry, args.output, share, plan.file) if team_of else None
@@ -227,7 +226,8 @@ def _run(
             args.output,
             workers=team or args.jobs or os.cpu_count() or 1,
             entry=entry,
-            retry_failed=args.retry_failed,
+            retry_failed=next(again, False),
+            stream=None if args.quiet else sys.stderr,
             share=share,
             only=only,
         )
@@ -237,7 +237,8 @@ def _run(
         if rule:
             for stage in until_decided(plan, rule, work):
                 motions, verdicts, rows = stage
-                print(progress_text(motions, verdicts), file=sys.stderr, flush=True)
+                if not args.quiet:
+                    print(progress_text(motions, verdicts), file=sys.stderr, flush=True)
         else:
             rows = work()
     except (KeyboardInterrupt, StudyError) as error:

@@ -24,7 +24,7 @@ _ROCKS_FROM = 0.1
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn cost`."""
-    parser.add_argument("case", metavar="CASE.toml")
+    parser.add_argument("case", metavar="CASE.toml", help="case file to measure")
     parser.add_argument(
         "--seconds",
         metavar="S",
@@ -33,6 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="wall time of steps of the case as it is, 0.1 to 3600; what is made before the first "
         f"step comes on top (default: {_SECONDS:g})",
     )
+    parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +70,8 @@ def main(args: argparse.Namespace) -> int:
     ------
     InputError
         the case cannot be analysed, or is a model that takes no steps of a mesh.
+    AnalysisFailed
+        a step of the case as it is did not converge.
     """
     from fecolumn.case.case import load_case
     from fecolumn.case.sections import MODEL_ENGINES
@@ -84,10 +87,11 @@ def main(args: argparse.Namespace) -> int:
     if case.integration.engine in MODEL_ENGINES:
         allowed = "is a model of rigid bodies: its analysis takes seconds, and no key makes it less"
         raise InputError(args.case, "integration.engine", case.integration.engine, allowed)
+    tell = _nothing if args.quiet else _tell
     if case.integration.step_is_chosen:
-        case = chosen_step(case, args.case, say=_tell)[0]
+        case = chosen_step(case, args.case, say=tell)[0]
     duration, quiet_s = _duration(case, args.case)
-    _say("as it is")
+    tell("measuring: as it is")
     own, before = first_steps(case, args.case, args.seconds), 0.0
     quiet = own.span < quiet_s
     if quiet:
@@ -97,7 +101,7 @@ def main(args: argparse.Namespace) -> int:
             "then, where the motion is strong:"
         )
         case = _strong(case)
-        _say("as it is, where the motion is strong")
+        tell("measuring: as it is, where the motion is strong")
         own = first_steps(case, args.case, args.seconds)
     later_s = duration - quiet_s if quiet else duration
     print(
@@ -117,7 +121,7 @@ def main(args: argparse.Namespace) -> int:
     row("as it is", own)
     for changes in cheaper(case).values():
         name = ", ".join(f"{key} = {value!r}" for key, value in changes.items())
-        _say(name)
+        tell(f"measuring: {name}")
         try:
             row(name, _changed(case, args.case, changes, own, args.seconds))
         except (InputError, RuntimeError) as error:
@@ -125,12 +129,12 @@ def main(args: argparse.Namespace) -> int:
     return 0
 
 
-def _say(setting: str) -> None:
-    _tell(f"measuring: {setting}")
-
-
 def _tell(words: str) -> None:
     print(words, file=sys.stderr, flush=True)
+
+
+def _nothing(words: str) -> None:
+    """In the place of `_tell` where nobody wants to hear."""
 
 
 def _duration(case: Case, file: str) -> tuple[float, float]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import signal
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from pathlib import Path
@@ -56,6 +57,7 @@ def executor() -> Iterator[Any]:
 
     if MPI.COMM_WORLD.rank:
         die_with_parent()
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)  # the driver alone answers it
     with MPICommExecutor(MPI.COMM_WORLD, root=0) as one:
         yield one
 

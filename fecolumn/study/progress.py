@@ -29,11 +29,13 @@ class StudyProgress(Bar):
     workers
         how many there are.
     stream
-        terminal or file.
+        terminal or file; None for no progress.
     """
 
-    def __init__(self, counts: dict[str, int], effort: float, workers: int, stream: TextIO) -> None:
-        super().__init__(effort, stream=stream, pause_s=1.0)
+    def __init__(
+        self, counts: dict[str, int], effort: float, workers: int, stream: TextIO | None
+    ) -> None:
+        super().__init__(effort, quiet=stream is None, stream=stream, pause_s=1.0)
         self.overturned, self.slid_off = counts.get("overturned", 0), counts.get("slid_off", 0)
         self._analyses = sum(counts.values()) - self.overturned - self.slid_off
         self._workers = max(workers, 1)

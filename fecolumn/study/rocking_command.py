@@ -26,10 +26,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn rocking`."""
     parser.add_argument(
         "model",
+        nargs="?",
         choices=(*TABLES.values(), _SPECTRUM),
         metavar="MODEL",
         help=f"{', '.join(TABLES.values())}; or {_SPECTRUM}: which pulses overturn a "
-        "block, CASE its [block]",
+        "block, CASE its [block] (default: the model of the case's own table, or of its "
+        "integration.engine)",
     )
     parser.add_argument(
         "case",
@@ -45,6 +47,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="folder for tables, histories and figures",
     )
+    parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
 
 def main(args: argparse.Namespace) -> int:
@@ -57,6 +60,7 @@ def main(args: argparse.Namespace) -> int:
     """
     from fecolumn.foundation.folder import written
 
+    args.model = args.model or _model_of(args.case)
     with written(args.output, "rocking", names=("parameters.csv",)) as draft:
         if args.model == _SPECTRUM:
             _spectrum(args, draft)
@@ -64,6 +68,34 @@ def main(args: argparse.Namespace) -> int:
             _run(args, draft)
     print(f"wrote {args.output}")
     return 0
+
+
+def _model_of(file: str) -> str:
+    """The model that a case names, by a table of its own or by its engine.
+
+    Raises
+    ------
+    InputError
+        it names none, or several.
+    """
+    from fecolumn.case.model_names import model_engine_of
+    from fecolumn.case.sections import MODEL_ENGINES
+    from fecolumn.foundation.schema import InputError
+    from fecolumn.foundation.toml_file import read_toml
+
+    tables = read_toml(file)
+    plan = tables.get("integration")
+    engine = plan.get("engine") if isinstance(plan, dict) else None
+    found = model_engine_of(tables, file) or engine
+    if found in MODEL_ENGINES:
+        return str(found)
+    raise InputError(
+        "fecolumn rocking",
+        "MODEL",
+        None,
+        f"must be one of {', '.join((*TABLES.values(), _SPECTRUM))}: {file} has no table of a "
+        "model and no such integration.engine",
+    )
 
 
 def _spectrum(args: argparse.Namespace, folder: Path) -> None:
@@ -90,17 +122,16 @@ def _spectrum(args: argparse.Namespace, folder: Path) -> None:
             "must be a free symmetric block that leans to both sides: spectra are of such blocks",
         )
     _parameters(case, folder)
-    print(
+
+    def show(text: str) -> None:
+        if not args.quiet:
+            print(text, file=sys.stderr, flush=True)
+
+    show(
         f"{len(PULSE_SHAPES)} pulses at {len(FREQUENCIES)} frequencies, "
-        "amplitudes up to 14 g tan(alpha)",
-        file=sys.stderr,
-        flush=True,
+        "amplitudes up to 14 g tan(alpha)"
     )
-    rows = spectra_table(
-        plane.alpha[0],
-        plane.restitution[0],
-        show=lambda text: print(text, file=sys.stderr, flush=True),
-    )
+    rows = spectra_table(plane.alpha[0], plane.restitution[0], show=show)
     write_csv(
         folder / "overturning.csv",
         [
@@ -163,7 +194,7 @@ def _run(args: argparse.Namespace, folder: Path) -> None:
     responses, notes, progress = (
         [],
         [],
-        CountProgress(len(case.sources), "motions", quiet=len(case.sources) < 2),
+        CountProgress(len(case.sources), "motions", quiet=args.quiet or len(case.sources) < 2),
     )
     # compiles what is missing on this machine
     case.model.respond(case.response(case.sources[0] if case.sources else None)[0])

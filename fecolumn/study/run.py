@@ -46,7 +46,7 @@ def complete_study(
     workers: int | Team = 1,
     entry: str = ENTRY,
     retry_failed: bool = False,
-    stream: TextIO = sys.stderr,
+    stream: TextIO | None = sys.stderr,
     share: tuple[int, int] | None = None,
     only: set[str] | None = None,
 ) -> list[dict[str, Any]]:
@@ -71,7 +71,7 @@ def complete_study(
     retry_failed
         whether analyses that failed before are run again.
     stream
-        where the progress line goes.
+        where the progress line goes; None for no progress, and warnings on stderr.
     share
         (index, size) of a task of a job array; it does every size-th analysis only. Tasks may work
         in one folder at once.
@@ -97,7 +97,7 @@ def complete_study(
             if retry_failed:
                 store.ledger.plan_again(state=FAILED)
             if entry == ENTRY and (told := other_code(store.rows())):
-                print(told, file=stream, flush=True)
+                print(told, file=stream or sys.stderr, flush=True)
             if isinstance(workers, int):
                 workers = LocalPool(workers, entry, plan.file)
             drive(store, workers, stream, only)
@@ -114,7 +114,9 @@ def complete_study(
         raise
 
 
-def drive(store: Store, team: Team, stream: TextIO, only: set[str] | None = None) -> StudyProgress:
+def drive(
+    store: Store, team: Team, stream: TextIO | None, only: set[str] | None = None
+) -> StudyProgress:
     """Have a team do what is missing in a study's folder, or of the ids `only`; the counts, of
     which `stream` is told.
     """

@@ -1,5 +1,6 @@
 """What a newcomer meets first: keys, new, help, completion, version."""
 
+import argparse
 import dataclasses
 import subprocess
 import sys
@@ -9,7 +10,7 @@ import typing
 import pytest
 import pyvista
 
-from fecolumn import __version__
+from fecolumn import __version__, cli
 from fecolumn.case import manual, templates
 from fecolumn.case.case import load_case
 from fecolumn.case.short_form import ShortForm
@@ -118,12 +119,72 @@ def test_new_statue_needs_a_shape_and_a_foot(tmp_path, capsys):
     pyvista.Cube(center=(0, 0, 31), x_length=20, y_length=20, z_length=62).triangulate().save(
         tmp_path / "scan.stl"
     )
-    for unit, asked in (((), True), (("--unit", "cm"), False)):
+    for unit, asked in (((), True), (("--units", "cm"), False)):
         words = ["new", "statue", str(tmp_path / f"b{asked}"), "--from", str(tmp_path / "scan.stl")]
         assert main([*words, *unit]) == 0
         assert ("--unit mm, cm, in or ft says another" in capsys.readouterr().out) == asked
     assert main(["new", "statu", str(tmp_path / "a")]) == 2
     assert "did you mean statue?" in capsys.readouterr().err
+
+
+def test_new_takes_options_between_its_words(tmp_path, capsys):
+    pyvista.Box((0, 0.4, 0, 0.3, 0, 1.2)).triangulate().save(tmp_path / "box.stl")
+    words = ["--from", str(tmp_path / "box.stl"), "--unit", "m", str(tmp_path / "a")]
+    assert main(["new", "statue", *words]) == 0
+    assert 'mesh_unit = "m"' in (tmp_path / "a" / "case.toml").read_text()
+
+
+def test_new_cylinder_is_the_solid_column(tmp_path, capsys):
+    for kind in ("cylinder", "solid"):
+        assert main(["new", kind, str(tmp_path / kind)]) == 0
+    cases = [load_case(tmp_path / kind / "case.toml") for kind in ("cylinder", "solid")]
+    assert cases[0].id == cases[1].id
+    assert main(["new", "cylinder"]) == 2
+
+
+def commands(parser):
+    """A parser and those of its commands and actions."""
+    yield parser
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for below in action.choices.values():
+                yield from commands(below)
+
+
+def test_help_tells_of_every_command_and_argument():
+    for one in commands(cli._parser()):
+        assert one.description and one.description[0].isupper() and one.description[-1] == "."
+        mute = [
+            action.dest
+            for action in one._actions
+            if not action.help and not isinstance(action, argparse._SubParsersAction)
+        ]
+        assert not mute, one.prog
+
+
+def test_help_of_doctor_is_a_sentence(capsys):
+    with pytest.raises(SystemExit):
+        main(["doctor", "--help"])
+    assert "the traps it would step into." in " ".join(capsys.readouterr().out.split())
+
+
+def test_verify_tells_the_cases_of_the_engines_that_are_asked_for(tmp_path, capsys):
+    for words in (["--name", "none"], ["--case", "none"]):
+        assert main(["verify", "--engine", "full", *words, "-o", str(tmp_path / "out")]) == 2
+        told = capsys.readouterr().err
+        assert "-k = 'none': must be part of the name of a case of engine full: patch, " in told
+        assert "full_structures" in told and "several_bodies" not in told
+        assert ("--case is an older name of --name" in told) == (words[0] == "--case")
+    assert not (tmp_path / "out").exists()
+
+
+def test_colour_of_pictures_is_read_in_both_spellings():
+    for option in ("--colour", "--color"):
+        assert cli._parser().parse_args(["render", "d", option, "none"]).color == "none"
+
+
+def test_resumed_analysis_is_timed_too():
+    assert cli._parser().parse_args(["resume", "d", "--profile"]).profile
 
 
 def test_new_into_a_file_is_refused(tmp_path, capsys):

@@ -273,8 +273,8 @@ def test_hazard_that_cannot_be_used_is_refused_in_a_line(tmp_path, capsys, text,
     [
         (["--years", "-1"], "--years = -1.0: must be greater than 0"),
         (["--site", "2"], "--site = 2: is for a file of OpenQuake"),
-        (["--limit", "top > 5 mm"], "tells of overturning alone"),
-        (["--limit", "top > 5 lb"], "'lb' is no unit of top"),
+        (["--event", "top > 5 mm"], "tells of overturning alone"),
+        (["--event", "top > 5 lb"], "'lb' is no unit of top"),
     ],
 )
 def test_options_that_cannot_be_used_are_refused_in_a_line(tmp_path, capsys, options, said):
@@ -333,7 +333,7 @@ def test_folder_of_a_study_is_asked_for_any_limit_state(tmp_path, capsys):
     found = {}
     for limit in ("top > 100 mm", "top > 250 mm"):
         folder = tmp_path / limit.split()[2]
-        options = ["--hazard", str(hazard), "--limit", limit, "-o", str(folder)]
+        options = ["--hazard", str(hazard), "--event", limit, "-o", str(folder)]
         assert main(["risk", str(out), *options]) == 0
         (row,) = rows(folder / "risk.csv")
         found[limit] = float(row["annual_frequency"])
@@ -343,5 +343,5 @@ def test_folder_of_a_study_is_asked_for_any_limit_state(tmp_path, capsys):
             <= float(row["annual_frequency_high"])
         )
     assert found["top > 100 mm"] > found["top > 250 mm"] > 0
-    assert main(["risk", str(out), "--hazard", str(hazard), "--limit", "slide > 5 mm", "-o", "x"])
+    assert main(["risk", str(out), "--hazard", str(hazard), "--event", "slide > 5 mm", "-o", "x"])
     assert "holds no slide of engine 'housner'" in capsys.readouterr().err

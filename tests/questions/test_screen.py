@@ -37,7 +37,7 @@ def rows(file):
 @pytest.mark.parametrize("engine", ["housner", "rigid"])
 def test_shares_are_those_of_the_closed_form_and_rank_the_list(tmp_path, pulses, engine, capsys):
     """A block lifts where the peak of the ground exceeds g width / height."""
-    limit = ("--limit", "tilt > 1e-7 rad", "--limit", "overturn")
+    limit = ("--event", "tilt > 1e-7 rad", "--event", "overturn")
     assert screen(tmp_path, LIST, pulses, "--engine", engine, *limit) == 0
     table = rows(tmp_path / "out" / "screen.csv")
     assert [row["event"] for row in table] == ["tilt > 1e-07 rad", "overturn"] * 3
@@ -116,8 +116,8 @@ def test_list_that_cannot_be_used_is_refused_in_a_line(tmp_path, text, said):
     "options, said",
     [
         (["--scale", "0"], "--scale = 0.0: must lie in"),
-        (["--limit", "slide > 5 mm", "--engine", "housner"], "rocking models have no joints"),
-        (["--limit", "slide > 5"], "slide has no unit here"),
+        (["--event", "slide > 5 mm", "--engine", "housner"], "rocking models have no joints"),
+        (["--event", "slide > 5"], "slide has no unit here"),
         (["-j", "-3"], "-j = -3: must be at least 1"),
     ],
 )

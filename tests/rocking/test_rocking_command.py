@@ -182,3 +182,40 @@ def test_help_waits_for_no_library():
         "import sys; from fecolumn.cli import _parser; _parser(); sys.exit('numpy' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+@pytest.mark.parametrize(
+    "words", ["block.toml -o out", "housner -o out block.toml", "-o out -q housner block.toml"]
+)
+def test_model_of_the_case_need_not_be_said(tmp_path, monkeypatch, capsys, words):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "block.toml").write_text(BLOCK + "integration.duration_s = 0.1\n")
+    assert main(["rocking", *words.split()]) == 0
+    assert "slenderness alpha " in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        (BLOCK + "podium.column_mass_kg = 1\n", "must be housner or podium, as the case has"),
+        (
+            'column = {shape = "solid", outer_diameter_m = 0.5, height_m = 1.6}\n',
+            "MODEL: must be one of housner, rocking_frame, wobbling, wobbling_frame, podium, "
+            "spectrum: case.toml has no table of a model",
+        ),
+    ],
+)
+def test_case_that_names_no_model_asks_for_one(tmp_path, monkeypatch, capsys, text, said):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "case.toml").write_text(text)
+    assert main(["rocking", "case.toml", "-o", "out"]) == 2
+    assert said in capsys.readouterr().err and not (tmp_path / "out").exists()
+
+
+def test_quiet_ensemble_tells_no_progress(tmp_path, ensemble, capsys):
+    (tmp_path / "block.toml").write_text(BLOCK + f'motion.source = "{ensemble}#*"\n')
+    capsys.readouterr()
+    assert main(["rocking", str(tmp_path / "block.toml"), "-q", "-o", str(tmp_path / "out")]) == 0
+    told = capsys.readouterr()
+    assert "4 motions" in told.out
+    assert all(line.startswith("fecolumn: warning") for line in told.err.splitlines())

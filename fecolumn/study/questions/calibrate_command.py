@@ -6,10 +6,11 @@ from __future__ import annotations
 
 import argparse
 import os
-import signal
 import sys
 from pathlib import Path
 from typing import Any
+
+from fecolumn.foundation.interrupt import termination_as_interrupt
 
 _COMMAND = "fecolumn calibrate"
 _MOST = 4  # keys: each one more doubles the runs
@@ -43,8 +44,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         required=True,
         help="folder of the runs and the answer; an unfinished one is gone on with",
     )
+    parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
 
+@termination_as_interrupt()
 def main(args: argparse.Namespace) -> int:
     """Fit, tell and draw; returns 0, 130 after Ctrl-C.
 
@@ -63,12 +66,11 @@ def main(args: argparse.Namespace) -> int:
     tables = case_tables(args.case)
     ranges = _ranges(args, tables)
     test = read_rocking_test(args.test)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     names = ("calibrate.csv", "profile.csv", "fitted.toml")
     with written(args.output, "calibrate", names=names) as draft:
         question = RockingCalibration(tables, args.case, ranges, test, Path(args.output) / "runs")
         question.check()
-        progress = CountProgress(most_runs(len(ranges)), "runs")
+        progress = CountProgress(most_runs(len(ranges)), "runs", args.quiet)
 
         def residuals(u: Any) -> Any:
             found = question.residuals(u)
@@ -94,7 +96,8 @@ def _ranges(args: argparse.Namespace, tables: dict[str, Any]) -> dict[str, tuple
 
     if args.fit is None:
         found = usual_ranges(tables, args.case)
-        print(f"fitting {', '.join(found)}", file=sys.stderr, flush=True)
+        if not args.quiet:
+            print(f"fitting {', '.join(found)}", file=sys.stderr, flush=True)
         return found
     found = {}
     for key, text in args.fit:

