@@ -51,7 +51,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _answer(args: argparse.Namespace) -> int:
     """Run the command of `args`, and tell in a line what ends it; the exit code."""
     from fecolumn.foundation.atomic import disk_full
-    from fecolumn.foundation.deprecated import TOLD, tell_older_options
+    from fecolumn.foundation.deprecated import TOLD
+    from fecolumn.foundation.older_option import tell_older_options
     from fecolumn.foundation.schema import InputError
 
     # a terminal that cannot write a folder's name must not end what is at work there

@@ -1,20 +1,31 @@
-"""Names of earlier versions that are still read, each said once."""
+"""Names and call forms of earlier versions that are still read, each said once."""
 
 from __future__ import annotations
 
-import argparse
 import functools
+import sys
+import typing
 import warnings
-from typing import Any
+from collections.abc import Callable
+from pathlib import Path
 
 #: what each warning has, by which `fecolumn` shows it although Python hides its category
 TOLD = "is an older name"
+
+_PACKAGE = str(Path(__file__).parents[1])
+# modules of Python that call in the place of whoever asked, and imports among them
+_BETWEEN = "importlib._bootstrap", "functools", "contextlib"
+_Parameters = typing.ParamSpec("_Parameters")
+_Returned = typing.TypeVar("_Returned")
 
 
 @functools.cache
 def warn_of_older_name(where: str, older: str, newer: str) -> None:
     """Tell once in a process, by a DeprecationWarning, that a name is read until version 2.0 only,
     and which one to write.
+
+    The warning is of the line outside of this package that gave the name: Python shows those of a
+    script or a notebook, and hides those of other packages.
 
     Parameters
     ----------
@@ -23,50 +34,62 @@ def warn_of_older_name(where: str, older: str, newer: str) -> None:
     older, newer
         the two names.
     """
-    told = f"{where}: {older} {TOLD} of {newer}, read until 2.0; write {newer}"
-    warnings.warn(told, DeprecationWarning, stacklevel=3)
+    _warn(f"{where}: {older} {TOLD} of {newer}, read until 2.0; write {newer}")
 
 
-class OlderOption(argparse.Action):
-    """An option by its older name, which no help lists: its value goes where that of the newer one
-    does, and `older_options` of the namespace keeps both names for `tell_older_options`.
+@functools.cache
+def _warn_of_position(function: str, name: str) -> None:
+    _warn(f"script: {name} of {function} is read by position until 2.0; write {name}=...")
 
-    Parameters
-    ----------
-    newer
-        name to write.
-    several
-        whether the values of several are a list.
+
+def by_name(
+    *names: str,
+) -> Callable[[Callable[_Parameters, _Returned]], Callable[_Parameters, _Returned]]:
+    """Decorator of a function whose last arguments are given by name alone: those of `names`, in
+    this order, are taken by position as well, as in earlier versions, with a warning.
     """
 
-    def __init__(
-        self,
-        option_strings: list[str],
-        dest: str,
-        *,
-        newer: str,
-        several: bool = False,
-        **options: Any,
-    ) -> None:
-        options |= {"help": argparse.SUPPRESS, "default": argparse.SUPPRESS}
-        super().__init__(option_strings, dest, **options)
-        self._newer, self._several = newer, several
+    def decorated(
+        function: Callable[_Parameters, _Returned],
+    ) -> Callable[_Parameters, _Returned]:
+        code = function.__code__
 
-    def __call__(
-        self,
-        parser: argparse.ArgumentParser,
-        namespace: argparse.Namespace,
-        values: Any,
-        option_string: str | None = None,
-    ) -> None:
-        """Keep the value, and that it was given by this name."""
-        before = getattr(namespace, self.dest, None) or []
-        setattr(namespace, self.dest, [*before, values] if self._several else values)
-        told = (parser.prog, str(option_string), self._newer)
-        namespace.older_options = [*getattr(namespace, "older_options", []), told]
+        @functools.wraps(function)
+        def called(*args: _Parameters.args, **kwargs: _Parameters.kwargs) -> _Returned:
+            older = dict(zip(names, args[code.co_argcount :]))
+            if len(args) > code.co_argcount + len(names) or not older.keys().isdisjoint(kwargs):
+                return function(*args, **kwargs)  # Python's own TypeError
+            for name in older:
+                _warn_of_position(function.__name__, name)
+            plain: typing.Any = function  # what type checkers are to know is its signature
+            returned: _Returned = plain(*args[: code.co_argcount], **older, **kwargs)
+            return returned
+
+        return called
+
+    return decorated
 
 
-def tell_older_options(args: argparse.Namespace) -> None:
-    """Warn of what was given by the older name of an option."""
-    for where, older, newer in getattr(args, "older_options", []):
-        warn_of_older_name(where, older, newer)
+def _warn(told: str) -> None:
+    """A DeprecationWarning of the first line of the calls that is none of this package."""
+    frame = sys._getframe(1)
+    while frame.f_back and _is_between(frame.f_code.co_filename, frame.f_globals):
+        frame = frame.f_back
+    module = frame.f_globals.get("__name__", "")
+    known = frame.f_globals.setdefault("__warningregistry__", {})
+    warnings.warn_explicit(
+        told, DeprecationWarning, frame.f_code.co_filename, frame.f_lineno, module, known
+    )
+
+
+def _is_between(file: str, names: dict[str, typing.Any]) -> bool:
+    """Whether a frame is one of this package, a method that Python has made for it included, or of
+    Python's own between it and who calls.
+    """
+    module = str(names.get("__name__", ""))
+    return (
+        module == "fecolumn"
+        or module.startswith("fecolumn.")
+        or file.startswith(_PACKAGE)
+        or module.startswith(_BETWEEN)
+    )

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from argparse import ArgumentParser, Namespace
 
-from fecolumn.foundation.deprecated import OlderOption
+from fecolumn.foundation.older_option import OlderOption
 from fecolumn.verification import ALL_ENGINES, CASES, FULL
 
 

@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from fecolumn.foundation.deprecated import OlderOption
+from fecolumn.foundation.older_option import OlderOption
 
 _COMMAND = "fecolumn risk"
 _LITTLE = 0.01  # share of the frequency that may lie outside of the hazard curve in silence
