@@ -24,7 +24,8 @@ RETURNED = "AnalysisPlots Answer Ecdf GroundMotion Parting Picture StudyPlots".s
 INTERNAL = set(
     "as_drawn as_stated copies copies_of deforms drawn found interior_points is_held "
     "longest_free_vibration_s mean_radius_m meant_by modes_of moves n_modes names_of of_several "
-    "outer_diameter_m places points_inside seat_m shortest_s step_is_chosen top_m".split()
+    "outer_diameter_m places points_inside row_interval_s seat_m shortest_s state_interval_s "
+    "step_is_chosen top_m".split()
 )
 
 

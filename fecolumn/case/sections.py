@@ -374,23 +374,31 @@ class Overturn(Section):
     )
 
 
+#: What one analysis takes where its case leaves a key of [output] open; a study takes others
+OUTPUT_OF_ONE = {"history_every_s": 0.0, "states_every_s": 0.04}
+
+
 @section_class()
 class Output(Section):
-    """What is written and how often."""
+    """What is written and how often.
+
+    Where history_every_s and states_every_s are left out, one analysis takes 0 and 0.04, each of a
+    study 0.005 and 0.
+    """
 
     fields_every_s: float = parameter(
         0.0, doc="interval of the ParaView fields; 0 writes none", unit="s", low=0, high=1e5
     )
-    history_every_s: float = parameter(
-        0.0,
+    history_every_s: float | None = parameter(
+        None,
         doc="interval of the rows of history.h5; 0 writes every step (the summary always "
         "sees every step)",
         unit="s",
         low=0,
         high=1e5,
     )
-    states_every_s: float = parameter(
-        0.04,
+    states_every_s: float | None = parameter(
+        None,
         doc="interval of the states of a reduced or rigid engine from which fecolumn "
         "render makes deformation, stress and contact pressure; 0 keeps none; doubled "
         "before they fill 24 MB",
@@ -402,6 +410,20 @@ class Output(Section):
     checkpoint_every_s: float = parameter(
         60.0, doc="wall time between checkpoints", unit="s", above=0, high=1e6
     )
+
+    @property
+    def row_interval_s(self) -> float:
+        """Interval of the rows of history.h5 of one analysis; 0 for every step."""
+        return self._taken("history_every_s")
+
+    @property
+    def state_interval_s(self) -> float:
+        """Interval of the states of one analysis; 0 for none."""
+        return self._taken("states_every_s")
+
+    def _taken(self, key: str) -> float:
+        stated = getattr(self, key)
+        return OUTPUT_OF_ONE[key] if stated is None else float(stated)
 
 
 # keys of [integration] that the full-order engine alone has, and their defaults

@@ -205,7 +205,7 @@ class Analysis(Resumable):
 
     def write_history(self) -> None:
         """Write history.h5 on rank 0, its rows as far apart as the case says."""
-        every = max(1, round(self.case.output.history_every_s / self.dt_s))
+        every = max(1, round(self.case.output.row_interval_s / self.dt_s))
 
         if self.comm.rank == 0:
             attributes = {"case_id": self.case.id, **self.code, "title": self.case.title}

@@ -105,7 +105,7 @@ class ReducedAnalysis(OfStructure):
         return FieldWriter(self.folder / "fields", fields), fields
 
     def _states(self) -> States | None:
-        every = self.case.output.states_every_s
+        every = self.case.output.state_interval_s
         return States(max(1, round(every / self.dt_s)), *self._bodies()) if every else None
 
     def _bodies(self) -> tuple[list[BodyModel], list[str]]:

@@ -81,6 +81,7 @@ def main(args: argparse.Namespace) -> int:
 
 def tables() -> list[Table]:
     """Every table of a case file, of a study file and of a rocking model."""
+    from fecolumn.case.sections import OUTPUT_OF_ONE
     from fecolumn.case.short_form import ShortForm
     from fecolumn.study.keys import LatinHypercube, StudyKeys
     from fecolumn.study.plan import DEFAULTS
@@ -107,7 +108,7 @@ def tables() -> list[Table]:
                 Table(
                     field.name,
                     _sentence(kind) + absent,
-                    _keys(kind, DEFAULTS.get(field.name, {})),
+                    _keys(kind, DEFAULTS.get(field.name, {}), of_one=OUTPUT_OF_ONE),
                     "case",
                 )
             )
@@ -280,19 +281,26 @@ def _keys(
     section: type[DataclassInstance],
     of_study: Mapping[str, Any] | None = None,
     skip: Container[str] = (),
+    of_one: Mapping[str, Any] | None = None,
 ) -> tuple[Key, ...]:
+    """Keys of a section; of_study, of_one: what a study or one analysis takes where they are left
+    open.
+    """
     hints = typing.get_type_hints(section)
     return tuple(
-        _key(field, hints[field.name], (of_study or {}).get(field.name))
+        _key(
+            field,
+            hints[field.name],
+            (of_one or {}).get(field.name, field.default),
+            (of_study or {}).get(field.name),
+        )
         for field in dataclasses.fields(section)
         if field.name not in skip
     )
 
 
-def _key(field: dataclasses.Field[Any], kind: object, of_study: object) -> Key:
-    default = _shown(field.default) + (
-        f" (in a study {_shown(of_study)})" if of_study is not None else ""
-    )
+def _key(field: dataclasses.Field[Any], kind: object, taken: object, of_study: object) -> Key:
+    default = _shown(taken) + (f" (in a study {_shown(of_study)})" if of_study is not None else "")
     unit = field.metadata["unit"]
     return Key(
         field.name,

@@ -1,0 +1,54 @@
+"""A study of a `Case` is that of its file: what the case states is kept, what it leaves open is the
+study's.
+"""
+
+import fecolumn
+from fecolumn.study.plan import read_plan
+from fecolumn.study.results.script import _study_file
+
+AXES = {"motion.source": ["lick:1"]}
+STATED = fecolumn.Output(history_every_s=0.0, states_every_s=0.04)
+COLUMN = fecolumn.Column(shape="solid", outer_diameter_m=0.5, height_m=1.6)
+
+
+def cases(output):
+    """A case in the full form, in the short one, and of a table of its own."""
+    return [
+        fecolumn.Case(
+            bodies={"block": fecolumn.Block(length_m=0.3, width_m=0.3, height_m=1.2)},
+            joints={"foot": fecolumn.Joint(between=("block", "ground"))},
+            output=output,
+        ),
+        fecolumn.Case.of_column(fecolumn.ShortForm(column=COLUMN, output=output)),
+        fecolumn.Case.of_model(fecolumn.BlockModel(width_m=0.3, height_m=1.2), output=output),
+    ]
+
+
+def planned(case, folder):
+    """Output and id of the one analysis of a study of this case."""
+    (analysis,) = read_plan(_study_file(case, folder / "study", AXES)).analyses
+    return analysis.case.output, analysis.id
+
+
+def test_intervals_that_a_case_states_are_kept_whatever_they_are(tmp_path):
+    for stated, open_ in zip(cases(STATED), cases(fecolumn.Output())):
+        output, name = planned(stated, tmp_path)
+        assert (output.history_every_s, output.states_every_s) == (0.0, 0.04)
+        output, other = planned(open_, tmp_path)
+        assert (output.history_every_s, output.states_every_s) == (0.005, 0.0)
+        assert name == other and stated.id == open_.id
+
+
+def test_they_are_kept_by_a_case_that_is_made_of_another_or_of_a_file(tmp_path):
+    for case in cases(STATED):
+        (tmp_path / "case.toml").write_text(case.to_toml())
+        for again in (case.replace(title="other"), fecolumn.load_case(tmp_path / "case.toml")):
+            assert again.output == STATED
+    assert cases(fecolumn.Output())[0].replace(title="other").output == fecolumn.Output()
+
+
+def test_one_analysis_takes_every_row_and_states_in_pictures_where_nothing_is_said():
+    left_open = fecolumn.Output()
+    assert (left_open.row_interval_s, left_open.state_interval_s) == (0.0, 0.04)
+    stated = fecolumn.Output(history_every_s=0.1, states_every_s=0.0)
+    assert (stated.row_interval_s, stated.state_interval_s) == (0.1, 0.0)
