@@ -79,7 +79,8 @@ if TYPE_CHECKING:
     from fecolumn.motions.record import GroundMotion
     from fecolumn.simulation import AnalysisFailed, run
     from fecolumn.statistics.ecdf import Ecdf, ecdf, percentile, proportion_interval
-    from fecolumn.study.questions.script import Answer, calibrate, design, risk, screen
+    from fecolumn.study.questions.answer import Answer
+    from fecolumn.study.questions.script import calibrate, design, risk, screen
     from fecolumn.study.results.analysis import AnalysisPlots, AnalysisResult
     from fecolumn.study.results.load import load
     from fecolumn.study.results.outcomes import outcomes
@@ -223,7 +224,7 @@ _HOMES = {
     "risk": "study.questions.script",
     "screen": "study.questions.script",
     "calibrate": "study.questions.script",
-    "Answer": "study.questions.script",
+    "Answer": "study.questions.answer",
     "GroundMotion": "motions.record",
     "Parting": "study.results.parting",
     "Picture": "study.results.picture",

@@ -2,6 +2,7 @@
 told in the line where it stands.
 """
 
+import inspect
 import os
 import subprocess
 import sys
@@ -9,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from fecolumn.foundation.deprecated import by_name, warn_of_older_name
+from fecolumn.foundation.deprecated import by_name, renamed, warn_of_older_name
 
 CASE = """
 [bodies.block]
@@ -68,6 +69,21 @@ def test_arguments_by_position_are_taken_and_told_of_by_their_names():
     for wrong in (lambda: area(1, 2, 3, 4), lambda: area(1, 2, width=2)):
         with pytest.raises(TypeError, match="positional"):
             wrong()
+
+
+@renamed(wide="width")
+@by_name("width")
+def width_of(*, width=1.0):
+    return width
+
+
+def test_arguments_by_their_older_names_are_taken():
+    with pytest.warns(DeprecationWarning, match="wide of width_of .* write width") as told:
+        assert width_of(wide=3.0) == 3.0
+    assert [Path(one.filename) for one in told] == [Path(__file__)]
+    assert str(inspect.signature(width_of)) == "(*, width=1.0)"
+    with pytest.raises(TypeError, match="got width and its older name wide"):
+        width_of(wide=3.0, width=2.0)
 
 
 def test_a_name_is_told_of_once_and_where_it_stands():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import inspect
 import sys
 import typing
 import warnings
@@ -52,17 +53,45 @@ def by_name(
     def decorated(
         function: Callable[_Parameters, _Returned],
     ) -> Callable[_Parameters, _Returned]:
-        code = function.__code__
+        n_first = inspect.unwrap(function).__code__.co_argcount
 
         @functools.wraps(function)
         def called(*args: _Parameters.args, **kwargs: _Parameters.kwargs) -> _Returned:
-            older = dict(zip(names, args[code.co_argcount :]))
-            if len(args) > code.co_argcount + len(names) or not older.keys().isdisjoint(kwargs):
+            older = dict(zip(names, args[n_first:]))
+            if len(args) > n_first + len(names) or not older.keys().isdisjoint(kwargs):
                 return function(*args, **kwargs)  # Python's own TypeError
             for name in older:
                 _warn_of_position(function.__name__, name)
             plain: typing.Any = function  # what type checkers are to know is its signature
-            returned: _Returned = plain(*args[: code.co_argcount], **older, **kwargs)
+            returned: _Returned = plain(*args[:n_first], **older, **kwargs)
+            return returned
+
+        return called
+
+    return decorated
+
+
+def renamed(
+    **newer: str,
+) -> Callable[[Callable[_Parameters, _Returned]], Callable[_Parameters, _Returned]]:
+    """Decorator of a function that takes arguments by their older names as well, with a warning;
+    newer: name of this version by the older one.
+    """
+
+    def decorated(
+        function: Callable[_Parameters, _Returned],
+    ) -> Callable[_Parameters, _Returned]:
+        @functools.wraps(function)
+        def called(*args: _Parameters.args, **kwargs: _Parameters.kwargs) -> _Returned:
+            given = dict(kwargs)
+            for older in [one for one in kwargs if one in newer]:
+                name = newer[older]
+                if name in given:
+                    raise TypeError(f"{function.__name__}() got {name} and its older name {older}")
+                warn_of_older_name("script", f"{older} of {function.__name__}", name)
+                given[name] = given.pop(older)
+            plain: typing.Any = function
+            returned: _Returned = plain(*args, **given)
             return returned
 
         return called

@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import shutil
 import signal
 import threading
 
@@ -140,6 +141,110 @@ def test_a_wrong_question_is_told_as_by_the_command(change, words, tmp_path):
     with pytest.raises(fecolumn.InputError) as caught:
         fecolumn.design(case, tmp_path / "d", **WHAT | change)
     assert words in str(caught.value) and str(caught.value).startswith("fecolumn design")
+
+
+def test_a_range_is_given_as_that_of_a_fit(designed, tmp_path):
+    case, answer = designed
+    shutil.copytree(answer.folder, tmp_path / "d")
+    again = fecolumn.design(
+        case, tmp_path / "d", **WHAT | {"vary": {"block.width_m": (0.2, 0.6)}}, steps=4
+    )
+    assert again.text == answer.text and again.failed == answer.failed == 0
+    with pytest.raises(fecolumn.InputError, match="must be key, low and high of one key"):
+        two = {"block.width_m": (0.2, 0.6), "block.height_m": (1, 2)}
+        fecolumn.design(case, tmp_path / "e", **WHAT | {"vary": two})
+
+
+def block_analyses(folder, number=None):
+    """Put files where analyses of a study are written, so that they fail; the files."""
+    kept = sorted((folder / "analyses").iterdir())[:number]
+    for one in kept:
+        shutil.rmtree(one)
+        one.write_text("in the way")
+    return kept
+
+
+def test_an_answer_counts_what_failed_and_is_given_all_the_same(designed, tmp_path):
+    case, answer = designed
+    shutil.copytree(answer.folder, tmp_path / "d")
+    block_analyses(tmp_path / "d", 1)
+    again = fecolumn.design(case, tmp_path / "d", **WHAT, steps=4)
+    assert again.failed == 1 and again.text and again.table.n.sum() == answer.table.n.sum() - 1
+    study = fecolumn.load(tmp_path / "d")
+    assert study.failed == 1 and "1 failed" in repr(study)
+    assert [row["reason"] for row in study.rows if row["state"] == "failed"] != [""]
+
+
+def test_where_nothing_is_done_there_is_no_answer_but_a_reason(tmp_path):
+    asked = dict(motions="lick:1-5", limit="overturn", scale=3, engine="housner")
+    objects = pandas.DataFrame(
+        {"name": ["slender"], "width_cm": [10], "depth_cm": [10], "height_cm": [150]}
+        | {"mass_kg": [10], "friction": [0.6]}
+    )
+    assert fecolumn.screen(objects, tmp_path / "m", **asked).failed == 0
+    block_analyses(tmp_path / "m")
+    with pytest.raises(fecolumn.StudyError, match="m.logs"):
+        fecolumn.screen(objects, tmp_path / "m", **asked)
+
+
+def test_a_study_counts_what_failed_and_tries_it_again_where_asked(tmp_path):
+    case = fecolumn.case_from_tables(CABINET)
+
+    def again(**how):
+        return fecolumn.run_study(case, tmp_path / "s", quiet=True, axes=AXES, **how)
+
+    study = again()
+    assert (study.done, study.failed, study.finished) == (4, 0, True)
+    (file,) = block_analyses(tmp_path / "s", 1)
+    study = again(jobs=1)
+    assert (study.done, study.failed, study.finished) == (3, 1, True)
+    file.unlink()
+    assert again().failed == 1
+    assert again(retry_failed=True).done == 4
+
+
+@pytest.mark.parametrize("retry", [True, False])
+def test_a_question_tells_its_command_whether_to_try_again(monkeypatch, tmp_path, retry):
+    from fecolumn.study.questions import design_command
+
+    given = []
+    monkeypatch.setattr(design_command, "main", lambda args: given.append(args) or 130)
+    with pytest.raises(KeyboardInterrupt):
+        fecolumn.design(
+            fecolumn.case_from_tables(CABINET), tmp_path / "d", **WHAT, retry_failed=retry
+        )
+    assert [args.retry_failed for args in given] == [retry]
+    assert given[0].jobs is None  # one a core
+
+
+def test_what_is_no_case_is_told_by_function_and_argument(tmp_path):
+    wrong = {"block": {"width_m": 0.3}}
+    for ask, words in (
+        (lambda: fecolumn.design(wrong, tmp_path / "d", **WHAT), "fecolumn design: case = "),
+        (lambda: fecolumn.calibrate(3, tmp_path / "c", test="t"), "fecolumn calibrate: case = 3"),
+        (lambda: fecolumn.run_study(wrong, tmp_path / "s"), "run_study: study = "),
+        (lambda: fecolumn.run_study(3, tmp_path / "s", axes=AXES), "run_study: study = 3"),
+    ):
+        with pytest.raises(fecolumn.InputError, match=words) as caught:
+            ask()
+        assert "must be a Case or the path of a file" in str(caught.value)
+
+
+@pytest.mark.parametrize("jobs", [0, "two", 1.5])
+def test_jobs_of_a_study_are_a_number_or_left_out(jobs, tmp_path):
+    with pytest.raises(fecolumn.InputError, match="run_study: jobs = .*must be a whole number"):
+        case = fecolumn.case_from_tables(CABINET)
+        fecolumn.run_study(case, tmp_path / "s", axes=AXES, jobs=jobs)
+
+
+def test_a_study_is_asked_for_as_in_earlier_versions(tmp_path):
+    case = fecolumn.case_from_tables(CABINET)
+    wrong = pytest.raises(fecolumn.InputError, match="jobs = 0")
+    with wrong, pytest.warns(DeprecationWarning, match="jobs of run_study is read by position"):
+        fecolumn.run_study(case, tmp_path / "s", 0, axes=AXES)
+    wrong = pytest.raises(fecolumn.InputError, match="missing.toml")
+    with wrong, pytest.warns(DeprecationWarning, match="file of run_study .* write study"):
+        fecolumn.run_study(file="missing.toml", folder=tmp_path / "s")
 
 
 def test_a_study_of_a_case_needs_axes(tmp_path):

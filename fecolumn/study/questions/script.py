@@ -4,71 +4,27 @@ the answer as an object.
 
 from __future__ import annotations
 
-import argparse
-import contextlib
-import html
-import io
 import numbers
-import signal
-import threading
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 from fecolumn.case.case import Case
 from fecolumn.foundation.schema import InputError
+from fecolumn.study.questions.answer import Answer, asked
 from fecolumn.study.results.script import case_file
-from fecolumn.study.run import StudyError
-
-
-class Answer:
-    """What a question was answered.
-
-    Attributes
-    ----------
-    folder
-        Path of its tables, figures and runs.
-    text
-        the sentences of the answer.
-    """
-
-    def __init__(self, folder: Path, table: str, figure: str, text: str) -> None:
-        self.folder, self.text = folder, text
-        self._table, self._figure = table, figure
-
-    @property
-    def table(self) -> Any:
-        """DataFrame of the command's main table."""
-        import pandas
-
-        return pandas.read_csv(self.folder / self._table)
-
-    def _repr_png_(self) -> bytes | None:
-        file = self.folder / self._figure
-        return file.read_bytes() if file.exists() else None
-
-    def __repr__(self) -> str:
-        return self.text
-
-    def _repr_html_(self) -> str:
-        import base64
-
-        png = self._repr_png_()
-        image = f"data:image/png;base64,{base64.b64encode(png).decode()}" if png else ""
-        picture = f'<img style="max-width:100%" src="{image}">' if image else ""
-        text = f'<pre style="white-space:pre-wrap">{html.escape(self.text)}</pre>'
-        return f"{text}{self.table.to_html(index=False)}{picture}"
 
 
 def design(
     case: Case | str | Path,
     folder: str | Path,
     *,
-    vary: tuple[str, float, float],
+    vary: tuple[str, float, float] | Mapping[str, tuple[float, float]],
     motions: str | Sequence[str],
     limit: str,
     steps: int = 64,
-    jobs: int = 1,
+    jobs: int | None = None,
+    retry_failed: bool = False,
 ) -> Answer:
     """The least or largest value of a key for which a limit state holds, as `fecolumn design`.
 
@@ -79,7 +35,8 @@ def design(
     folder
         of the runs and the answer; an unfinished one is gone on with.
     vary
-        (key, low, high) in the key's own unit, such as ("bodies.cabinet.length_m", 0.3, 0.8).
+        one key and its range in its own unit, {"bodies.cabinet.length_m": (0.3, 0.8)}, or
+        ("bodies.cabinet.length_m", 0.3, 0.8).
     motions
         that every value gets, such as "lick:1-40", or several files.
     limit
@@ -87,29 +44,32 @@ def design(
     steps
         of the range between which the answer lies.
     jobs
-        analyses at a time.
+        analyses at a time, each in a process of its own; left out: one a core.
+    retry_failed
+        whether analyses that failed before are run again.
 
     Returns
     -------
     Answer
-        text of the command, its figure, and a table of each value looked at, in the key's unit,
-        with n, k, P and the 95 % interval of P.
+        text of the command, its figure, and a table of each value looked at, in the key's unit:
+        key, value, n (runs that ended), beyond (runs beyond the limit), probability, wilson_low
+        and wilson_high (its 95 % interval). Its `failed` counts the analyses that are left out.
 
     Raises
     ------
     InputError
         case, key, range, motions, limit or folder cannot be used.
     StudyError
-        analyses failed.
+        there is no answer: workers cannot start, the disk is full, or all analyses at a value
+        failed.
     """
     from fecolumn.study.questions import design_command
 
-    if not isinstance(vary, (tuple, list)) or len(vary) != 3:
-        told = 'must be key, low and high, such as ("bodies.cabinet.length_m", 0.3, 0.8)'
-        raise InputError("fecolumn design", "vary", vary, told)
-    words = [case_file(case, folder), "--vary", str(vary[0]), _range(vary[1:]), "--limit", limit]
-    words += ["--motions", *_several(motions), "--steps", str(steps), "-j", str(jobs)]
-    return _asked(design_command, words, folder, "design.csv", "design.png")
+    key, ends = _varied(vary)
+    words = [case_file(case, folder, "fecolumn design"), "--vary", key, _range(ends)]
+    words += ["--limit", limit, "--motions", *_several(motions), "--steps", str(steps)]
+    words += _jobs(jobs)
+    return asked(design_command, words, folder, ("design.csv", "design.png"), retry_failed)
 
 
 def risk(
@@ -154,7 +114,7 @@ def risk(
 
     words = [str(source), "--hazard", str(hazard), "--limit", limit]
     words += ["--years", repr(float(years)), "--site", str(site)]
-    return _asked(risk_command, words, folder, "risk.csv", "risk.png")
+    return asked(risk_command, words, folder, ("risk.csv", "risk.png"))
 
 
 def screen(
@@ -165,7 +125,8 @@ def screen(
     limit: str | Sequence[str] = (),
     scale: float = 1.0,
     engine: str = "rigid",
-    jobs: int = 1,
+    jobs: int | None = None,
+    retry_failed: bool = False,
 ) -> Answer:
     """A list of objects ranked by how likely they overturn or slide, as `fecolumn screen`.
 
@@ -185,20 +146,22 @@ def screen(
     engine
         "rigid" or "housner".
     jobs
-        analyses at a time.
+        analyses at a time, each in a process of its own; left out: one a core.
+    retry_failed
+        whether analyses that failed before are run again.
 
     Returns
     -------
     Answer
         text of the command, its figure, and a table of the objects, likeliest to be lost first,
-        with the probability of each event.
+        with the probability of each event. Its `failed` counts the analyses that are left out.
 
     Raises
     ------
     InputError
         list, motions, limits or folder cannot be used.
     StudyError
-        analyses failed.
+        there is no answer: workers cannot start, the disk is full, or all analyses failed.
     """
     from fecolumn.study.questions import screen_command
 
@@ -207,10 +170,11 @@ def screen(
         objects.to_csv(path, index=False)
         objects = path
     words = [str(objects), "--motions", *_several(motions), f"--scale={scale:.17g}"]
-    words += ["--engine", engine, "-j", str(jobs)]
+    words += ["--engine", engine, *_jobs(jobs)]
     for one in _several(limit):
         words += ["--limit", one]
-    return _asked(screen_command, words, folder, "screen.csv", "figures/ranking.png")
+    files = "screen.csv", "figures/ranking.png"
+    return asked(screen_command, words, folder, files, retry_failed)
 
 
 def calibrate(
@@ -240,17 +204,28 @@ def calibrate(
     """
     from fecolumn.study.questions import calibrate_command
 
-    words = [case_file(case, folder), "--test", str(test)]
+    words = [case_file(case, folder, "fecolumn calibrate"), "--test", str(test)]
     for key, ends in (fit or {}).items():
         words += ["--fit", key, _range(ends)]
-    return _asked(calibrate_command, words, folder, "calibrate.csv", "calibrate.png")
+    return asked(calibrate_command, words, folder, ("calibrate.csv", "calibrate.png"))
 
 
-class _Words(argparse.ArgumentParser):
-    """Arguments of a command; what is wrong with them is an InputError."""
+def _varied(vary: Any) -> tuple[str, Any]:
+    """The key that `vary` names, and its range."""
+    if isinstance(vary, Mapping) and len(vary) == 1:
+        ((key, ends),) = vary.items()
+        return str(key), ends
+    if isinstance(vary, (tuple, list)) and len(vary) == 3:
+        return str(vary[0]), vary[1:]
+    told = (
+        "must be key, low and high of one key, such as "
+        '{"bodies.cabinet.length_m": (0.3, 0.8)} or ("bodies.cabinet.length_m", 0.3, 0.8)'
+    )
+    raise InputError("fecolumn design", "vary", vary, told)
 
-    def error(self, message: str) -> NoReturn:
-        raise InputError(self.prog, "", None, message)
+
+def _jobs(jobs: int | None) -> list[str]:
+    return [] if jobs is None else ["-j", str(jobs)]
 
 
 def _range(ends: Any) -> str:
@@ -273,32 +248,3 @@ def _beside(folder: str | Path, ending: str) -> Path:
     folder = Path(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)
     return folder.with_name(folder.name + ending)
-
-
-def _asked(command: Any, words: list[str], folder: str | Path, table: str, figure: str) -> Answer:
-    """Run a command with these words and read its answer."""
-    parser = _Words(prog=f"fecolumn {command.__name__.rpartition('.')[2].removesuffix('_command')}")
-    command.add_arguments(parser)
-    arguments = parser.parse_args([*words, "-o", str(folder)])
-    said = io.StringIO()
-    with _own_signals(), contextlib.redirect_stdout(said):
-        code = command.main(arguments)
-    if code == 130:
-        raise KeyboardInterrupt
-    if code:
-        raise StudyError(f"analyses failed; see {Path(folder) / 'logs'}")
-    lines = [line for line in said.getvalue().splitlines() if not line.startswith("wrote ")]
-    return Answer(Path(folder), table, figure, "\n".join(lines))
-
-
-@contextlib.contextmanager
-def _own_signals() -> Iterator[None]:
-    """The caller's way to end by SIGTERM, after the command had its own."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.getsignal(signal.SIGTERM)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)

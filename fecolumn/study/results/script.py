@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from fecolumn.case.case import Case
+from fecolumn.foundation.deprecated import by_name, renamed
 from fecolumn.study.results.study import StudyResult
 
 
+@renamed(file="study", workers="jobs")
+@by_name("jobs")
 def run_study(
-    file: Case | str | Path,
+    study: Case | str | Path,
     folder: str | Path,
-    jobs: int = 1,
     *,
+    jobs: int | None = None,
     quiet: bool = False,
     axes: Mapping[str, Sequence[Any]] | None = None,
-    workers: int | None = None,
+    retry_failed: bool = False,
 ) -> StudyResult:
     """Do what is missing of a study, as `fecolumn study` does, with its tables and its figure in
     the folder.
@@ -30,29 +34,30 @@ def run_study(
 
     Parameters
     ----------
-    file
+    study
         TOML file of the study; or a Case, or its file, with `axes`. Then the study is written
         beside the folder, as NAME-study.toml and NAME-case.toml.
     folder
         of its results.
     jobs
-        analyses at a time, each in a process of its own.
+        analyses at a time, each in a process of its own; left out: one a core.
     quiet
         no progress on stderr.
     axes
         values by dotted key, each with each, such as {"contact.friction_coefficient": [0.3, 0.6]}.
-    workers
-        older name of `jobs`, read until 2.0.
+    retry_failed
+        whether analyses that failed before are run again.
 
     Returns
     -------
     StudyResult
-        what the folder holds, as `fecolumn.load` gives it.
+        what the folder holds, as `fecolumn.load` gives it; its `failed` counts the analyses that
+        ended with an error, whose reasons its `rows` have.
 
     Raises
     ------
     InputError
-        the study cannot be run as it is written, or the folder is another's.
+        the study cannot be run as it is written, the folder is another's, or jobs is below 1.
     StudyError
         workers cannot start, or the disk is full.
     KeyboardInterrupt
@@ -60,23 +65,37 @@ def run_study(
     """
     import io
 
-    from fecolumn.foundation.deprecated import warn_of_older_name
     from fecolumn.study.plan import read_plan
     from fecolumn.study.run import complete_study as work_off
     from fecolumn.study.table import write_figure, write_tables
 
-    if workers is not None:
-        warn_of_older_name("script", "workers of run_study", "jobs")
-        jobs = workers
-    plan = read_plan(_study_file(file, folder, axes))
-    rows = work_off(plan, folder, workers=jobs, stream=io.StringIO() if quiet else sys.stderr)
+    plan = read_plan(_study_file(study, folder, axes))
+    rows = work_off(
+        plan,
+        folder,
+        workers=_processes(jobs),
+        retry_failed=retry_failed,
+        stream=io.StringIO() if quiet else sys.stderr,
+    )
     write_tables(plan, rows, folder)
     write_figure(plan, rows, folder)
     return StudyResult(folder)
 
 
+def _processes(jobs: int | None) -> int:
+    """Analyses at a time, one a core where that is left open."""
+    from fecolumn.foundation.schema import InputError
+
+    if jobs is None:
+        return os.cpu_count() or 1
+    if not isinstance(jobs, int) or jobs < 1:
+        told = "must be a whole number of at least 1; left out: one a core"
+        raise InputError("run_study", "jobs", jobs, told)
+    return jobs
+
+
 def _study_file(
-    file: Case | str | Path, folder: str | Path, axes: Mapping[str, Sequence[Any]] | None
+    study: Case | str | Path, folder: str | Path, axes: Mapping[str, Sequence[Any]] | None
 ) -> str | Path:
     """The file of a study, written where a case and axes are given."""
     import tomli_w
@@ -86,17 +105,17 @@ def _study_file(
     from fecolumn.foundation.schema import InputError
 
     if axes is None:
-        if isinstance(file, Case):
+        if isinstance(study, Case):
             told = 'missing; what varies, such as axes={"motion.source": ["lick:1-10"]}'
             raise InputError("run_study", "axes", None, told)
-        return file
+        return as_path(study, "run_study", "study")
     if not isinstance(axes, Mapping):
         told = 'must be lists by key, such as {"motion.source": ["lick:1-10"]}'
         raise InputError("run_study", "axes", axes, told)
-    case = Path(case_file(file, folder)).resolve()
+    case = Path(case_file(study, folder, "run_study", "study")).resolve()
     path = Path(folder).with_name(f"{Path(folder).name}-study.toml")
     plain = {key: _plain(values) for key, values in axes.items()}
-    title = file.title if isinstance(file, Case) else ""
+    title = study.title if isinstance(study, Case) else ""
     # files by their absolute paths: a script means the current folder
     tables = taken_over({"title": title or path.stem, "case": str(case), "axes": plain}, "case")
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -113,12 +132,34 @@ def _plain(values: Any) -> Any:
     return values
 
 
-def case_file(case: Case | str | Path, folder: str | Path) -> str:
-    """The file of a case; that of a Case is written beside the folder, as NAME-case.toml."""
+def as_path(file: object, where: str, name: str) -> str:
+    """The path of a file that a function takes in the place of a Case.
+
+    Raises
+    ------
+    InputError
+        it is neither; function and argument are named.
+    """
+    from fecolumn.foundation.schema import InputError
+
+    if not isinstance(file, (str, os.PathLike)):
+        told = "must be a Case or the path of a file; case_from_tables makes a Case of tables"
+        raise InputError(where, name, file, told)
+    return os.fspath(file)
+
+
+def case_file(case: object, folder: str | Path, where: str, name: str = "case") -> str:
+    """The file of a case; that of a Case is written beside the folder, as NAME-case.toml.
+
+    Raises
+    ------
+    InputError
+        as of `as_path`.
+    """
     from fecolumn.foundation.atomic import write_bytes
 
     if not isinstance(case, Case):
-        return str(case)
+        return as_path(case, where, name)
     folder = Path(folder)
     path = folder.with_name(f"{folder.name}-case.toml")
     path.parent.mkdir(parents=True, exist_ok=True)

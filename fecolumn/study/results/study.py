@@ -19,7 +19,7 @@ from fecolumn.study.plan import setting_of
 from fecolumn.study.results.analysis import AnalysisResult
 from fecolumn.study.results.picture import Picture
 from fecolumn.study.sample import same_value
-from fecolumn.study.store import DONE, Study, read_study
+from fecolumn.study.store import DONE, FAILED, Study, read_study
 
 if TYPE_CHECKING:
     import pandas
@@ -80,6 +80,16 @@ class StudyResult:
     def done(self) -> int:
         """Number of analyses that are done, of len(rows)."""
         return sum(row["state"] == DONE for row in self.rows)
+
+    @property
+    def failed(self) -> int:
+        """Number of analyses that ended with an error, of len(rows); `rows` have their reasons."""
+        return sum(row["state"] == FAILED for row in self.rows)
+
+    @property
+    def finished(self) -> bool:
+        """Whether nothing is left to be done: each analysis is done or has failed."""
+        return self.done + self.failed == len(self.rows)
 
     def chosen(self, choice: dict[str, Any] | None = None) -> list[dict[str, Any]]:
         """Rows that are done and have the values of `choice`, such as {"integration.dt_s": 1e-3}.
@@ -169,16 +179,17 @@ class StudyResult:
         return write_report(self.folder, output)
 
     def __repr__(self) -> str:
-        return f"StudyResult({str(self.folder)!r}: {self.done} of {len(self.rows)} analyses done)"
+        return f"StudyResult({str(self.folder)!r}: {self._counts()})"
 
     def _repr_html_(self) -> str:
         from fecolumn.study.table import table_text
 
         text = table_text(self._members(), self.rows) if self.done else "nothing is done yet"
-        return (
-            f"<p>{html.escape(self.title)}: {self.done} of {len(self.rows)} analyses "
-            f"done</p><pre>{html.escape(text)}</pre>"
-        )
+        return f"<p>{html.escape(self.title)}: {self._counts()}</p><pre>{html.escape(text)}</pre>"
+
+    def _counts(self) -> str:
+        failed = f", {self.failed} failed" if self.failed else ""
+        return f"{self.done} of {len(self.rows)} analyses done{failed}"
 
     def _members(self) -> Members:
         return Members(
