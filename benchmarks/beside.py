@@ -21,7 +21,7 @@ def share_cells(runs: dict) -> tuple[str, ...]:
     over = sum(bool(run["overturned"]) for run in each)
     low, high = proportion_interval(over, n)
     u, off = np.array([run["u_max_m"] for run in each]), np.array([lost(run) for run in each])
-    median = percentile(u, off, 0.5)
+    median = percentile(u, off, fraction=0.5)
     return (
         str(n),
         str(over),

@@ -76,21 +76,24 @@ if TYPE_CHECKING:
     from fecolumn.foundation.schema import InputError
     from fecolumn.motions.array import motion_file
     from fecolumn.motions.load import load_motion
+    from fecolumn.motions.processing import AliasingWarning
     from fecolumn.motions.record import GroundMotion
     from fecolumn.simulation import AnalysisFailed, run
     from fecolumn.statistics.ecdf import Ecdf, ecdf, percentile, proportion_interval
     from fecolumn.study.questions.answer import Answer
     from fecolumn.study.questions.script import calibrate, design, risk, screen
-    from fecolumn.study.results.analysis import AnalysisPlots, AnalysisResult
+    from fecolumn.study.results.analysis import AnalysisResult
+    from fecolumn.study.results.analysis_plots import AnalysisPlots
     from fecolumn.study.results.load import load
     from fecolumn.study.results.outcomes import outcomes
-    from fecolumn.study.results.parting import Parting
+    from fecolumn.study.results.parting import Parting, QuantityPair
     from fecolumn.study.results.picture import Picture
     from fecolumn.study.results.script import run_study
     from fecolumn.study.results.study import StudyPlots, StudyResult
     from fecolumn.study.run import StudyError
 
 __all__ = [
+    "AliasingWarning",
     "AnalysisFailed",
     "AnalysisPlots",
     "AnalysisResult",
@@ -131,6 +134,7 @@ __all__ = [
     "Plate",
     "PodiumModel",
     "Prism",
+    "QuantityPair",
     "Restrainer",
     "ShortForm",
     "Spring",
@@ -209,13 +213,14 @@ _HOMES = {
     "InputError": "foundation.schema",
     "motion_file": "motions.array",
     "load_motion": "motions.load",
+    "AliasingWarning": "motions.processing",
     "AnalysisFailed": "simulation",
     "run": "simulation",
     "Ecdf": "statistics.ecdf",
     "proportion_interval": "statistics.ecdf",
     "percentile": "statistics.ecdf",
     "ecdf": "statistics.ecdf",
-    "AnalysisPlots": "study.results.analysis",
+    "AnalysisPlots": "study.results.analysis_plots",
     "AnalysisResult": "study.results.analysis",
     "load": "study.results.load",
     "outcomes": "study.results.outcomes",
@@ -227,6 +232,7 @@ _HOMES = {
     "Answer": "study.questions.answer",
     "GroundMotion": "motions.record",
     "Parting": "study.results.parting",
+    "QuantityPair": "study.results.parting",
     "Picture": "study.results.picture",
     "StudyError": "study.run",
     "StudyPlots": "study.results.study",

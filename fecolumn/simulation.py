@@ -50,8 +50,8 @@ def run(
     quiet
         no progress on stderr.
     profile
-        write the time of each step, and what it did, into step_times.csv of the folder; see
-        `fecolumn.engines.step_times`. Steps are then made one at a time.
+        write the time of each step, and what it did, into step_times.csv of the folder, whose
+        columns the manual's page outputs tells. Steps are then made one at a time.
     stop
         asked after every step whether to save and raise KeyboardInterrupt; left out: never.
 

@@ -60,11 +60,11 @@ def ensemble():
         np.isinf(reduced).sum(),
         None,
     )
-    middle = percentile(full, np.isinf(full), 0.5)
+    middle = percentile(full, np.isinf(full), fraction=0.5)
     yield (
         f"{text}: median of u_max [m]",
         middle,
-        (other := percentile(reduced, np.isinf(reduced), 0.5)),
+        (other := percentile(reduced, np.isinf(reduced), fraction=0.5)),
         abs(other / middle - 1) < 0.1,
     )
     stood = np.isfinite(full) & np.isfinite(reduced)

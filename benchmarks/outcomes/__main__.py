@@ -81,7 +81,7 @@ def _rows(model: str, args, file: Path, folder: Path) -> list[dict]:
 
 def told(table: Path) -> str:
     """Counts of the outcomes by model, the size of the file, a fragility surface."""
-    frame = outcomes(table)
+    frame = outcomes(file=table)
     counts = frame.groupby(["model", "outcome"], observed=False).size().unstack()
     head = ["model", "analyses", *map(str, counts.columns)]
     lines = [head, ["---", *["---:"] * (len(head) - 1)]]

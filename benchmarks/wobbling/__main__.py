@@ -44,7 +44,7 @@ def distance(a: Sample, b: Sample) -> tuple[float, float, float]:
             - np.searchsorted(y, at, side="right") / len(y)
         ).max()
     )
-    medians = [percentile(one.u_max, one.overturned, 0.5) for one in (a, b)]
+    medians = [percentile(one.u_max, one.overturned, fraction=0.5) for one in (a, b)]
     return (
         d,
         asymptotic_p(d, len(x), len(y)),
@@ -119,7 +119,7 @@ def main() -> None:
         panels.append(CdfPanel(f"{name}, PGV {100 * LEVELS[level]:g} cm/s", tuple(lines)))
         p, e50 = PRINTED[name, level]
         n, k = samples_of_p(p, COUNTS[name] - 17, COUNTS[name])[0]
-        median = percentile(sample.u_max, sample.overturned, 0.5)
+        median = percentile(sample.u_max, sample.overturned, fraction=0.5)
         found = distance(sample, second) if second is not None else (math.nan,) * 3
         table.append(
             [

@@ -75,7 +75,7 @@ def table(found: dict[str, dict]) -> str:
 def _line(name: str, sides: list[list[dict]]) -> tuple[str, ...]:
     u, off = (np.array([[read(run) for run in side] for side in sides]) for read in (_peak, lost))
     fell = np.array([[bool(run["overturned"]) for run in side] for side in sides])
-    medians = [percentile(*one, 0.5) for one in zip(u, off)]
+    medians = [percentile(*one, fraction=0.5) for one in zip(u, off)]
     distance, p, *_ = compared(*(dict(enumerate(side)) for side in sides))
     moves = ~off.any(axis=0) & (u > _STANDS).all(axis=0)
     ratio = f"{np.median(u[1, moves] / u[0, moves]):.2f}" if moves.any() else "-"

@@ -13,7 +13,7 @@ classes are those of a [case](cases.md); the [table of keys](keys.md) has the sa
 GROUPS = {
     "Cases and analyses": (
         "Case case_from_tables load_case run load AnalysisResult AnalysisPlots Picture Parting "
-        "read_history"
+        "QuantityPair read_history"
     ).split(),
     "Studies and questions": (
         "run_study StudyResult StudyPlots design risk screen calibrate Answer ecdf Ecdf percentile "
@@ -29,7 +29,7 @@ GROUPS = {
     "Models of rigid bodies": (
         "BlockModel FrameModel PodiumModel WobblingModel WobblingFrameModel".split()
     ),
-    "Motions": "motion_file load_motion GroundMotion".split(),
+    "Motions": "motion_file load_motion GroundMotion AliasingWarning".split(),
     "Errors": "InputError AnalysisFailed StudyError".split(),
 }
 

@@ -10,6 +10,7 @@ import dataclasses
 import hashlib
 import html
 import json
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -85,7 +86,7 @@ class Case:
     own
         table of a rocking model, such as podium, instead of bodies.
     short
-        the form of a column on its base in which the case was stated, see ShortForm.
+        the form of a column on its base in which the case was stated, a ShortForm.
     arches
         the arches whose voussoirs are among bodies.
 
@@ -316,7 +317,7 @@ class Case:
                 tables = merge(tables, nested(key, value))
         return case_from_tables(stated(tables), "case")
 
-    def tables(self, defaults: bool = True, arches: bool = True) -> dict[str, Any]:
+    def tables(self, *, defaults: bool = True, arches: bool = True) -> dict[str, Any]:
         """The case as the tables of its file, in the full form, with keys at their `defaults` or
         without; with `arches` as they were stated, or voussoir by voussoir.
         """
@@ -408,7 +409,7 @@ def case_from_tables(tables: dict[str, Any], file: Path | str = "case") -> Case:
     ----------
     tables
         keys and values by table, as `tomllib` reads them; units are those of the manual's page
-        keys. Tables with [column] are a short form, see `fecolumn.case.short_form`.
+        keys. Tables with [column] are a short form, as of ShortForm.
     file
         by which messages name the case.
 
@@ -459,6 +460,9 @@ def load_case(path: Path | str) -> Case:
     InputError
         missing file, bad TOML, unknown key, value out of range, parts that do not fit.
     """
+    if not isinstance(path, (str, os.PathLike)):
+        told = "must be the path of a TOML file; case_from_tables makes a Case of tables"
+        raise InputError("load_case", "path", path, told)
     return case_from_tables(read_toml(path), path)
 
 

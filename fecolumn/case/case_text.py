@@ -28,7 +28,7 @@ class ShownCase(CheckedCase, Protocol):
     def short(self) -> ShortForm | None:
         """None of a case that was stated in the full form."""
 
-    def tables(self, defaults: bool = True, arches: bool = True, /) -> dict[str, Any]:
+    def tables(self, *, defaults: bool = True, arches: bool = True) -> dict[str, Any]:
         """As of Case."""
 
 
@@ -98,7 +98,7 @@ def full_form(case: ShownCase, defaults: bool = False, arches: bool = False) -> 
     arches
         as they were stated, or voussoir by voussoir.
     """
-    tables = case.tables(defaults, arches)
+    tables = case.tables(defaults=defaults, arches=arches)
     if joints := tables.pop("joints", {}):
         tables["joints"] = {name: _joint(table) for name, table in joints.items()}
     return {name: table for name, table in tables.items() if table != {}}

@@ -68,7 +68,7 @@ class ShortForm(ColumnSections):
 
     SECTION: ClassVar[str] = ""  # messages name the sections in it
 
-    def tables(self, opened: bool = False) -> dict[str, Any]:
+    def tables(self, *, opened: bool = False) -> dict[str, Any]:
         """The tables of its file; `opened`: without those sizes that it would be given anyway, so
         that another column gets its own.
         """

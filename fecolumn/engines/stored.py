@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from fecolumn.engines.dynamics.history import read_history
+from fecolumn.engines.dynamics.history import history_columns
 from fecolumn.engines.reduced.states import read_states
 from fecolumn.engines.summary import check_owner
 from fecolumn.foundation.arrays import Array
@@ -18,14 +18,14 @@ _AGAIN = "run the analysis again, into a new folder"
 
 
 def stored_history(file: Path, names: tuple[str, ...] = ()) -> dict[str, Array]:
-    """Columns of the history.h5 of an analysis, as of `read_history`.
+    """Columns of the history.h5 of an analysis, as of `history_columns`.
 
     Raises
     ------
     InputError
         there is none, it is damaged or without one of the columns, or it is of another case.
     """
-    return stored(file, "a history of an analysis", lambda: read_history(file, names))
+    return stored(file, "a history of an analysis", lambda: history_columns(file, names))
 
 
 def stored_states(file: Path) -> dict[str, Array]:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.sections import GRAVITY, Motion
+from fecolumn.foundation.deprecated import renamed
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions import lick
 from fecolumn.motions.afad import looks_like_afad, read_afad
@@ -69,15 +70,18 @@ _HIGHER = 0.02
 _LARGEST_RATIO = 20_000  # of steps: the filter between them has 128 times as many terms
 
 
-def load_motion(motion: Motion, dt: float, file: Path | str) -> GroundMotion:
+@renamed(dt="dt_s")
+def load_motion(
+    motion: Motion | str, dt_s: float, file: Path | str = "load_motion"
+) -> GroundMotion:
     """Ground motion of a case: read, in m/s2, rotated, scaled, compressed, trimmed, resampled,
     joined by lines, delayed, in this order.
 
     Parameters
     ----------
     motion
-        the case's [motion] table.
-    dt
+        a Motion, such as `case.motion`, or its source alone, such as "lick:1".
+    dt_s
         step of the analysis, integration.dt_s [s].
     file
         the case's file, for messages.
@@ -85,41 +89,50 @@ def load_motion(motion: Motion, dt: float, file: Path | str) -> GroundMotion:
     Returns
     -------
     GroundMotion
-        acceleration: (n, 3) along x, y, z [m/s2], from the step after rest on; dt: `dt` or
-        motion.resample_s [s].
+        acceleration_m_s2: (n, 3) along x, y, z (up), from the step after rest on; dt_s: that of
+        the analysis, or motion.resample_s [s].
 
     Raises
     ------
     InputError
-        a file cannot be used, contradicts the case or another component, or is shorter than dt.
+        a file cannot be used, contradicts the case or another component, or is shorter than dt_s.
 
     Warns
     -----
-        AliasingWarning: dt is too coarse for the motion. UserWarning: sampled, its peak is 2 %
-        above that of the file.
+    AliasingWarning
+        dt_s is too coarse for the motion.
+    UserWarning
+        sampled, its peak is 2 % above that of the file.
     """
+    if isinstance(motion, str):
+        motion = Motion(motion)
+    elif not isinstance(motion, Motion):
+        told = 'must be a Motion, or the text of its source, such as "lick:1"'
+        raise InputError(file, "motion", motion, told)
     ground = unsampled(motion, file)
-    if motion.resample_s and dt > motion.resample_s * (1 + _DT_TOLERANCE):
+    if motion.resample_s and dt_s > motion.resample_s * (1 + _DT_TOLERANCE):
         raise InputError(
             file,
             "integration.dt_s",
-            dt,
+            dt_s,
             f"must be at most motion.resample_s = {motion.resample_s:g} s",
         )
     key, step = (
-        ("motion.resample_s", motion.resample_s) if motion.resample_s else ("integration.dt_s", dt)
+        ("motion.resample_s", motion.resample_s)
+        if motion.resample_s
+        else ("integration.dt_s", dt_s)
     )
     if step > ground.duration:
         raise InputError(
             file, key, step, f"must be at most the motion's length, {ground.duration:g} s"
         )
-    if (least := (ground.duration + motion.delay_s) / MOST_SAMPLES) > dt or (
+    if (least := (ground.duration + motion.delay_s) / MOST_SAMPLES) > dt_s or (
         least := ground.dt / _LARGEST_RATIO
-    ) > dt:
+    ) > dt_s:
         raise InputError(
             file,
             "integration.dt_s",
-            dt,
+            dt_s,
             f"must be at least {least:.3g} s for a motion of {ground.duration:g} s "
             f"sampled at {ground.dt:g} s",
         )
@@ -134,8 +147,8 @@ def load_motion(motion: Motion, dt: float, file: Path | str) -> GroundMotion:
     try:
         sampled = resample(ground, step)
         if told := higher_between_rows(ground, sampled):
-            warnings.warn(f"{file}: motion: {told}", stacklevel=2)
-        return delay(join(sampled, dt), motion.delay_s)
+            warnings.warn(f"{file}: motion: {told}", stacklevel=3)
+        return delay(join(sampled, dt_s), motion.delay_s)
     except ValueError as error:
         raise InputError(file, key, step, str(error)) from None
 

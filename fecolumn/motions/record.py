@@ -36,9 +36,9 @@ class GroundMotion:
     Attributes
     ----------
     acceleration
-        (n_steps, 3) along x, y and z (up), read-only [m/s2].
+        older name of `acceleration_m_s2`.
     dt
-        sampling step [s].
+        older name of `dt_s`.
     name
         short name for figures and tables.
     source
@@ -60,8 +60,28 @@ class GroundMotion:
         object.__setattr__(self, "acceleration", acceleration)
 
     @property
-    def duration(self) -> float:
+    def acceleration_m_s2(self) -> NDArray[Any]:
+        """Acceleration (n_steps, 3) along x, y and z (up), read-only [m/s2]."""
+        return self.acceleration
+
+    @property
+    def dt_s(self) -> float:
+        """Sampling step [s]."""
+        return self.dt
+
+    @property
+    def duration_s(self) -> float:
         """Time from the first to the last sample [s]."""
+        return self.duration
+
+    @property
+    def peak_m_s2(self) -> NDArray[Any]:
+        """Peak absolute acceleration (3,) along x, y and z [m/s2]."""
+        return self.pga
+
+    @property
+    def duration(self) -> float:
+        """Older name of `duration_s`."""
         return (len(self.acceleration) - 1) * self.dt
 
     @property
@@ -71,7 +91,7 @@ class GroundMotion:
 
     @property
     def pga(self) -> NDArray[Any]:
-        """Peak absolute acceleration (3,) [m/s2]."""
+        """Older name of `peak_m_s2`."""
         result: NDArray[Any] = np.abs(self.acceleration).max(axis=0)
         return result
 

@@ -116,7 +116,10 @@ def compare(
     ks, ad = kolmogorov_smirnov(a, b), anderson_darling(a, b, resamples, seed)
     cvm = cramer_von_mises(a, b, resamples, seed)
     table = contingency(overturned_a, overturned_b) if paired else None
-    median_a, median_b = percentile(u_a, overturned_a, 0.5), percentile(u_b, overturned_b, 0.5)
+    median_a, median_b = (
+        percentile(u_a, overturned_a, fraction=0.5),
+        percentile(u_b, overturned_b, fraction=0.5),
+    )
     return Comparison(
         a.size,
         b.size,

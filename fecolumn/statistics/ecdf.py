@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from fecolumn.foundation.deprecated import warn_of_older_name
+from fecolumn.foundation.deprecated import by_name, warn_of_older_name
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.bands import greenwood, wilson
 
@@ -24,8 +24,10 @@ class Ecdf:
     ----------
     x
         (m,) distinct finite values, rising [unit of the sample].
-    cdf, lower, upper
-        (m,) F at and right of x, and its band, in [0, 1].
+    cdf
+        (m,) F at and right of x, in [0, 1].
+    lower, upper
+        (m,) its band, also by the names `low` and `high` that tables have.
     n
         size of the sample, lost runs included: those that overturned or slid off.
     lost
@@ -40,6 +42,16 @@ class Ecdf:
     lost: int
 
     @property
+    def low(self) -> NDArray[Any]:
+        """Lower end (m,) of the band."""
+        return self.lower
+
+    @property
+    def high(self) -> NDArray[Any]:
+        """Upper end (m,) of the band."""
+        return self.upper
+
+    @property
     def overturned(self) -> int:
         """Older name of `lost`."""
         warn_of_older_name("script", "Ecdf.overturned", "Ecdf.lost")
@@ -51,7 +63,8 @@ def _check_share(where: str, name: str, value: float) -> None:
         raise InputError(where, name, value, "must lie between 0 and 1")
 
 
-def ecdf(u_max: ArrayLike, lost: ArrayLike, confidence: float = 0.95) -> Ecdf:
+@by_name("confidence")
+def ecdf(u_max: ArrayLike, lost: ArrayLike, *, confidence: float = 0.95) -> Ecdf:
     """Distribution of u_max, lost runs censored at the right.
 
     A lost run says only that its peak lies beyond every peak of a run that stood. Then
@@ -88,12 +101,20 @@ def ecdf(u_max: ArrayLike, lost: ArrayLike, confidence: float = 0.95) -> Ecdf:
     return Ecdf(x, cdf, *greenwood(cdf, n, confidence), n, n - standing.size)
 
 
-def percentile(u_max: ArrayLike, lost: ArrayLike, fraction: float) -> float:
+@by_name("fraction")
+def percentile(u_max: ArrayLike, lost: ArrayLike, *, fraction: float) -> float:
     """Smallest u with F(u) >= fraction, from a sample with lost runs; inf where that run
     was lost.
 
     The inverse of the ECDF (type 1 of Hyndman & Fan 1996, The American Statistician 50): no
     interpolation, which would have no meaning between a run that stood and one that was lost.
+
+    Parameters
+    ----------
+    u_max, lost
+        (n,) as of `ecdf`.
+    fraction
+        of the runs, in (0, 1]; 0.5 of the median.
 
     Raises
     ------
@@ -107,8 +128,9 @@ def percentile(u_max: ArrayLike, lost: ArrayLike, fraction: float) -> float:
     return float(np.sort(standing)[rank - 1]) if rank <= standing.size else math.inf
 
 
+@by_name("confidence", "method")
 def proportion_interval(
-    k: int, n: int, confidence: float = 0.95, method: str = "wilson"
+    k: int, n: int, *, confidence: float = 0.95, method: str = "wilson"
 ) -> tuple[float, float]:
     """Confidence interval of a probability after k of n runs, such as P(overturn).
 

@@ -73,7 +73,7 @@ def summarize(
     slid_off = np.broadcast_to(np.asarray(slid_off, bool), overturned.shape)
     lost = overturned | slid_off
     n, k = overturned.size, int(overturned.sum())
-    u16, u50, u84 = (percentile(u_max, lost, fraction) for fraction in (0.16, 0.50, 0.84))
+    u16, u50, u84 = (percentile(u_max, lost, fraction=fraction) for fraction in (0.16, 0.50, 0.84))
     return EnsembleSummary(
         n,
         k,

@@ -297,7 +297,7 @@ def _table(
     overturned = np.array([response.overturned for _, response in responses])
     if len(responses) > 1:
         low, high = proportion_interval(int(overturned.sum()), len(overturned))
-        shown = [percentile(u_max, overturned, share) for share in (0.16, 0.5, 0.84)]
+        shown = [percentile(u_max, overturned, fraction=share) for share in (0.16, 0.5, 0.84)]
         words = ["overturn" if np.isinf(one) else f"{1e3 * one:.4g} mm" for one in shown]
         print(
             f"\n{len(responses)} motions: {overturned.sum()} overturned, P = "

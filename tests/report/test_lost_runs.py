@@ -161,7 +161,7 @@ OTHER = np.where(LOST, 17.0, U)
 B, B_LOST = U[::-1].copy(), LOST[::-1].copy()
 READERS = {
     "ecdf": lambda u: ecdf(u, LOST).x.tolist(),
-    "percentile": lambda u: percentile(u, LOST, 0.5),
+    "percentile": lambda u: percentile(u, LOST, fraction=0.5),
     "censored": lambda u: censored(u, LOST).tolist(),
     "largest_peak": lambda u: largest_peak((u, LOST)),
     "summarize": lambda u: summarize(u, LOST, np.zeros(6), np.zeros(6)),

@@ -20,7 +20,7 @@ def test_rows_come_back_with_their_dictionary(tmp_path):
         dict(which="one", length_m=-1e-7, count=5),
     ]
     write_outcomes(tmp_path / "few.h5", rows, _THREE, dict(version="1", physics=3))
-    table = fecolumn.outcomes(tmp_path / "few.h5")
+    table = fecolumn.outcomes(file=tmp_path / "few.h5")
     assert list(table.columns) == ["which", "length_m", "count"]
     assert list(table["which"]) == ["other", "one", "one"]
     assert list(table["count"]) == [2, -1, 5]
@@ -31,16 +31,16 @@ def test_rows_come_back_with_their_dictionary(tmp_path):
 
 def test_what_is_no_table_is_refused(tmp_path):
     with pytest.raises(fecolumn.InputError, match="is no file; python -m benchmarks.outcomes"):
-        fecolumn.outcomes(tmp_path / "none.h5")
+        fecolumn.outcomes(file=tmp_path / "none.h5")
     (tmp_path / "text.h5").write_text("no")
     with pytest.raises(fecolumn.InputError, match="is no HDF5 file"):
-        fecolumn.outcomes(tmp_path / "text.h5")
+        fecolumn.outcomes(file=tmp_path / "text.h5")
     import h5py
 
     with h5py.File(tmp_path / "empty.h5", "w"):
         pass
     with pytest.raises(fecolumn.InputError, match="no table of outcomes"):
-        fecolumn.outcomes(tmp_path / "empty.h5")
+        fecolumn.outcomes(file=tmp_path / "empty.h5")
     with pytest.raises(ValueError, match="width: in no column"):
         write_outcomes(tmp_path / "odd.h5", [dict(width=1.0)], _THREE, {})
 

@@ -53,7 +53,11 @@ def test_band_is_kaplan_meiers_with_greenwoods_variance():
 
 def test_all_overturned_leaves_no_curve_and_no_percentile():
     f = ecdf([1.0, 1.0], [True, True])
-    assert f.x.size == 0 and f.lost == 2 and percentile([1.0, 1.0], [True, True], 0.16) == math.inf
+    assert (
+        f.x.size == 0
+        and f.lost == 2
+        and percentile([1.0, 1.0], [True, True], fraction=0.16) == math.inf
+    )
 
 
 def test_lists_of_two_lengths_are_refused_as_input():
@@ -71,12 +75,15 @@ def test_nan_of_a_standing_run_is_refused_not_counted_as_overturned():
 def test_percentiles_are_the_inverse_of_the_ecdf():
     u = np.arange(1, 26) / 100
     standing = np.zeros(25, bool)
-    assert [percentile(u, standing, q) for q in (0.16, 0.5, 0.84)] == [0.04, 0.13, 0.21]
+    assert [percentile(u, standing, fraction=q) for q in (0.16, 0.5, 0.84)] == [0.04, 0.13, 0.21]
     for q in (0.16, 0.5, 0.84):
-        assert percentile(u, standing, q) == np.quantile(u, q, method="inverted_cdf")
+        assert percentile(u, standing, fraction=q) == np.quantile(u, q, method="inverted_cdf")
     # 0.07 * 100 > 7 in binary
     assert percentile(np.arange(1, 101) / 100, np.zeros(100, bool), 0.07) == 0.07
-    assert percentile(u, u > 0.2, 0.84) == math.inf and percentile(u, u > 0.2, 0.5) == 0.13
+    assert (
+        percentile(u, u > 0.2, fraction=0.84) == math.inf
+        and percentile(u, u > 0.2, fraction=0.5) == 0.13
+    )
 
 
 def test_wilson_interval_of_the_published_ensemble():
@@ -125,11 +132,17 @@ def test_row_of_an_ensemble():
 @pytest.mark.parametrize(
     "call, told",
     [
-        (lambda: ecdf([1.0, 2.0], [0, 0], 95), "confidence = 95: must lie between 0 and 1"),
-        (lambda: percentile([1.0, 2.0], [0, 0], 2), "fraction = 2: must lie between 0 and 1"),
+        (
+            lambda: ecdf([1.0, 2.0], [0, 0], confidence=95),
+            "confidence = 95: must lie between 0 and 1",
+        ),
+        (
+            lambda: percentile([1.0, 2.0], [0, 0], fraction=2),
+            "fraction = 2: must lie between 0 and 1",
+        ),
         (lambda: proportion_interval(3, 2), r"k = 3: must be in \[0, 2\]"),
         (lambda: proportion_interval(0, 0), "n = 0: must be at least 1"),
-        (lambda: proportion_interval(1, 2, 0.0), "confidence = 0.0"),
+        (lambda: proportion_interval(1, 2, confidence=0.0), "confidence = 0.0"),
         (lambda: proportion_interval(1, 2, method="wald"), "must be 'wilson' or 'exact'"),
     ],
 )

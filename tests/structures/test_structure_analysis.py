@@ -78,7 +78,7 @@ def test_results_of_a_structure_have_its_units_and_figures(leaning):
         )
     ] == ["m", "rad", "N", "J"]
     assert "body/upper/displacement_x [m]" in result.columns()
-    assert result.plot.interfaces("joint")._repr_png_().startswith(b"\x89PNG")
+    assert result.plot.joints("joint")._repr_png_().startswith(b"\x89PNG")
 
 
 def test_stopped_analysis_goes_on_to_the_same_motion(leaning, tmp_path):

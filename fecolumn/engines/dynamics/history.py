@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +12,9 @@ import numpy as np
 from fecolumn.engines.dynamics.energy import TERMS
 from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.atomic import write_hdf5
+from fecolumn.foundation.deprecated import by_name
+from fecolumn.foundation.refused import UnknownName, UnreadableFile
+from fecolumn.foundation.schema import InputError, meant
 
 UNITS = {
     "time": "s",
@@ -146,7 +151,8 @@ class History:
         write_hdf5(path, fill)
 
 
-def read_history(path: Path, names: tuple[str, ...] = ()) -> dict[str, Array]:
+@by_name("names")
+def read_history(path: Path | str, *, names: Sequence[str] = ()) -> dict[str, Array]:
     """Columns of a history file.
 
     Parameters
@@ -164,18 +170,39 @@ def read_history(path: Path, names: tuple[str, ...] = ()) -> dict[str, Array]:
 
     Raises
     ------
+    InputError
+        no such file, or none of HDF5 (which is an OSError, too); one named is not in it (a
+        KeyError, too).
+    """
+    if not isinstance(path, (str, os.PathLike)):
+        raise InputError("read_history", "path", path, "must be the path of a history.h5")
+    try:
+        return history_columns(Path(path), names)
+    except OSError as error:
+        is_there = Path(path).is_file()
+        told = f"not a file of HDF5 ({error})" if is_there else "no such file"
+        raise UnreadableFile(path, "", None, " ".join(told.split())) from None
+
+
+def history_columns(path: Path, names: Sequence[str] = ()) -> dict[str, Array]:
+    """As `read_history`, whose file is HDF5.
+
+    Raises
+    ------
     OSError
         no such file, or none of HDF5.
-    KeyError
+    InputError
         one named is not in it.
     """
     import h5py
 
     with h5py.File(path) as file:
-        if names:
-            return {name: file[name][()] for name in names}
         found: list[str] = []
         file.visititems(
             lambda name, item: found.append(name) if isinstance(item, h5py.Dataset) else None
         )
-        return {name: file[name][()] for name in found}
+        for name in names:
+            if name not in found:
+                told = f"is no column of it{meant(name, found)}; it has {', '.join(found)}"
+                raise UnknownName(path, name, None, told)
+        return {name: file[name][()] for name in names or found}

@@ -54,7 +54,9 @@ def screened(
         if not (done := runs[one.values]):
             continue
         counts = tuple(sum(limit.happened(run) for run in done) for limit in limits)
-        median = percentile([run["u_max_m"] for run in done], [lost(run) for run in done], 0.5)
+        median = percentile(
+            [run["u_max_m"] for run in done], [lost(run) for run in done], fraction=0.5
+        )
         found.append(ScreenedObject(one, len(done), counts, median))
     return sorted(found, key=lambda one: (*(-count / one.n for count in one.counts), -one.median_m))
 

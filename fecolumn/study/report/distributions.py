@@ -121,7 +121,7 @@ def _views(sweep: Sweep) -> list[tuple[str, str | None]]:
 
 
 def _median(u_max: NDArray[Any], overturned: NDArray[Any]) -> float:
-    return percentile(u_max, overturned, 0.5)
+    return percentile(u_max, overturned, fraction=0.5)
 
 
 def _panels(sweep: Sweep, axis: str | None) -> list[CdfPanel]:
@@ -173,7 +173,7 @@ def _opening(sweep: Sweep, figure: str) -> str:
     u, over = sweep.reference.peaks()
     fallen = sweep.reference.column("overturned")
     low, high = proportion_interval(int(fallen.sum()), fallen.size)
-    median = percentile(u, over, 0.5)
+    median = percentile(u, over, fraction=0.5)
     half = (
         " mm"
         if np.isfinite(median)

@@ -275,7 +275,7 @@ def _rows(
         beside: list[float | None] = [None] * (5 + any_fewer)
         if setting is not line.reference:
             test = paired_kolmogorov_smirnov(censored(u, lost), censored(base, base_lost))
-            medians = [percentile(*one, 0.5) for one in ((u, lost), (base, base_lost))]
+            medians = [percentile(*one, fraction=0.5) for one in ((u, lost), (base, base_lost))]
             e50 = abs(medians[0] - medians[1]) / medians[1] if np.isfinite(medians).all() else None
             beside = [
                 e50,
@@ -292,7 +292,7 @@ def _rows(
             int(fallen.sum()),
             float(fallen.mean()),
             *proportion_interval(int(fallen.sum()), len(motions)),
-            percentile(u, lost, 0.5),
+            percentile(u, lost, fraction=0.5),
             *beside,
             _cost(setting, motions),
         )

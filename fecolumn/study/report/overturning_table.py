@@ -59,7 +59,7 @@ def overturning_blocks(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
                 k / n,
                 *wilson,
                 *exact,
-                *(percentile(u, over, share) for share in (0.16, 0.5, 0.84)),
+                *(percentile(u, over, fraction=share) for share in (0.16, 0.5, 0.84)),
             )
         )
         estimates.append(

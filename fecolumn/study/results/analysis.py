@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import html
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,10 +13,10 @@ from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
 from fecolumn.engines.dynamics.energy import TERMS
+from fecolumn.foundation.deprecated import renamed
 from fecolumn.foundation.files import is_file
-from fecolumn.foundation.schema import InputError, meant
+from fecolumn.study.results.analysis_plots import AnalysisPlots, history_of
 from fecolumn.study.results.parting import Parting, parting
-from fecolumn.study.results.picture import Picture
 
 if TYPE_CHECKING:
     import pandas
@@ -47,6 +48,7 @@ class AnalysisResult:
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
+        self._summary: dict[str, Any] = {}
 
     @functools.cached_property
     def history(self) -> dict[str, NDArray[Any]]:
@@ -57,16 +59,12 @@ class AnalysisResult:
         InputError
             the analysis has written none yet, or it is damaged or of another case.
         """
-        from fecolumn.engines.stored import stored_history
+        return history_of(self.folder)
 
-        file = self.folder / "history.h5"
-        if not is_file(file):
-            raise InputError(file, "", None, "not written yet")
-        return stored_history(file)
-
-    @functools.cached_property
+    @property
     def summary(self) -> dict[str, Any]:
-        """What summary.json says; empty while the analysis has not ended.
+        """What summary.json says; empty while the analysis has not ended, and looked for again
+        then.
 
         Raises
         ------
@@ -75,7 +73,9 @@ class AnalysisResult:
         """
         from fecolumn.engines.summary import SUMMARY_FILE, summary_of_folder
 
-        return summary_of_folder(self.folder) if is_file(self.folder / SUMMARY_FILE) else {}
+        if not self._summary and is_file(self.folder / SUMMARY_FILE):
+            self._summary = summary_of_folder(self.folder)
+        return self._summary
 
     @functools.cached_property
     def case(self) -> Case:
@@ -130,8 +130,8 @@ class AnalysisResult:
 
     @property
     def energy(self) -> dict[str, NDArray[Any]]:
-        """Terms of the energy ledger (n,) [J] by name, as of `dynamics.energy.TERMS`; zero where an
-        earlier version did not write one.
+        """Terms of the energy ledger (n,) [J] by name, those of the manual's page outputs; zero
+        where an earlier version did not write one.
         """
         return {
             term: self.history.get(f"energy/{term}", np.zeros(len(self.time))) for term in TERMS
@@ -191,26 +191,104 @@ class AnalysisResult:
     @property
     def plot(self) -> AnalysisPlots:
         """Figures: `plot.top()`, `plot.path()`, `plot.energy()`, of a structure
-        `plot.interfaces()`, `plot.storeys()`, `plot.links()` and
+        `plot.joints()`, `plot.storeys()`, `plot.links()` and
         `plot.bonds()`.
         """
         return AnalysisPlots(self.folder)
 
-    def render(self, **options: Any) -> list[Path]:
-        """Movie, stills and sequence as of `fecolumn render`; the files.
+    @renamed(color="colour")
+    def render(
+        self,
+        *,
+        only: str = "",
+        view: str = "",
+        body: str = "",
+        instants: Sequence[float] = (),
+        start: float | None = None,
+        end: float | None = None,
+        speed: float = 1.0,
+        fps: float = 25.0,
+        size: tuple[int, int] = (1280, 720),
+        colour: str = "",
+        exaggerate: float | str = 1.0,
+        forces: bool = False,
+        gif: bool = False,
+        html: bool = False,
+        paraview: bool = False,
+        quiet: bool = True,
+    ) -> list[Path]:
+        """Draw the analysis as `fecolumn render` does, into the folder `render` of its own.
 
         Parameters
         ----------
-        options
-            by the names of `pictures.render.render_options.RenderOptions`, such as view="front",
-            only="pictures", instants=(0.5, 1.0) [s].
+        only
+            "movie" or "pictures", which are stills and sequence; left out: both.
+        view
+            from where: "lean" sees the largest lean at full length, "front" looks along y, "side"
+            along -x, or "iso", "foot", "plan"; left out: lean, of `html` iso.
+        body
+            of a structure: the body whose top is followed and at whose foot the view "foot" looks;
+            left out: the observed one.
+        instants
+            times of stills and sequence [s], ten at most; left out: five, the peaks of the top's
+            displacement.
+        start, end
+            of the movie or page [s]; left out: those of the analysis.
+        speed
+            seconds of motion in a second of the movie, 0.001 to 100.
+        fps
+            pictures a second, 1 to 60.
+        size
+            (width, height) of the movie [pixels], even numbers.
+        colour
+            "stress" (von Mises), "displacement" or "none"; left out: stress where fields were
+            written, none with `forces`.
+        exaggerate
+            factor on elastic displacements, 1 to 1e6, or "auto".
+        forces
+            whether resultants, thrust line and hinges are drawn over the bodies.
+        gif
+            whether the movie is a GIF, not an MP4.
+        html
+            whether one page with the motion in three dimensions is written, and nothing else.
+        paraview
+            whether a script for ParaView is written, and nothing else.
+        quiet
+            no progress on stderr.
+
+        Returns
+        -------
+        The files.
+
+        Raises
+        ------
+        InputError
+            no history yet, a value out of range, times outside of the analysis, or what needs
+            fields or states that were not written; options are named as those of the command.
         """
         from fecolumn.pictures.render.draw import render
         from fecolumn.pictures.render.render_options import RenderOptions
 
-        return render(self.folder, RenderOptions(**options), quiet=True)
+        options = RenderOptions(
+            only=only,
+            view=view,
+            body=body,
+            instants=tuple(instants),
+            start=start,
+            end=end,
+            speed=speed,
+            fps=fps,
+            size=size,
+            color=colour,
+            exaggerate=exaggerate,
+            forces=forces,
+            gif=gif,
+            html=html,
+            paraview=paraview,
+        )
+        return render(self.folder, options, quiet=quiet)
 
-    def compare(self, other: AnalysisResult, tolerance: float = 0.05) -> Parting:
+    def compare(self, other: AnalysisResult, *, tolerance: float = 0.05) -> Parting:
         """Compare with another analysis as `fecolumn compare` does.
 
         Parameters
@@ -243,95 +321,6 @@ class AnalysisResult:
         return (
             f"<table><caption>{title}</caption>{rows or '<tr><td>not finished</td></tr>'}</table>"
         )
-
-
-class AnalysisPlots:
-    """Figures of an analysis, each a Picture."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-
-    def top(self) -> Picture:
-        """Displacement of the top against time, below the ground motion."""
-        from fecolumn.pictures.figures.history_curves import HistoryCurves, read_ending
-        from fecolumn.pictures.figures.top_figure import top_figure
-
-        return Picture(
-            lambda path: top_figure(
-                HistoryCurves.read(self.folder / "history.h5"), read_ending(self.folder), path
-            )
-        )
-
-    def path(self) -> Picture:
-        """Path of the top in plan."""
-        from fecolumn.pictures.figures.history_curves import HistoryCurves, read_ending
-        from fecolumn.pictures.figures.path_figure import path_figure
-
-        return Picture(
-            lambda path: path_figure(
-                HistoryCurves.read(self.folder / "history.h5"), read_ending(self.folder), path
-            )
-        )
-
-    def interfaces(self, *names: str) -> Picture:
-        """Of a structure: tilt, uplift, slide and normal force at interfaces, of all unless
-        named.
-        """
-        from fecolumn.pictures.figures.structure_figures import interface_figure, interface_names
-
-        columns = AnalysisResult(self.folder).history
-        chosen = _chosen(names, interface_names(columns), "joint")
-        return Picture(lambda path: interface_figure(columns, path, chosen))
-
-    def storeys(self) -> Picture:
-        """Of a structure with storeys: their drifts and shears."""
-        from fecolumn.pictures.figures.structure_figures import storey_figure
-
-        return Picture(lambda path: storey_figure(AnalysisResult(self.folder).history, path))
-
-    def links(self, *names: str) -> Picture:
-        """Of a structure with links: their tension over time and over their elongation, of all
-        unless named; copies go by one name.
-        """
-        from fecolumn.pictures.figures.structure_figures import link_figure, link_names
-
-        columns = AnalysisResult(self.folder).history
-        chosen = _chosen(names, link_names(columns), "link")
-        return Picture(lambda path: link_figure(columns, path, chosen))
-
-    def bonds(self, *names: str) -> Picture:
-        """Of a structure with glued joints: their stresses and how much of them has failed, of all
-        unless named.
-        """
-        from fecolumn.pictures.figures.structure_figures import bond_figure, bond_names
-
-        columns = AnalysisResult(self.folder).history
-        return Picture(lambda path: bond_figure(columns, path, list(names) or bond_names(columns)))
-
-    def energy(self) -> Picture:
-        """The energy ledger against time."""
-        from fecolumn.pictures.figures.energy_figure import energy_figure
-        from fecolumn.pictures.figures.history_curves import HistoryCurves
-
-        return Picture(
-            lambda path: energy_figure(HistoryCurves.read(self.folder / "history.h5"), path)
-        )
-
-
-def _chosen(names: tuple[str, ...], known: list[str], what: str) -> list[str]:
-    """The names that a figure is to show, all unless some are given.
-
-    Raises
-    ------
-    KeyError
-        none of this name, or none at all.
-    """
-    if not known:
-        raise KeyError(f"this analysis has no {what}")
-    for name in names:
-        if name not in known:
-            raise KeyError(f"no {what} {name!r}{meant(name, known)}; known: {', '.join(known)}")
-    return list(names) or known
 
 
 def _cell(value: Any, factor: float | None, unit: str) -> str:

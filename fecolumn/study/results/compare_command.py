@@ -205,13 +205,12 @@ def _summary(a: AnalysisResult, b: AnalysisResult, found: Parting) -> dict[str, 
     """What comparison.json holds, in SI units."""
 
     def told(pair: QuantityPair, unit: str) -> dict[str, Any]:
-        time = None if pair.parted is None else float(found.time[pair.parted])
         return dict(
             unit=unit,
             peak_a=pair.peaks[0],
             peak_b=pair.peaks[1],
             difference_max=float(pair.difference.max()),
-            parted_s=time,
+            parted_s=pair.parted_s,
         )
 
     first = found.first

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.foundation.atomic import write_hdf5
+from fecolumn.foundation.deprecated import by_name
 from fecolumn.foundation.files import is_file
 from fecolumn.foundation.schema import InputError
 
@@ -47,7 +48,8 @@ class TableColumn(NamedTuple):
     words: tuple[str, ...] = ()
 
 
-def outcomes(file: str | Path | None = None) -> pandas.DataFrame:
+@by_name("file")
+def outcomes(*, file: str | Path | None = None) -> pandas.DataFrame:
     """Outcomes of very many analyses: bodies that slide, rock and fall, one row an analysis.
 
     A row has geometry, friction, stiffness and the motion's intensity measures, the outcome, the

@@ -44,19 +44,21 @@ class Analysed(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class QuantityPair:
-    """One quantity of both analyses on common times.
+    """One quantity of both analyses on common times, those of the `Parting` that has it.
 
     Attributes
     ----------
     a, b
-        (n, k) in SI units; k = 2 of the top's horizontal displacement, else 1.
+        (n, k) in SI units; k = 2 of the top's horizontal displacement along x and y, else 1.
     peak
-        the larger of both largest magnitudes.
+        the larger of both largest magnitudes, in the same unit.
     difference
-        (n,) magnitude of a - b.
+        (n,) magnitude of a - b, in the same unit.
     parted
-        row of the first time at which the difference exceeds the tolerance times the peak; None
-        where none does, or where it is not judged.
+        row, from 0, of the first time at which the difference exceeds the tolerance times the peak;
+        None where none does, or where it is not judged.
+    parted_s
+        that time [s]; None as `parted`.
     judged
         whether the quantity is more than the elastic deformation of a column that stands.
     """
@@ -67,19 +69,25 @@ class QuantityPair:
     difference: NDArray[Any]
     parted: int | None
     judged: bool = True
+    parted_s: float | None = None
 
     @classmethod
     def of(
-        cls, a: NDArray[Any], b: NDArray[Any], tolerance: float, judged: bool = True
+        cls,
+        a: NDArray[Any],
+        b: NDArray[Any],
+        tolerance: float,
+        judged: bool = True,
+        time: NDArray[Any] | None = None,
     ) -> QuantityPair:
-        """The pair of (n, k) arrays, or (n,) as such of one column."""
+        """The pair of (n, k) arrays, or (n,) as such of one column, at times (n,) [s]."""
         a, b = (values.reshape(len(values), -1) for values in (a, b))
         peak = max(float(np.linalg.norm(values, axis=1).max()) for values in (a, b))
         difference = np.linalg.norm(a - b, axis=1)
         beyond = np.flatnonzero(difference > tolerance * peak)
-        return cls(
-            a, b, peak, difference, int(beyond[0]) if judged and len(beyond) else None, judged
-        )
+        row = int(beyond[0]) if judged and len(beyond) else None
+        at = None if row is None or time is None else float(time[row])
+        return cls(a, b, peak, difference, row, judged, at)
 
     @property
     def peaks(self) -> tuple[float, float]:
@@ -98,11 +106,11 @@ class Parting:
         (n,) [s], rows of the analysis whose rows are further apart, within the time that both
         analysed; the other is taken between its rows along straight lines.
     tolerance
-        of `QuantityPair.parted` [-].
+        difference over the peak [-] beyond which a QuantityPair has parted.
     quantities
-        QuantityPair by the names of QUANTITIES.
+        QuantityPair by name: "top" [m], "tilt" [rad], "uplift" [m].
     energy
-        QuantityPair by the terms of the ledger [J].
+        QuantityPair by the terms of the energy ledger [J], the names of `AnalysisResult.energy`.
     keys
         (key, value of A, value of B) of the case that differ; None of a section that is absent.
     """
@@ -155,7 +163,7 @@ def parting(a: Analysed, b: Analysed, tolerance: float = TOLERANCE) -> Parting:
 
     def pair(values: Iterable[NDArray[Any]], judged: bool = True) -> QuantityPair:
         first, second = (_at(time, history["time"], one) for history, one in zip(histories, values))
-        return QuantityPair.of(first, second, tolerance, judged)
+        return QuantityPair.of(first, second, tolerance, judged, time)
 
     quantities = {
         "top": pair([history["u_top"][:, :2] for history in histories]),

@@ -73,7 +73,13 @@ class StudyResult:
 
     @property
     def rows(self) -> list[dict[str, Any]]:
-        """One dict an analysis in the order of the study file, as of `study.store.Study`."""
+        """One dict an analysis in the order of the study file.
+
+        Keys: id; axes (value by dotted key); state ("planned", "running", "done", "failed"); reason
+        (why it failed); wall_s [s]; version; summary (as of summary.json, None until it is done);
+        motion (digest of what it holds); machine; started [s since 1970]; log (file with what a
+        failed one said, relative to the folder).
+        """
         return self._study.rows
 
     @property
@@ -89,10 +95,11 @@ class StudyResult:
     @property
     def finished(self) -> bool:
         """Whether nothing is left to be done: each analysis is done or has failed."""
-        return self.done + self.failed == len(self.rows)
+        return self.done + self.failed == self._study.analyses
 
     def chosen(self, choice: dict[str, Any] | None = None) -> list[dict[str, Any]]:
-        """Rows that are done and have the values of `choice`, such as {"integration.dt_s": 1e-3}.
+        """Those of `rows` that are done and have the values of `choice`, by the dotted keys of
+        axes, such as {"integration.dt_s": 1e-3}.
 
         Raises
         ------

@@ -70,7 +70,7 @@ one = fecolumn.load(folder / "one")
 one
 
 # %%
-one.plot.interfaces()
+one.plot.joints()
 
 # %% [markdown]
 # Which joint slid the most?
