@@ -101,8 +101,7 @@ def ecdf(u_max: ArrayLike, lost: ArrayLike, *, confidence: float = 0.95) -> Ecdf
     return Ecdf(x, cdf, *greenwood(cdf, n, confidence), n, n - standing.size)
 
 
-@by_name("fraction")
-def percentile(u_max: ArrayLike, lost: ArrayLike, *, fraction: float) -> float:
+def percentile(u_max: ArrayLike, lost: ArrayLike, fraction: float) -> float:
     """Smallest u with F(u) >= fraction, from a sample with lost runs; inf where that run
     was lost.
 

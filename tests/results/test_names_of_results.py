@@ -140,7 +140,6 @@ def test_the_band_of_a_distribution_has_the_names_of_tables():
             lambda: fecolumn.ecdf([0.1, 0.2], [0, 0], 0.9).low.tolist(),
             lambda: fecolumn.ecdf([0.1, 0.2], [0, 0], confidence=0.9).low.tolist(),
         ),
-        (lambda: fecolumn.percentile([0.1, 0.2], [0, 0], 0.5), lambda: 0.1),
         (
             lambda: fecolumn.proportion_interval(1, 9, 0.9, "exact"),
             lambda: fecolumn.proportion_interval(1, 9, confidence=0.9, method="exact"),

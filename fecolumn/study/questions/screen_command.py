@@ -9,8 +9,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from fecolumn.foundation.older_option import OlderOption
 from fecolumn.foundation.interrupt import termination_as_interrupt
+from fecolumn.foundation.older_option import OlderOption
 from fecolumn.study.questions.design_command import (
     add_motions_and_jobs,
     check_jobs,
