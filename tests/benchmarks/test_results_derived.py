@@ -9,9 +9,11 @@ from scipy.stats import binomtest
 from benchmarks import tables
 from benchmarks.impact.kept_map import kept_cells
 from benchmarks.results import RESULTS
+from benchmarks.tables.runs import read_runs
 from fecolumn.statistics.holm import holm
 from fecolumn.verification.multi_drum import OUTCOMES
 
+ROLLING_D2 = "rolling substeps, d2"
 PAGE = " ".join(RESULTS.read_text(encoding="utf-8").split())
 ROOT = RESULTS.parents[1]
 
@@ -59,7 +61,7 @@ def test_claims_of_the_paper_with_fixed_steps():
     assert f"the least p is {least:.3f}" in PAGE and 30 * least > 0.05
 
 
-def test_steps_with_rims_in_parts_are_told_apart_as_the_text_says():
+def test_steps_with_rolling_substeps_are_told_apart_as_the_text_says():
     short, shortest, fine = (
         pairs("paper_parts_steps", f"rolling substeps, {steps} s")
         for steps in ("0.02 and 0.001", "0.02 and 0.0001", "0.001 and 0.0001")
@@ -70,7 +72,7 @@ def test_steps_with_rims_in_parts_are_told_apart_as_the_text_says():
     assert f"(-0.333: p < 0.001, else {min(others):.2f} to {max(others):.2f})" in PAGE
     told = {alpha: one[1] for alpha, one in shortest.items() if one[1] < 0.05}
     assert list(told) == ["-0.05", "-0.1", "-0.333"]
-    assert "(-0.05, -0.1 and -0.333: 0.015, 0.002 and < 0.001; by Holm's rule for five" in PAGE
+    assert "(-0.05, -0.1 and -0.333: 0.016, 0.004 and < 0.001; by Holm's rule for five" in PAGE
     corrected = dict(zip(shortest, holm([one[1] for one in shortest.values()])))
     assert [alpha for alpha, p in corrected.items() if p < 0.05] == list(told)
     least = sorted(one[1] for one in fine.values())[:2]
@@ -80,11 +82,47 @@ def test_steps_with_rims_in_parts_are_told_apart_as_the_text_says():
     assert [alpha for alpha, p in zip(shortest, flips) if p < 0.05] == ["-0.333"]
 
 
-def test_alphas_with_rims_in_parts():
-    largest = [float(p) for p in column("paper_parts_alphas", "p of it").values()]
-    flips = min(float(p) for p in column("paper_parts_alphas", "least McNemar p").values())
-    assert f"not told (p {min(largest):.3f} to {max(largest):.3f})" in PAGE
-    assert f"the least McNemar's p of thirty is {flips:.3f}" in PAGE and 30 * flips > 0.05
+def test_alphas_with_rolling_substeps():
+    least, flips = (
+        min(float(p) for p in column("paper_parts_alphas", head).values())
+        for head in ("least p", "least McNemar p")
+    )
+    assert f"(least p {least:.3f}, least McNemar's p {flips:.3f};" in PAGE
+    assert min(30 * least, 30 * flips) > 0.05
+
+
+def test_claims_of_the_paper_with_rolling_substeps():
+    here = {
+        row.partition(", ")[2]: cell for row, cell in column("paper_parts_claims", "here").items()
+    }
+    supported = {claim for claim, verdict in here.items() if verdict == "supported"}
+    assert supported == {"a1", "a2, Δt", "a2, α", "b1", "d1"}
+    assert here["d2"] == "not supported" and {here["b2"], here["c"]} == {"undecided"}
+    found = {
+        row.partition(", ")[2]: cell
+        for row, cell in column("paper_parts_claims", "what was found").items()
+    }
+    assert "3 of 10 pairs differ" in found["b1"] and "b1 is supported by 3 of 10 pairs" in PAGE
+
+
+def test_what_less_damping_costs():
+    times = [
+        float(re.search(r"changes by a factor of ([\d.]+)", column(name, "what was found")[row])[1])
+        for name, row in (("paper_claims", "fixed step, d2"), ("paper_parts_claims", ROLLING_D2))
+    ]
+    told = "{} times as much at alpha 0 as at -0.333 with fixed steps, {} times with rolling"
+    assert told.format(*times) in PAGE
+
+    def iterations(study, dt, alpha):
+        runs = read_runs(f"paper/{study}-{dt}-{alpha}").values()
+        return np.mean([run["iterations"] / run["duration_s"] for run in runs])
+
+    more = [
+        100 * (iterations(study, dt, "0") / iterations(study, dt, "-0.333") - 1)
+        for study in ("paper_study", "paper_parts")
+        for dt in ("0.02", "0.001", "0.0001")
+    ]
+    assert f"differ by {min(more):.0f} to {max(more):+.0f} %" in PAGE
 
 
 def test_map_of_impacts():
