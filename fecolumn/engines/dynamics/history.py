@@ -197,12 +197,14 @@ def history_columns(path: Path, names: Sequence[str] = ()) -> dict[str, Array]:
     import h5py
 
     with h5py.File(path) as file:
+        missing = [name for name in names if not isinstance(file.get(name), h5py.Dataset)]
+        if names and not missing:
+            return {name: file[name][()] for name in names}
         found: list[str] = []
         file.visititems(
             lambda name, item: found.append(name) if isinstance(item, h5py.Dataset) else None
         )
-        for name in names:
-            if name not in found:
-                told = f"is no column of it{meant(name, found)}; it has {', '.join(found)}"
-                raise UnknownName(path, name, None, told)
-        return {name: file[name][()] for name in names or found}
+        for name in missing:
+            told = f"is no column of it{meant(name, found)}; it has {', '.join(found)}"
+            raise UnknownName(path, name, None, told)
+        return {name: file[name][()] for name in found}
