@@ -86,7 +86,7 @@ def test_a_list_of_objects_is_a_table_too(tmp_path):
         }
     )
     answer = fecolumn.screen(
-        objects, tmp_path / "m", motions="lick:1-5", limit="overturn", scale=3, engine="housner"
+        objects, tmp_path / "m", motions="lick:1-5", event="overturn", scale=3, engine="housner"
     )
     assert list(answer.table["name"]) == ["slender", "stout"]
     assert "Most endangered of 2 is 'slender'" in answer.text and "wrote" not in answer.text
@@ -176,7 +176,7 @@ def test_an_answer_counts_what_failed_and_is_given_all_the_same(designed, tmp_pa
 
 
 def test_where_nothing_is_done_there_is_no_answer_but_a_reason(tmp_path):
-    asked = dict(motions="lick:1-5", limit="overturn", scale=3, engine="housner")
+    asked = dict(motions="lick:1-5", event="overturn", scale=3, engine="housner")
     objects = pandas.DataFrame(
         {"name": ["slender"], "width_cm": [10], "depth_cm": [10], "height_cm": [150]}
         | {"mass_kg": [10], "friction": [0.6]}

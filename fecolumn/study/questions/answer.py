@@ -91,13 +91,7 @@ class _Heard:
         return next(filter(None, reversed(lines)), "no answer")
 
 
-def asked(
-    command: Any,
-    words: list[str],
-    folder: str | Path,
-    files: tuple[str, str],
-    retry_failed: bool = False,
-) -> Answer:
+def asked(command: Any, words: list[str], folder: str | Path, files: tuple[str, str]) -> Answer:
     """Run a command with these words and read its answer; files: its table and its figure.
 
     Raises
@@ -108,7 +102,6 @@ def asked(
     parser = _Words(prog=f"fecolumn {command.__name__.rpartition('.')[2].removesuffix('_command')}")
     command.add_arguments(parser)
     arguments = parser.parse_args([*words, "-o", str(folder)])
-    arguments.retry_failed = retry_failed
     said, heard = io.StringIO(), _Heard(sys.stderr)
     with (
         _own_signals(),

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from fecolumn.case.case import Case
+from fecolumn.foundation.deprecated import renamed
 from fecolumn.foundation.schema import InputError
 from fecolumn.study.questions.answer import Answer, asked
 from fecolumn.study.results.script import case_file
@@ -52,7 +53,7 @@ def design(
     -------
     Answer
         text of the command, its figure, and a table of each value looked at, in the key's unit:
-        key, value, n (runs that ended), beyond (runs beyond the limit), probability, wilson_low
+        key, value, n (runs that ended), reached (runs beyond the limit), probability, wilson_low
         and wilson_high (its 95 % interval). Its `failed` counts the analyses that are left out.
 
     Raises
@@ -68,16 +69,17 @@ def design(
     key, ends = _varied(vary)
     words = [case_file(case, folder, "fecolumn design"), "--vary", key, _range(ends)]
     words += ["--limit", limit, "--motions", *_several(motions), "--steps", str(steps)]
-    words += _jobs(jobs)
-    return asked(design_command, words, folder, ("design.csv", "design.png"), retry_failed)
+    words += [*_jobs(jobs), *["--retry-failed"] * retry_failed]
+    return asked(design_command, words, folder, ("design.csv", "design.png"))
 
 
+@renamed(limit="event")
 def risk(
     source: str | Path,
     folder: str | Path,
     *,
     hazard: str | Path,
-    limit: str = "overturn",
+    event: str = "overturn",
     years: float = 50.0,
     site: int = 1,
 ) -> Answer:
@@ -92,7 +94,7 @@ def risk(
     hazard
         CSV file of intensity, in the unit of the fragility's, and annual frequency of exceedance
         [1/year], or OpenQuake's export.
-    limit
+    event
         of a study: "overturn", "lost", "top > 50 mm" ...
     years
         time of exposure [years].
@@ -112,17 +114,18 @@ def risk(
     """
     from fecolumn.study.questions import risk_command
 
-    words = [str(source), "--hazard", str(hazard), "--limit", limit]
+    words = [str(source), "--hazard", str(hazard), "--event", event]
     words += ["--years", repr(float(years)), "--site", str(site)]
     return asked(risk_command, words, folder, ("risk.csv", "risk.png"))
 
 
+@renamed(limit="event")
 def screen(
     objects: Any,
     folder: str | Path,
     *,
     motions: str | Sequence[str],
-    limit: str | Sequence[str] = (),
+    event: str | Sequence[str] = (),
     scale: float = 1.0,
     engine: str = "rigid",
     jobs: int | None = None,
@@ -138,9 +141,10 @@ def screen(
     folder
         of the runs and the answer.
     motions
-        that every object gets.
-    limit
-        events of which the first ranks, such as ["overturn", "slide > 20 mm"].
+        that every object gets, 5 or more.
+    event
+        one or several, such as ["overturn", "slide > 20 mm"], of which the first ranks; left out:
+        overturn and slide > 10 mm, with engine "housner" overturn and top > 10 mm.
     scale
         factor on the motions.
     engine
@@ -159,7 +163,7 @@ def screen(
     Raises
     ------
     InputError
-        list, motions, limits or folder cannot be used.
+        list, motions, events or folder cannot be used.
     StudyError
         there is no answer: workers cannot start, the disk is full, or all analyses failed.
     """
@@ -171,10 +175,10 @@ def screen(
         objects = path
     words = [str(objects), "--motions", *_several(motions), f"--scale={scale:.17g}"]
     words += ["--engine", engine, *_jobs(jobs)]
-    for one in _several(limit):
-        words += ["--limit", one]
-    files = "screen.csv", "figures/ranking.png"
-    return asked(screen_command, words, folder, files, retry_failed)
+    words += ["--retry-failed"] * retry_failed
+    for one in _several(event):
+        words += ["--event", one]
+    return asked(screen_command, words, folder, ("screen.csv", "figures/ranking.png"))
 
 
 def calibrate(
@@ -196,6 +200,12 @@ def calibrate(
         CSV file of time_s and tilt_rad (or tilt_deg) from the release on.
     fit
         ranges by key, such as {"block.restitution": (0.85, 1)}; left out: as of the command.
+
+    Returns
+    -------
+    Answer
+        text of the command, its figure, and a table of the keys: value, its 95 % interval, and
+        whether the test identifies it.
 
     Raises
     ------

@@ -63,8 +63,6 @@ def run_study(
     KeyboardInterrupt
         Ctrl-C; what is done is kept.
     """
-    import io
-
     from fecolumn.study.plan import read_plan
     from fecolumn.study.run import complete_study as work_off
     from fecolumn.study.table import write_figure, write_tables
@@ -75,7 +73,7 @@ def run_study(
         folder,
         workers=_processes(jobs),
         retry_failed=retry_failed,
-        stream=io.StringIO() if quiet else sys.stderr,
+        stream=None if quiet else sys.stderr,
     )
     write_tables(plan, rows, folder)
     write_figure(plan, rows, folder)

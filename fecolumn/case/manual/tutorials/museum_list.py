@@ -45,7 +45,7 @@ objects
 
 # %%
 ranking = fecolumn.screen(
-    objects, folder / "screen", motions="lick:1-36", scale=3.0, limit="overturn", engine="housner"
+    objects, folder / "screen", motions="lick:1-36", scale=3.0, event="overturn", engine="housner"
 )
 ranking
 
