@@ -27,6 +27,7 @@ _DECIDE_NOTHING = {
     "foundation/lock.py",
     "foundation/paths.py",
     "foundation/progress.py",
+    "foundation/refused.py",
     "foundation/schema.py",
     "foundation/section_class.py",
     "case/case_text.py",

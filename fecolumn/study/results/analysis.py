@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import html
-from collections.abc import Sequence
+import typing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,6 +17,7 @@ from fecolumn.foundation.deprecated import renamed
 from fecolumn.foundation.files import is_file
 from fecolumn.study.results.analysis_plots import AnalysisPlots, history_of
 from fecolumn.study.results.parting import Parting, parting
+from fecolumn.study.results.picture_options import PictureOptions, picture_signature, render_options
 
 if TYPE_CHECKING:
     import pandas
@@ -197,26 +198,7 @@ class AnalysisResult:
         return AnalysisPlots(self.folder)
 
     @renamed(color="colour")
-    def render(
-        self,
-        *,
-        only: str = "",
-        view: str = "",
-        body: str = "",
-        instants: Sequence[float] = (),
-        start: float | None = None,
-        end: float | None = None,
-        speed: float = 1.0,
-        fps: float = 25.0,
-        size: tuple[int, int] = (1280, 720),
-        colour: str = "",
-        exaggerate: float | str = 1.0,
-        forces: bool = False,
-        gif: bool = False,
-        html: bool = False,
-        paraview: bool = False,
-        quiet: bool = True,
-    ) -> list[Path]:
+    def render(self, *, quiet: bool = True, **options: typing.Unpack[PictureOptions]) -> list[Path]:
         """Draw the analysis as `fecolumn render` does, into the folder `render` of its own.
 
         Parameters
@@ -265,28 +247,15 @@ class AnalysisResult:
         InputError
             no history yet, a value out of range, times outside of the analysis, or what needs
             fields or states that were not written; options are named as those of the command.
+        TypeError
+            an option that there is not.
         """
         from fecolumn.pictures.render.draw import render
-        from fecolumn.pictures.render.render_options import RenderOptions
 
-        options = RenderOptions(
-            only=only,
-            view=view,
-            body=body,
-            instants=tuple(instants),
-            start=start,
-            end=end,
-            speed=speed,
-            fps=fps,
-            size=size,
-            color=colour,
-            exaggerate=exaggerate,
-            forces=forces,
-            gif=gif,
-            html=html,
-            paraview=paraview,
-        )
-        return render(self.folder, options, quiet=quiet)
+        return render(self.folder, render_options(options), quiet=quiet)
+
+    # help and type checkers see each option
+    render.__signature__ = picture_signature()  # type: ignore[attr-defined]
 
     def compare(self, other: AnalysisResult, *, tolerance: float = 0.05) -> Parting:
         """Compare with another analysis as `fecolumn compare` does.
