@@ -7,7 +7,7 @@ Prints the table and draws one figure with all distributions, models.png and .pd
 DIR/own_mesh. D, p, McNemar's p and the same outcome are to full order where it is there, else to
 the reduced engine, on the motions that both have. --full: the full order, too, motion after motion
 when the others are done; hours. --own-mesh: the specimen's own mesh instead of a coarse one,
-models_own_mesh.toml; its full order takes a day of one core.
+models_own_mesh.toml; its full order takes some ten hours of one core.
 
 The same command goes on where it was stopped. What benchmarks/tables/models holds is not computed
 again; --keep writes what is done there, --report computes nothing.
