@@ -311,6 +311,6 @@ def test_what_h5py_raises_of_a_file_without_checksum_is_one_line(folders, tmp_pa
     def fail(*_):
         raise RuntimeError("Object visitation failed\n(bad heap free list)")
 
-    monkeypatch.setattr("fecolumn.engines.stored.read_history", fail)
+    monkeypatch.setattr("fecolumn.engines.stored.history_columns", fail)
     with pytest.raises(InputError, match=r"history.h5: not a .* \(Object visitation failed \(bad"):
         stored_history(file)

@@ -26,17 +26,10 @@ from fecolumn.study.table import table_text, write_tables
 
 HERE = Path(__file__).parent
 DRIVER = """
-import argparse, sys
-from fecolumn.foundation import _compiled
-from fecolumn.foundation.schema import InputError
-from fecolumn.study.command import add_arguments, main
+import sys
+from fecolumn.cli import main
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    add_arguments(parser)
-    try:
-        sys.exit(main(parser.parse_args()))
-    except InputError as error:
-        sys.exit(print(error, file=sys.stderr) or 2)
+    sys.exit(main(["study", *sys.argv[1:]]))
 """
 
 
