@@ -24,14 +24,13 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.beside import SHARE_HEAD, cost, markdown, pair_cells, share_cells
-from benchmarks.tables.study_rows import OUTCOME, keep_rows, kept_rows
+from benchmarks.tables.study_rows import OUTCOME, worked_off
 from fecolumn.engines.ending import lost
 from fecolumn.foundation.toml_file import read_toml
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import Plan, plan_of
-from fecolumn.study.run import StudyError, complete_study, stop_code
 
 #: Study by its name in benchmarks/tables/models
 STUDIES = {name: Path(__file__).with_name(f"models_{name}.toml") for name in ("beside", "own_mesh")}
@@ -104,20 +103,9 @@ def main(given=None) -> int:
     study, found, code = "own_mesh" if args.own_mesh else "beside", {}, 0
     output = Path(args.output) / study
     command = f"python -m benchmarks.models{' --own-mesh' * args.own_mesh} --full --keep"
-    first = {f"lick:{number}" for number in range(1, args.motions + 1)}
     for full in (False, True)[: 1 + args.full]:
-        whole, kept_as = plan(study, full), f"models/{study}"
-        wanted = {one.id for one in whole.analyses if one.values["motion.source"] in first}
-        kept, folder = kept_rows(kept_as, whole), output / ("full" if full else "others")
-        todo = set() if args.report else wanted - kept.keys()
-        try:
-            complete_study(whole, folder, workers=args.jobs, retry_failed=True, only=todo)
-        except (KeyboardInterrupt, StudyError) as error:
-            code = stop_code(error)
-        rows = [kept.get(row["id"], row) for row in complete_study(whole, folder, only=set())]
-        if args.keep:
-            keep_rows(kept_as, whole, rows, command, KEPT)
-        rows = [row for row in rows if row["id"] in wanted]
+        whole, folder = plan(study, full), output / ("full" if full else "others")
+        rows, code = worked_off(f"models/{study}", whole, folder, args, command, KEPT)
         found |= {values[ENGINE]: runs for values, runs in settings_of(whole, rows)}
         if code:
             break

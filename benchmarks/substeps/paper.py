@@ -24,7 +24,7 @@ import sys
 from pathlib import Path
 
 from benchmarks.beside import compared, markdown, told
-from benchmarks.tables.study_rows import OUTCOME, keep_rows, kept_rows
+from benchmarks.tables.study_rows import OUTCOME, worked_off
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import Plan, read_plan
@@ -32,7 +32,6 @@ from fecolumn.study.report.claim import Claim
 from fecolumn.study.report.page import claims_of
 from fecolumn.study.report.pair import read_pairs
 from fecolumn.study.report.sweep import Setting, Sweep
-from fecolumn.study.run import StudyError, complete_study, stop_code
 
 READINGS = {"fixed step": "paper_study", "rolling substeps": "paper_parts"}
 _OPTION = {"fixed step": "fixed", "rolling substeps": "rolling"}
@@ -139,19 +138,9 @@ def main(given=None) -> int:
     for name, file in READINGS.items():
         if args.fixed and name != "fixed step" or args.rolling and name == "fixed step":
             continue
-        plan, kept_as = read_plan(Path(__file__).parents[1] / f"{file}.toml"), f"paper/{file}"
-        first = {f"lick:{number}" for number in range(1, args.motions + 1)}
-        wanted = {one.id for one in plan.analyses if one.values["motion.source"] in first}
-        kept, folder = kept_rows(kept_as, plan), Path(args.output) / file
-        todo = set() if args.report else wanted - kept.keys()
-        try:
-            complete_study(plan, folder, workers=args.jobs, retry_failed=True, only=todo)
-        except (KeyboardInterrupt, StudyError) as error:
-            code = stop_code(error)
-        rows = [kept.get(row["id"], row) for row in complete_study(plan, folder, only=set())]
-        if args.keep:
-            keep_rows(kept_as, plan, rows, f"{_COMMAND} --{_OPTION[name]} --keep", KEPT)
-        rows = [row for row in rows if row["id"] in wanted]
+        plan = read_plan(Path(__file__).parents[1] / f"{file}.toml")
+        command, folder = f"{_COMMAND} --{_OPTION[name]} --keep", Path(args.output) / file
+        rows, code = worked_off(f"paper/{file}", plan, folder, args, command, KEPT)
         for values, runs in settings_of(plan, rows):
             key = name, values["integration.dt_s"], values["integration.alpha_hht"]
             found[key] = runs

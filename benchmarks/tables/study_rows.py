@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import argparse
 import re
+from pathlib import Path
 from typing import Any
 
 from benchmarks.tables.runs import read_runs, write_runs
 from fecolumn.study.plan import Plan
+from fecolumn.study.run import StudyError, complete_study, stop_code
 from fecolumn.study.store import DONE
 
 #: Of a summary, what tells its outcome
@@ -35,6 +38,29 @@ def kept_rows(study: str, plan: Plan) -> dict[str, dict[str, Any]]:
         if summary := runs[name].get(number_of(analysis.values)):
             rows[analysis.id] = {"id": analysis.id, "state": DONE, "summary": summary}
     return rows
+
+
+def worked_off(
+    study: str, plan: Plan, folder: Path, args: argparse.Namespace, command: str, columns: tuple
+) -> tuple[list[dict[str, Any]], int]:
+    """Do what is missing of the first motions of the Lick ensemble, and does not come with the
+    repository; their rows, and the exit code where it was stopped, else 0.
+
+    args: jobs, motions (how many), report (nothing is computed), keep (what is done comes with the
+    repository, as of `keep_rows`).
+    """
+    first = {f"lick:{number}" for number in range(1, args.motions + 1)}
+    wanted = {one.id for one in plan.analyses if one.values["motion.source"] in first}
+    kept, code = kept_rows(study, plan), 0
+    todo = set() if args.report else wanted - kept.keys()
+    try:
+        complete_study(plan, folder, workers=args.jobs, retry_failed=True, only=todo)
+    except (KeyboardInterrupt, StudyError) as error:
+        code = stop_code(error)
+    rows = [kept.get(row["id"], row) for row in complete_study(plan, folder, only=set())]
+    if args.keep:
+        keep_rows(study, plan, rows, command, columns)
+    return [row for row in rows if row["id"] in wanted], code
 
 
 def keep_rows(
