@@ -6,10 +6,7 @@ import argparse
 import contextlib
 import html
 import io
-import signal
 import sys
-import threading
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -104,7 +101,6 @@ def asked(command: Any, words: list[str], folder: str | Path, files: tuple[str, 
     arguments = parser.parse_args([*words, "-o", str(folder)])
     said, heard = io.StringIO(), _Heard(sys.stderr)
     with (
-        _own_signals(),
         contextlib.redirect_stdout(said),
         contextlib.redirect_stderr(heard),
     ):
@@ -117,16 +113,3 @@ def asked(command: Any, words: list[str], folder: str | Path, files: tuple[str, 
         raise StudyError(f"{heard.last}; see {Path(folder) / 'logs'}")
     text = "\n".join(sentences)
     return Answer(Path(folder), *files, text, failed=StudyResult(folder).failed if code else 0)
-
-
-@contextlib.contextmanager
-def _own_signals() -> Iterator[None]:
-    """The caller's way to end by SIGTERM, after the command had its own."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = signal.getsignal(signal.SIGTERM)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, before)
