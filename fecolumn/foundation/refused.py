@@ -19,3 +19,17 @@ class UnreadableFile(InputError, OSError):
     def __str__(self) -> str:
         """The message as it is; OSError has one of its own."""
         return str(self.args[0])
+
+
+class OutOfRange(ValueError):
+    """An argument outside its range.
+
+    Attributes
+    ----------
+    name, value, must
+        the argument, what was given, and what it must be, such as "lie in [4, 8]".
+    """
+
+    def __init__(self, name: str, value: float, must: str, unit: str = "") -> None:
+        super().__init__(f"{name} = {value:g}{unit and ' '}{unit} must {must}")
+        self.name, self.value, self.must = name, value, must

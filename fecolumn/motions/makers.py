@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import argparse
-import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -149,10 +148,16 @@ def _with(
     maker: Callable[[argparse.Namespace], Ensemble], store: Callable[[Ensemble, str], int]
 ) -> Callable[[argparse.Namespace], int]:
     def command(args: argparse.Namespace) -> int:
+        from fecolumn.foundation.refused import OutOfRange
         from fecolumn.foundation.schema import InputError
 
         try:
             ensemble = maker(args)
+        except OutOfRange as error:
+            # an option of many values is called by their plural
+            dest = error.name if error.name in args else f"{error.name}s"
+            option = f"--{dest.replace('_', '-')}"
+            raise InputError(_COMMAND, option, error.value, f"must {error.must}") from None
         except InputError:
             raise
         except ValueError as error:
@@ -163,32 +168,9 @@ def _with(
     return command
 
 
-def _require(option: str, values: Iterable[Any], holds: Callable[[Any], bool], must: str) -> None:
-    """InputError of the first of the values of an option for which it does not hold."""
-    from fecolumn.foundation.schema import InputError
-
-    for value in values:
-        if not holds(value):
-            raise InputError(_COMMAND, option, value, f"must {must}")
-
-
-def _require_positive(option: str, value: float, unit: str = "") -> None:
-    _require(option, [value], lambda x: 0 < x < math.inf, f"be finite and greater than 0{unit}")
-
-
 def _near_fault(args: argparse.Namespace) -> Ensemble:
     from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES, near_fault_ensemble
 
-    _require("--magnitudes", args.magnitudes or (), lambda m: 4 <= m <= 8, "lie in [4, 8]")
-    _require("--distances", args.distances or (), lambda r: 0 <= r <= 40, "lie in [0, 40] km")
-    _require("-n", [args.count], lambda n: n >= 1, "be at least 1")
-    _require("--seed", [args.seed], lambda n: n >= 0, "be at least 0")
-    _require(
-        "--dt",
-        [args.dt],
-        lambda dt: 0 < dt <= 0.02,
-        "be greater than 0 and at most 0.02 s, as the motion reaches 25 Hz and more",
-    )
     return near_fault_ensemble(
         args.magnitudes or MAGNITUDES,
         args.distances or DISTANCES,
@@ -202,27 +184,6 @@ def _near_fault(args: argparse.Namespace) -> Ensemble:
 def _pulses(args: argparse.Namespace) -> Ensemble:
     from fecolumn.motions.pulses import pulse_ensemble
 
-    _require(
-        "--amplitudes",
-        args.amplitudes,
-        lambda a: math.isfinite(a) and a != 0,
-        "be finite and not 0 m/s2",
-    )
-    for period in args.periods:
-        _require_positive("--periods", period, " s")
-    _require("--cycles", [args.cycles], lambda n: n >= 1, "be at least 1")
-    if args.shape != "type_c":
-        told = f"be 1 for {args.shape}: only type_c has cycles"
-        _require("--cycles", [args.cycles], lambda n: n == 1, told)
-    shortest = min(args.periods)
-    _require(
-        "--dt",
-        [args.dt],
-        lambda dt: 0 < dt <= 0.1 * shortest * (1 + 1e-12),
-        f"be greater than 0 and at most {0.1 * shortest:g} s, a tenth of the shortest period",
-    )
-    for option, rest in (("--lead", args.lead), ("--tail", args.tail)):
-        _require(option, [rest], lambda s: 0 <= s < math.inf, "be finite and at least 0 s")
     return pulse_ensemble(
         args.shape,
         args.amplitudes,
@@ -235,22 +196,8 @@ def _pulses(args: argparse.Namespace) -> Ensemble:
 
 
 def _records(args: argparse.Namespace) -> Ensemble:
-    from fecolumn.motions.fema_p695 import SETS, available
-    from fecolumn.motions.record_set import SHORT_NAMES, record_set
+    from fecolumn.motions.record_set import record_set
 
-    sets = ", ".join(f"{long} ({short})" for short, long in SHORT_NAMES.items())
-    _require("SET", [args.set], lambda one: one in SETS or one in SHORT_NAMES, f"be one of {sets}")
-    if args.pgv is not None:
-        _require_positive("--pgv", args.pgv, " m/s")
-    _require_positive("--time-scale", args.time_scale)
-    of = f":{SHORT_NAMES.get(args.set, args.set)}/"
-    known = [one.name for one in available() if of in one.name]
-    _require(
-        "--without",
-        args.without,
-        lambda name: name in known,
-        f"be records of the set, {known[0]} to {known[-1]}",
-    )
     return record_set(
         args.set,
         args.pgv,

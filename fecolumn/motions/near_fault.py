@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.fft import next_fast_len
 
+from fecolumn.foundation.refused import OutOfRange
 from fecolumn.foundation.version import __version__
 from fecolumn.motions.atkinson_silva import duration, fourier_amplitude
 from fecolumn.motions.directivity_pulse import DirectivityPulse, scenario_pulse
@@ -62,9 +63,9 @@ class Scenario:
 
     def __post_init__(self) -> None:
         if not 4 <= self.magnitude <= 8:
-            raise ValueError(f"magnitude = {self.magnitude:g} must lie in [4, 8]")
+            raise OutOfRange("magnitude", self.magnitude, "lie in [4, 8]")
         if not 0 <= self.distance <= 40:
-            raise ValueError(f"distance = {self.distance:g} km must lie in [0, 40]")
+            raise OutOfRange("distance", self.distance, "lie in [0, 40] km", "km")
 
     @property
     def pulse(self) -> DirectivityPulse:
@@ -155,10 +156,8 @@ def near_fault_motions(
         step too coarse.
     """
     if not 0 < dt <= 0.02:
-        raise ValueError(
-            f"dt = {dt:g} s must be greater than 0 and at most 0.02 s: the motion "
-            "reaches 25 Hz and more"
-        )
+        must = "be greater than 0 and at most 0.02 s, as the motion reaches 25 Hz and more"
+        raise OutOfRange("dt", dt, must, "s")
     pulse, margin = scenario.pulse, 1 / scenario.low_cut
     length = _WINDOW_LENGTH * duration(scenario.magnitude, scenario.distance)
     middle = margin + max(_WINDOW_PEAK * length, pulse.half_length)
@@ -210,9 +209,9 @@ def near_fault_ensemble(
     A motion depends on seed, magnitude, distance and its number only, not on what else is made.
     """
     if count != int(count) or count < 1:
-        raise ValueError(f"count = {count:g} must be a whole number, at least 1")
+        raise OutOfRange("count", count, "be a whole number, at least 1")
     if seed != int(seed) or seed < 0:
-        raise ValueError(f"seed = {seed:g} must be a whole number, not negative")
+        raise OutOfRange("seed", seed, "be a whole number, at least 0")
     scenarios = [
         Scenario(float(magnitude), float(distance))
         for magnitude in magnitudes

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
+from fecolumn.foundation.refused import OutOfRange
 from fecolumn.foundation.version import __version__
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.record import GroundMotion
@@ -92,15 +93,14 @@ class Pulse:
         if self.shape not in SHAPES:
             raise ValueError(f"shape = {self.shape!r} must be one of {', '.join(SHAPES)}")
         if not math.isfinite(self.amplitude) or self.amplitude == 0:
-            raise ValueError(f"amplitude = {self.amplitude:g} m/s2 must be finite and not 0")
+            raise OutOfRange("amplitude", self.amplitude, "be finite and not 0", "m/s2")
         if not 0 < self.period < math.inf:
-            raise ValueError(f"period = {self.period:g} s must be finite and greater than 0")
+            raise OutOfRange("period", self.period, "be finite and greater than 0", "s")
         if self.cycles != int(self.cycles) or self.cycles < 1:
-            raise ValueError(f"cycles = {self.cycles:g} must be a whole number, at least 1")
+            raise OutOfRange("cycles", self.cycles, "be a whole number, at least 1")
         if self.cycles != 1 and self.shape != "type_c":
-            raise ValueError(
-                f"cycles = {self.cycles:g} must be 1 for {self.shape}; only type_c has cycles"
-            )
+            must = f"be 1 for {self.shape}; only type_c has cycles"
+            raise OutOfRange("cycles", self.cycles, must)
 
     @property
     def start(self) -> float:
@@ -186,14 +186,11 @@ def sample(pulse: Pulse, dt: float, lead: float = 0.0, tail: float = 0.0) -> Gro
         step too coarse, or a negative rest.
     """
     if not 0 < dt <= 0.1 * pulse.period * (1 + 1e-12):
-        raise ValueError(
-            f"dt = {dt:g} s must be greater than 0 and at most a tenth of the pulse's "
-            f"period, {pulse.period:g} s"
-        )
-    if not (lead >= 0 and tail >= 0):
-        raise ValueError(
-            f"rest before and after the pulse, {lead:g} s and {tail:g} s, must not be negative"
-        )
+        must = f"be greater than 0 and at most a tenth of the pulse's period, {pulse.period:g} s"
+        raise OutOfRange("dt", dt, must, "s")
+    for name, rest in (("lead", lead), ("tail", tail)):
+        if not 0 <= rest < math.inf:
+            raise OutOfRange(name, rest, "be finite and at least 0 s", "s")
     before = math.ceil(lead / dt - 1e-9) + 1
     n_steps = (
         before + math.ceil((pulse.end - pulse.start) / dt - 1e-9) + math.ceil(tail / dt - 1e-9) + 2

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from fecolumn.case.sections import GRAVITY
+from fecolumn.foundation.refused import OutOfRange
 from fecolumn.foundation.version import __version__
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.fema_p695 import SETS, Entry, available, read_fema_p695
@@ -72,10 +73,9 @@ def record_set(
     if set_name not in SETS:
         known = ", ".join(f"{long} ({short})" for short, long in SHORT_NAMES.items())
         raise UnusableRecord(f"unknown set {name!r}; must be one of {known}")
-    if not 0 < time_scale < np.inf or (pgv is not None and not 0 < pgv < np.inf):
-        raise ValueError(
-            f"pgv = {pgv} m/s and time_scale = {time_scale:g} must be finite and greater than 0"
-        )
+    for argument, value in (("time_scale", time_scale), ("pgv", pgv)):
+        if value is not None and not 0 < value < np.inf:
+            raise OutOfRange(argument, value, "be finite and greater than 0")
     if measure not in MEASURES:
         raise ValueError(f"measure = {measure!r}: must be one of {', '.join(MEASURES)}")
     members = [entry for entry in available() if entry.name.split("/")[0].endswith(f":{set_name}")]
