@@ -69,6 +69,7 @@ def test_a_podium_runs_as_any_case_and_gives_what_the_rocking_command_gives(fold
     assert response.u_max == pytest.approx(summary["u_max_m"]) and response.peaks == pytest.approx(
         summary["peaks"]
     )
+    assert response.time[-1] == pytest.approx(summary["duration_s"])
     for command, said in (
         (["mesh", str(folder / "podium.toml"), "-o", str(folder / "mesh")], "has no mesh"),
         (["render", str(folder / "run")], "is the table of a rocking model"),

@@ -76,7 +76,8 @@ class ModelCase:
         else:
             assert self.motion is not None  # of which `source` is
             ground = load_motion(dataclasses.replace(self.motion, source=source), dt, self.file)
-            free = (
+            # as of Analysis: a step after the last sample, in which the ground comes to rest
+            free = dt + (
                 self.motion.longest_free_vibration_s
                 if self.motion.free_vibration_s != UNTIL_REST
                 else 0.0
