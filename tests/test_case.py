@@ -2,12 +2,14 @@
 
 import dataclasses
 import shutil
+import warnings
 from pathlib import Path
 
 import pytest
 
 from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.case.case_tables import type_of
+from fecolumn.case.joint import Joint
 from fecolumn.case.sections import DEFAULT
 from fecolumn.case.short_form import finished
 from fecolumn.cli import main
@@ -103,6 +105,36 @@ def test_an_older_name_is_said_once_with_the_one_to_write(tmp_path, capsys):
     (tmp_path / "another.toml").write_text(text)
     assert main(["show", str(tmp_path / "another.toml")]) == 0
     assert capsys.readouterr().err.count("is an older name of [joints]") == 1
+
+
+def test_bodies_of_a_joint_by_their_names_of_earlier_versions(tmp_path):
+    case = load_case(SPECIMEN.with_name("two_blocks.toml"))
+    text = case.to_toml()
+    for joint in case.joints.values():
+        newer = f'between = [\n    "{joint.slave}",\n    "{joint.on}",\n]'
+        assert newer in text
+        text = text.replace(newer, f'slave = "{joint.slave}"\non = "{joint.on}"')
+    (tmp_path / "older.toml").write_text(text)
+    told = "older.toml: slave with on is an older name of between, read until 2.0"
+    with pytest.warns(DeprecationWarning, match=told):
+        older = load_case(tmp_path / "older.toml")
+    assert older == case and older.id == case.id
+    with pytest.warns(DeprecationWarning, match="script: slave with on"):
+        joint = Joint(slave="drum", on="ground")
+    assert joint == Joint(between=("drum", "ground")) and "slave" not in repr(joint)
+    with pytest.raises(InputError, match="Joint.on: missing; or give Joint.between"):
+        Joint(slave="drum")
+
+
+def test_a_result_of_an_earlier_version_is_read_without_a_word_on_its_names(tmp_path):
+    case = load_case(SPECIMEN.with_name("two_blocks.toml"))
+    tables = case.tables()
+    for table in tables["joints"].values():
+        table["slave"], table["on"] = table.pop("between")
+        table["between"] = []
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert case_from_tables(tables, tmp_path / "case.json").id == case.id
 
 
 def test_a_case_of_the_short_form_takes_keys_of_both():

@@ -31,7 +31,7 @@ DRUM = dict(
             density_kg_m3=2700.0,
         )
     ),
-    joints=dict(foot=dict(slave="drum", on="ground")),
+    joints=dict(foot=dict(between=["drum", "ground"])),
     contact=dict(friction_coefficient=0.7, interior_points=0),
 )
 BODIES = {"column": TUBE, "structure": DRUM}

@@ -54,8 +54,7 @@ def tables(structure: Structure, dt: float) -> dict:
         if not other.fixed and np.ptp(other.outline[:, 0]) < np.ptp(one.outline[:, 0]):
             one, other = other, one  # the narrower face has the points
         joints[f"{name_of(one)}_{name_of(other)}"] = dict(
-            slave=name_of(one),
-            on="ground" if other.fixed else name_of(other),
+            between=[name_of(one), "ground" if other.fixed else name_of(other)],
             friction_coefficient=joint.friction,
         )
     return dict(

@@ -78,7 +78,7 @@ def plan(structure: str, program: Program, folder: Path) -> Plan:
     if structure == "drums" and program.engine != "rigid":
         # elastic drums slide farther than the quarter of a face that is prepared without being told
         for joint in tables["joints"].values():
-            joint["allowance_m"] = tables["bodies"][joint["slave"]]["length_m"]
+            joint["allowance_m"] = tables["bodies"][joint["between"][0]]["length_m"]
     tables["motion"] = rest | dict(source=f"{source}1")
     axes = {"motion.source": [f"{source}{number}" for number in range(1, structures.MOTIONS + 1)]}
     title = f"{structure}, {program.label}"

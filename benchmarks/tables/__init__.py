@@ -93,9 +93,20 @@ def names() -> list[str]:
     return sorted(file.stem for file in FOLDER.glob("*.csv") if file.stem != QUOTED)
 
 
-def write(name: str, columns, rows, title: str, command: str, physics: int | str = PHYSICS) -> None:
-    """Write a table as measured by this code, now, on this machine."""
-    about = (title, command, __version__, commit(), date.today().isoformat(), _machine(), physics)
+def write(
+    name: str,
+    columns,
+    rows,
+    title: str,
+    command: str,
+    physics: int | str = PHYSICS,
+    machines: tuple[str, ...] = (),
+) -> None:
+    """Write a table as measured by this code, now, on this machine; machines: others, of which
+    there are rows, too.
+    """
+    machine = "; ".join(dict.fromkeys((*machines, _machine())))
+    about = (title, command, __version__, commit(), date.today().isoformat(), machine, physics)
     text = io.StringIO()
     text.writelines(f"# {key}: {value}\n" for key, value in zip(HEADER, about))
     csv.writer(text, lineterminator="\n").writerows([columns, *rows])

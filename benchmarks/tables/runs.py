@@ -31,9 +31,12 @@ def write_runs(
     """Write rows by motion, all of the same keys; rows of other motions that are there, as of
     `read_runs`, stay. more: as of `tables.write`.
     """
-    runs = read_runs(name) | runs
+    before = read_runs(name)
+    runs = before | runs
     columns = list(next(iter(runs.values())))
     rows = [[motion, *map(_cell, runs[motion].values())] for motion in sorted(runs)]
+    if any([motion, *map(_cell, one.values())] in rows for motion, one in before.items()):
+        more["machines"] = tuple(tables.read(name).about["machine"].split("; "))
     tables.write(name, [MOTION, *columns], rows, title, command, **more)
 
 

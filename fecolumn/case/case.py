@@ -473,5 +473,6 @@ def identity(section: Section) -> dict[str, Any]:
         table[key] = content(table[key])
     if motion := getattr(section, "motion", None):  # of a ground
         table["motion"] = section_table("motion", motion)
-    table.pop("between", None)  # a joint is told by slave and on, whichever way it was written
+    if between := table.pop("between", None):  # of a joint: by the names of earlier versions
+        table |= {"slave": between[0], "on": between[1]}
     return table

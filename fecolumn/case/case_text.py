@@ -99,12 +99,4 @@ def full_form(case: ShownCase, defaults: bool = False, arches: bool = False) -> 
         as they were stated, or voussoir by voussoir.
     """
     tables = case.tables(defaults=defaults, arches=arches)
-    if joints := tables.pop("joints", {}):
-        tables["joints"] = {name: _joint(table) for name, table in joints.items()}
     return {name: table for name, table in tables.items() if table != {}}
-
-
-def _joint(table: dict[str, Any]) -> dict[str, Any]:
-    """A joint by the two that touch, whichever of them is called the slave."""
-    others = {key: value for key, value in table.items() if key not in ("slave", "on", "between")}
-    return {"between": [table["slave"], table["on"]], **others}

@@ -34,7 +34,7 @@ _HERE = "case"
 
 
 def as_of_file(case: CheckedCase, named: Mapping[str, type[Section]]) -> Mapping[str, object]:
-    """The tables of tables of a case as those of a file: joints by slave and on, arches by their
+    """The tables of tables of a case as those of a file: joints with a body first, arches by their
     voussoirs, files by their absolute paths.
 
     Parameters
@@ -169,40 +169,21 @@ def check_name(
         )
 
 
-def by_two_bodies(interface: Joint, grounds: set[str], file: Path | str, prefix: str) -> Joint:
-    """The interface with its two bodies as slave and on."""
-    if interface.between:
-        if interface.slave or interface.on:
-            key = "slave" if interface.slave else "on"
-            raise InputError(
-                file,
-                prefix + key,
-                getattr(interface, key),
-                "must be left out beside between, which names both bodies",
-            )
-        if len(interface.between) != 2:
-            raise InputError(
-                file,
-                prefix + "between",
-                list(interface.between),
-                'must be two names, such as ["drum", "capital"]',
-            )
-        bodies = sorted(interface.between, key=lambda one: one in grounds)
-        if bodies[0] in grounds:
-            raise InputError(
-                file,
-                prefix + "between",
-                list(interface.between),
-                "must name a body: grounds do not touch one another",
-            )
-        return dataclasses.replace(interface, between=(), slave=bodies[0], on=bodies[1])
-    for key in ("slave", "on"):
-        if not getattr(interface, key):
-            raise InputError(
-                file,
-                prefix + key,
-                None,
-                f'missing; or give {prefix}between = ["one body", "other body"] instead '
-                "of slave and on",
-            )
-    return interface
+def by_two_bodies(joint: Joint, grounds: set[str], file: Path | str, prefix: str) -> Joint:
+    """The joint with a body as the first of the two that touch."""
+    if len(joint.between) != 2:
+        raise InputError(
+            file,
+            prefix + "between",
+            list(joint.between),
+            'must be two names, such as ["drum", "capital"]',
+        )
+    bodies = tuple(sorted(joint.between, key=lambda one: one in grounds))
+    if bodies[0] in grounds:
+        raise InputError(
+            file,
+            prefix + "between",
+            list(joint.between),
+            "must name a body: grounds do not touch one another",
+        )
+    return dataclasses.replace(joint, between=bodies)

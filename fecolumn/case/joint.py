@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
-from fecolumn.foundation.schema import Section, parameter
+import functools
+from pathlib import Path
+from typing import Any
+
+from fecolumn.foundation.deprecated import warn_of_older_name
+from fecolumn.foundation.schema import InputError, Section, parameter, required
 from fecolumn.foundation.section_class import section_class
 
 
@@ -12,13 +17,10 @@ class Joint(Section):
     one another across a gap; copies each with each. Which body comes first decides nothing.
     """
 
-    between: tuple[str, ...] = parameter(
-        (),
+    between: tuple[str, ...] = required(
         doc='the two bodies that touch, or a body and a ground, as in ["drum", "ground"]; '
         "the same body twice where copies stand on one another, or voussoirs of an arch touch",
     )
-    slave: str = parameter("", doc="instead of between: one of the two bodies")
-    on: str = parameter("", doc="instead of between: the other body, or a ground")
     friction_coefficient: float | None = parameter(
         None, doc="Coulomb friction coefficient; left out: that of [contact]", low=0, high=10
     )
@@ -145,3 +147,49 @@ class Joint(Section):
         low=0,
         high=1000,
     )
+
+    @property
+    def slave(self) -> str:
+        """The first of the two that touch: a body."""
+        return self.between[0]
+
+    @property
+    def on(self) -> str:
+        """The second of the two: a body or a ground."""
+        return self.between[1]
+
+
+def by_between(keys: dict[str, Any], file: Path | str, prefix: str) -> dict[str, Any]:
+    """Keys of a joint, the two that touch by `between` where they are told by `slave` and `on`, as
+    in earlier versions.
+
+    Raises
+    ------
+    InputError
+        one of the two older keys is missing, or stands beside `between`.
+    """
+    older = [key for key in ("slave", "on") if key in keys]
+    if not older:
+        return keys
+    if keys.get("between"):
+        told = "must be left out beside between, which names both bodies"
+        raise InputError(file, prefix + older[0], keys[older[0]], told)
+    if len(older) == 1:
+        (missing,) = {"slave", "on"} - set(older)
+        told = f'missing; or give {prefix}between = ["one body", "other body"] instead'
+        raise InputError(file, prefix + missing, None, f"{told} of slave and on")
+    if Path(file).name != "case.json":  # of a result, which nobody writes by hand
+        warn_of_older_name(str(file), "slave with on", "between")
+    others = {key: value for key, value in keys.items() if key not in (*older, "between")}
+    return {"between": (keys["slave"], keys["on"]), **others}
+
+
+def _by_older_names(init: Any) -> Any:
+    @functools.wraps(init)
+    def made(self: Joint, *values: Any, **keys: Any) -> None:
+        init(self, *values, **by_between(keys, "script", "Joint."))
+
+    return made
+
+
+Joint.__init__ = _by_older_names(Joint.__init__)  # type: ignore[method-assign]

@@ -82,9 +82,10 @@ def layout_of(case: Case, file: Path | str) -> Layout:
         ):
             raise InputError(
                 file,
-                f"joints.{meeting.interface}.on",
-                case.joints[meeting.interface].on,
-                f'must be the slave: the foot of "{meeting.master[0]}" is not flat',
+                f"joints.{meeting.interface}.between",
+                list(case.joints[meeting.interface].between),
+                f'must meet "{meeting.master[0]}" by another face than its foot, which is not '
+                "flat and not the smaller of the two",
             )
     patches: dict[str, dict[str, Patch]] = {name: {} for name in case.bodies}
     contacts: list[ContactPair] = []

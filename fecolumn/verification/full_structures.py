@@ -23,7 +23,7 @@ from fecolumn.simulation import run as analyse
 from fecolumn.verification.result import CaseRows, Row
 
 _STONE = dict(youngs_modulus_pa=50e9, poissons_ratio=0.2, density_kg_m3=2700.0)
-_ON = dict(slave="column", on="ground")
+_ON = dict(between=["column", "ground"])
 # Impacts until which motions are compared: later ones multiply what they differ by
 _IMPACTS = 3
 
@@ -73,7 +73,7 @@ def _structure(bodies: dict, joints: dict, initial: dict, seconds: float, **tabl
 
 def structures() -> dict[str, tuple[dict, int]]:
     """Tables of a case and modes of a body in the reduced engine, by name."""
-    frame = dict(feet=_ON, heads=dict(slave="column", on="slab"))
+    frame = dict(feet=_ON, heads=dict(between=["column", "slab"]))
     return {
         "stack of two blocks": (
             _structure(
@@ -81,7 +81,9 @@ def structures() -> dict[str, tuple[dict, int]]:
                     lower=_block(0.6, 0.6, 0.6, 0.3),
                     upper=_block(0.3, 0.3, 0.9, 0.15, at_m=[0, 0, 0.6]),
                 ),
-                dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")),
+                dict(
+                    foot=dict(between=["lower", "ground"]), joint=dict(between=["upper", "lower"])
+                ),
                 dict(upper=dict(tilt_rad=0.05)),
                 0.5,
             ),
@@ -161,7 +163,7 @@ def structures() -> dict[str, tuple[dict, int]]:
                     )
                     | _STONE
                 ),
-                dict(foot=_ON, joint=dict(slave="column", on="column")),
+                dict(foot=_ON, joint=dict(between=["column", "column"])),
                 {"column 3": dict(tilt_rad=0.02)},
                 0.5,
             ),

@@ -86,7 +86,7 @@ def podium_case(
                 | (building or {}),
             ),
             joints=dict(
-                feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="building")
+                feet=dict(between=["column", "ground"]), heads=dict(between=["column", "building"])
             ),
             contact=dict(friction_coefficient=0.7, interior_points=0),
             initial=dict(column=dict(tilt_rad=tilt)),

@@ -104,7 +104,7 @@ def frame_case(frame: WobblingFrame, initial: dict, dt: float) -> Case:
                 | body,
             ),
             joints=dict(
-                feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")
+                feet=dict(between=["column", "ground"]), heads=dict(between=["column", "slab"])
             ),
             links=dict(tendon=tendon) if stiffness else {},
             contact=dict(friction_coefficient=0.7, interior_points=0),

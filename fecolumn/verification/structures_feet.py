@@ -187,7 +187,7 @@ def alone_on_ground(
     """Case of a body by itself on the ground."""
     return case_of(
         dict(body=body),
-        dict(foot=dict(slave="body", on="ground")),
+        dict(foot=dict(between=["body", "ground"])),
         engine,
         dt,
         dict(body=initial) if initial else None,
@@ -408,7 +408,7 @@ def narrower_case(engine: str, dt: float, tilt: float) -> Case:
             )
             | stiff,
         ),
-        dict(foot=dict(slave="narrow", on="ground"), joint=dict(slave="wide", on="narrow")),
+        dict(foot=dict(between=["narrow", "ground"]), joint=dict(between=["wide", "narrow"])),
         engine,
         dt,
         dict(wide=dict(tilt_rad=tilt)),

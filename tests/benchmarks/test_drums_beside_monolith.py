@@ -130,3 +130,19 @@ def test_rows_of_other_physics_are_not_taken(tmp_path, monkeypatch):
     assert read_runs("set/one") == runs
     write_runs("set/one", runs, "T.", "python -m x", physics=1)
     assert read_runs("set/one") == {}
+
+
+def test_the_header_names_the_machines_of_all_rows(tmp_path, monkeypatch):
+    monkeypatch.setattr(tables, "FOLDER", tmp_path)
+
+    def machines(runs, here):
+        monkeypatch.setattr(tables, "_machine", lambda: here)
+        write_runs("set", runs, "T.", "python -m x")
+        return tables.read("set").about["machine"]
+
+    first = {1: dict(u=0.1), 2: dict(u=1 / 3)}
+    assert machines(first, "A, 2 cores") == "A, 2 cores"
+    assert machines(first | {3: dict(u=0.3)}, "B, 2 cores") == "A, 2 cores; B, 2 cores"
+    assert machines({4: dict(u=0.4)}, "A, 2 cores") == "A, 2 cores; B, 2 cores"
+    again = {motion: dict(u=0.5 + motion) for motion in (1, 2, 3, 4)}
+    assert machines(again, "C, 2 cores") == "C, 2 cores"

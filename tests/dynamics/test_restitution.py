@@ -92,7 +92,7 @@ def test_a_dropped_block_lies_still_after_the_time_of_all_its_bounces(engine, e)
     case = case_from_tables(
         dict(
             bodies=dict(block=BLOCK | dict(at_m=[0.0, 0.0, fall])),
-            joints=dict(foot=dict(slave="block", on="ground")),
+            joints=dict(foot=dict(between=["block", "ground"])),
             contact=dict(friction_coefficient=0.4, restitution=e, interior_points=4),
             integration=dict(dt_s=dt, duration_s=9.0, engine=engine, start="drawn"),
         ),
@@ -119,7 +119,7 @@ def test_restitution_that_depends_on_the_step_is_told(height, dt, engine, ground
         dict(
             bodies=dict(block=BLOCK | dict(height_m=height)),
             grounds=dict(ground=ground) if ground else {},
-            joints=dict(foot=dict(slave="block", on="ground", restitution=0.5)),
+            joints=dict(foot=dict(between=["block", "ground"], restitution=0.5)),
             contact=dict(friction_coefficient=0.4, interior_points=4),
             integration=dict(dt_s=dt, duration_s=1.0, engine=engine),
         ),

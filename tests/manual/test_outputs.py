@@ -110,7 +110,7 @@ def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_pat
     case = structure(
         bodies=dict(lower=block, upper=building),
         joints=dict(
-            foot=dict(slave="lower", on="ground") | wax, joint=dict(slave="upper", on="lower")
+            foot=dict(between=["lower", "ground"]) | wax, joint=dict(between=["upper", "lower"])
         ),
         links=dict(tie=tie),
         integration=dict(duration_s=0.01),

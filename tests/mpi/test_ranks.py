@@ -107,8 +107,8 @@ integration = {engine = "full", duration_s = 0.08, dt_s = 1e-3}
 contact = {friction_coefficient = 0.7, interior_points = 0}
 initial.upper.tilt_rad = 0.008
 output.fields_every_s = 0.04
-interfaces.foot = {slave = "lower", on = "ground"}
-interfaces.joint = {slave = "upper", on = "lower"}
+interfaces.foot = {between = ["lower", "ground"]}
+interfaces.joint = {between = ["upper", "lower"]}
 [bodies.lower]
 kind = "block"
 length_m = 0.6

@@ -29,7 +29,7 @@ GATE = dict(
         )
         | STONE,
     ),
-    joints=dict(feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="lintel")),
+    joints=dict(feet=dict(between=["column", "ground"]), heads=dict(between=["column", "lintel"])),
     links=dict(
         tendon=dict(
             kind="tendon",
@@ -62,7 +62,7 @@ BUILDING = dict(
             youngs_modulus_pa=30e9,
         )
     ),
-    joints=dict(foot=dict(slave="building", on="ground")),
+    joints=dict(foot=dict(between=["building", "ground"])),
     initial=dict(building=dict(velocity_m_s=[0.5, 0.2, 0.0])),
     contact=dict(friction_coefficient=0.7, interior_points=0),
     integration=dict(duration_s=0.1, dt_s=1e-3),

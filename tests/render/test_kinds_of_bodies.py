@@ -72,7 +72,7 @@ def row(tmp_path_factory):
         folder / "run",
         dict(
             bodies=bodies,
-            joints={name: dict(slave=name, on="ground") for name in bodies},
+            joints={name: dict(between=[name, "ground"]) for name in bodies},
             contact=dict(friction_coefficient=0.7, interior_points=0),
             initial=dict(foreign=dict(tilt_rad=0.1)),
             integration=dict(duration_s=0.04, dt_s=1e-3),

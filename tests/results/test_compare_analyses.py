@@ -216,7 +216,7 @@ def test_two_analyses_of_a_structure_are_compared_by_what_they_observe(tmp_path,
     tables = dict(
         title="Two blocks",
         bodies=dict(lower=block, upper=block | dict(at_m=[0.0, 0.0, 0.8])),
-        joints=dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")),
+        joints=dict(foot=dict(between=["lower", "ground"]), joint=dict(between=["upper", "lower"])),
         initial=dict(upper=dict(tilt_rad=0.03)),
     )
     for name, dt in (("coarse", 2e-3), ("fine", 1e-3)):

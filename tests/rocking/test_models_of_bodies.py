@@ -295,7 +295,7 @@ def test_a_plate_that_gives_is_told_where_a_model_takes_it_as_rigid(engine, recw
             dict(
                 bodies=dict(body=DRUM),
                 grounds=dict(shelf=plate),
-                joints=dict(foot=dict(slave="body", on="shelf")),
+                joints=dict(foot=dict(between=["body", "shelf"])),
                 contact=dict(friction_coefficient=0.4),
                 initial=dict(body=dict(tilt_rad=0.05)),
                 integration=dict(dt_s=1e-3, duration_s=1.0, engine=engine),

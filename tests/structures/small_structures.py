@@ -5,7 +5,7 @@ from fecolumn.foundation.toml_file import merge
 
 STONE = dict(youngs_modulus_pa=50e9, poissons_ratio=0.0, density_kg_m3=2700.0)
 BLOCK = dict(kind="block", length_m=0.4, width_m=0.2, height_m=1.2, element_size_m=0.1) | STONE
-FOOT = dict(slave="block", on="ground")
+FOOT = dict(between=["block", "ground"])
 RIGID = dict(rigid=True)
 
 
@@ -43,7 +43,7 @@ def frame(column=None, slab=None, **tables):
                 | (slab or {}),
             ),
             joints=dict(
-                feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")
+                feet=dict(between=["column", "ground"]), heads=dict(between=["column", "slab"])
             ),
         ),
         tables,
@@ -61,7 +61,7 @@ def stack(**tables):
                 | RIGID,
             ),
             joints=dict(
-                foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")
+                foot=dict(between=["lower", "ground"]), joint=dict(between=["upper", "lower"])
             ),
         ),
         tables,

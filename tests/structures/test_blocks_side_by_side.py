@@ -41,9 +41,9 @@ def test_two_blocks_beside_each_other_take_as_few_iterations_as_any(tmp_path, en
     bound came from a singular compliance.
     """
     joints = dict(
-        left=dict(slave="left", on="ground"),
-        right=dict(slave="right", on="ground"),
-        side=dict(slave="left", on="right"),
+        left=dict(between=["left", "ground"]),
+        right=dict(between=["right", "ground"]),
+        side=dict(between=["left", "right"]),
     )
     beside = shaken(tmp_path, [(-0.2, 0, 0), (0.2, 0, 0)], joints, direction, engine)
     assert (

@@ -29,7 +29,7 @@ LEANING = dict(
         upper=BRICKS
         | dict(length_m=0.3, width_m=0.3, height_m=0.9, element_size_m=0.15, at_m=[0, 0, 0.5]),
     ),
-    joints=dict(foot=dict(slave="lower", on="ground"), joint=dict(slave="upper", on="lower")),
+    joints=dict(foot=dict(between=["lower", "ground"]), joint=dict(between=["upper", "lower"])),
     initial=dict(upper=dict(tilt_rad=0.06)),
     contact=dict(friction_coefficient=0.7, interior_points=0),
     integration=dict(engine="full", dt_s=1e-3, duration_s=0.3),
@@ -111,7 +111,7 @@ def test_dofs_of_all_bodies_are_counted_and_copies_are_factored_once():
     places = [[-1.0, 0, 0], [1.0, 0, 0]]
     case = structure(
         bodies=dict(column=BRICKS | dict(length_m=0.3, width_m=0.3, height_m=0.9, copies_m=places)),
-        joints=dict(feet=dict(slave="column", on="ground")),
+        joints=dict(feet=dict(between=["column", "ground"])),
         integration=dict(engine="full"),
     )
     model, meshed = structure_of_elements(case, MPI.COMM_SELF, "case")

@@ -39,7 +39,7 @@ def _case(motion, engine, duration_s, **sections):
                         third=block | dict(height_m=0.5, at_m=[0, 0, 1.4]),
                     ),
                     joints=dict(
-                        foot=dict(friction_coefficient=0.9), third=dict(slave="third", on="upper")
+                        foot=dict(friction_coefficient=0.9), third=dict(between=["third", "upper"])
                     ),
                     contact=dict(friction_coefficient=0.4, interior_points=4),
                     integration=dict(engine=engine, dt_s=1e-3, duration_s=duration_s),

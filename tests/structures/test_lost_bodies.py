@@ -22,7 +22,7 @@ def alone(length, height, tilt, engine="rigid", **initial):
     body = dict(kind="block", length_m=length, width_m=length, height_m=height) | STONE
     return structure(
         bodies=dict(block=body | dict(element_size_m=min(length, height) / 2)),
-        joints=dict(foot=dict(slave="block", on="ground")),
+        joints=dict(foot=dict(between=["block", "ground"])),
         initial=dict(block=dict(tilt_rad=tilt) | initial),
         integration=dict(engine=engine, dt_s=1e-3, duration_s=1.5),
         contact=dict(friction_coefficient=1.0, interior_points=0),

@@ -143,7 +143,7 @@ def test_faces_meet_whose_nodes_all_lie_on_edges_of_the_others_elements():
             )
             | stone,
         ),
-        joints=dict(feet=dict(slave="pier", on="ground"), heads=dict(slave="pier", on="deck")),
+        joints=dict(feet=dict(between=["pier", "ground"]), heads=dict(between=["pier", "deck"])),
     )
     assert len(layout_of(case, "case").contacts) == 4
 
@@ -167,8 +167,8 @@ def test_a_face_is_known_to_contact_where_points_of_a_slave_may_come():
             ),
             contact=dict(interior_points=points),
             joints=dict(
-                foot=dict(slave="drum", on="ground"),
-                joint=dict(slave="drum", on="drum", allowance_m=0.05),
+                foot=dict(between=["drum", "ground"]),
+                joint=dict(between=["drum", "drum"], allowance_m=0.05),
             ),
         )
         head = layout_of(case, "case").patches["drum"]["head, master"]
@@ -185,7 +185,7 @@ def test_a_block_of_a_million_tonnes_stands_and_so_does_a_gram_on_it():
             block(**heavy, rigid=True),
             dict(
                 bodies=dict(light=light | dict(at_m=[0.0, 0.0, 45.0], rigid=True)),
-                joints=dict(upper=dict(slave="light", on="block")),
+                joints=dict(upper=dict(between=["light", "block"])),
             ),
         ),
         contact=dict(interior_points=0),

@@ -364,7 +364,7 @@ def test_bodies_that_meet_in_several_faces_have_an_interface_of_its_own_name_for
             low=step | dict(outline_m=[[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]),
             up=step | dict(outline_m=[[0, 2], [1, 2], [1, 1], [2, 1], [2, 3], [0, 3]]),
         ),
-        joints=dict(foot=dict(slave="low", on="ground"), joint=dict(slave="up", on="low")),
+        joints=dict(foot=dict(between=["low", "ground"]), joint=dict(between=["up", "low"])),
         integration=dict(engine="rigid", duration_s=0.01),
     )
     found = run(case, tmp_path / "out", quiet=True)["interfaces"]

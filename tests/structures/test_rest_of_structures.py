@@ -119,7 +119,7 @@ def test_a_block_thrown_beside_the_other_falls_past_the_ground_and_ends_the_anal
     assert math.sqrt(2.2 / GRAVITY) < summary["slid_off_time_s"] < math.sqrt(2.2 / GRAVITY) + 0.15
 
 
-def temple(slave="column", on="architrave"):
+def temple(*heads):
     return structure(
         bodies=dict(
             column=dict(
@@ -135,7 +135,7 @@ def temple(slave="column", on="architrave"):
             )
             | STONE,
         ),
-        joints=dict(feet=dict(slave="column", on="ground"), heads=dict(slave=slave, on=on)),
+        joints=dict(feet=dict(between=["column", "ground"]), heads=dict(between=heads)),
         contact=dict(interior_points=0),
         observed="architrave",
         integration=dict(engine="rigid", duration_s=0.01),
@@ -179,7 +179,7 @@ def test_the_least_energy_of_a_stack_is_that_of_the_part_that_falls_first():
             block=slender | dict(length_m=0.9, width_m=0.9, height_m=0.3, at_m=[0, 0, 1.2]),
         ),
         joints=dict(
-            foot=dict(slave="pedestal", on="ground"), joint=dict(slave="pedestal", on="block")
+            foot=dict(between=["pedestal", "ground"]), joint=dict(between=["pedestal", "block"])
         ),
     )
     model = structure_model(case)
@@ -216,7 +216,9 @@ def test_the_weakest_edge_of_a_triangular_support_decides():
             )
             | STONE,
         ),
-        joints=dict(feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")),
+        joints=dict(
+            feet=dict(between=["column", "ground"]), heads=dict(between=["column", "slab"])
+        ),
     )
     model = structure_model(case)
     slab = stances(model, standing_of(case, model))[3]

@@ -42,7 +42,7 @@ def bent(engine: str, dt: float, cap_kg: float, **keys):
     )
     return structure(
         bodies=dict(pier=pier, cap=cap),
-        joints=dict(feet=dict(slave="pier", on="ground"), heads=dict(slave="pier", on="cap")),
+        joints=dict(feet=dict(between=["pier", "ground"]), heads=dict(between=["pier", "cap"])),
         initial=dict(pier=dict(tilt_rad=TILT)),
         contact=dict(friction_coefficient=0.7, interior_points=0),
         integration=dict(engine=engine, dt_s=dt, n_modes=0),

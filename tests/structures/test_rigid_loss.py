@@ -124,7 +124,7 @@ def test_without_an_impact_that_counts_or_with_restitution_there_is_no_share():
 def test_nothing_is_told_where_any_foot_stands_on_a_pad(tmp_path):
     """One of two blocks rocks on rigid ground; the pad below the other always takes energy."""
     other = dict(bodies=dict(other=BLOCK | dict(at_m=[2.0, 0.0, 0.0])))
-    joints = dict(other=dict(slave="other", on="ground"))
+    joints = dict(other=dict(between=["other", "ground"]))
     case = structure(
         **merge(block(joints), other),
         initial=dict(block=dict(tilt_rad=0.05)),

@@ -296,7 +296,7 @@ def test_feet_that_are_not_flat_are_refused_where_they_cannot_be_computed():
                     flange=dict(outer_diameter_m=0.4, thickness_m=0.05),
                 )
             ),
-            joints=dict(foot=dict(slave="one", on="ground")),
+            joints=dict(foot=dict(between=["one", "ground"])),
         )
     tables = block(rigid=True, foot_radius_m=1.0, at_m=[0.0, 0.0, 0.5])
     pedestal = dict(kind="block", length_m=0.6, width_m=0.6, height_m=0.5, rigid=True) | STONE
@@ -305,7 +305,7 @@ def test_feet_that_are_not_flat_are_refused_where_they_cannot_be_computed():
         structure(
             bodies=tables["bodies"] | dict(pedestal=pedestal),
             joints=dict(
-                foot=dict(slave="pedestal", on="ground"), joint=dict(slave="pedestal", on="block")
+                foot=dict(between=["pedestal", "ground"]), joint=dict(between=["pedestal", "block"])
             ),
         )
     )
@@ -378,7 +378,7 @@ def test_a_drum_on_a_smaller_one_has_a_round_edge():
             low=drum | dict(outer_diameter_m=0.5),
             up=drum | dict(outer_diameter_m=0.8, at_m=[0, 0, 0.3]),
         ),
-        joints=dict(foot=dict(slave="low", on="ground"), joint=dict(slave="up", on="low")),
+        joints=dict(foot=dict(between=["low", "ground"]), joint=dict(between=["up", "low"])),
         initial=dict(up=dict(tilt_rad=0.05)),
     )
     model = structure_model(case)
@@ -394,7 +394,7 @@ def test_a_drum_on_a_smaller_one_has_a_round_edge():
 
 def test_an_edge_need_not_be_stated_and_the_joint_in_the_other_direction_is_refused():
     case = narrower_case("rigid", 1e-3, 0.05)
-    stated = case.replace({"joints.edge.slave": "narrow", "joints.edge.on": "wide"})
+    stated = case.replace({"joints.edge.between": ["narrow", "wide"]})
     with pytest.raises(InputError, match="joints.edge: states the joint of joints.joint again"):
         structure_model(stated)
 
@@ -407,7 +407,7 @@ def test_faces_that_end_with_or_near_the_masters_edge_have_two_sides(upper):
             low=stone | dict(length_m=0.4, width_m=0.4, height_m=0.3),
             up=stone | dict(length_m=upper, width_m=upper, height_m=0.6, at_m=[0, 0, 0.3]),
         ),
-        joints=dict(foot=dict(slave="low", on="ground"), joint=dict(slave="up", on="low")),
+        joints=dict(foot=dict(between=["low", "ground"]), joint=dict(between=["up", "low"])),
     )
     joints = structure_model(case).joints
     assert [joint.pair for joint in joints] == [-1, -1, 1]
@@ -420,7 +420,7 @@ def test_a_face_far_within_the_masters_has_one_side():
             low=stone | dict(length_m=0.9, width_m=0.9, height_m=0.3),
             up=stone | dict(length_m=0.3, width_m=0.3, height_m=0.6, at_m=[0, 0, 0.3]),
         ),
-        joints=dict(foot=dict(slave="low", on="ground"), joint=dict(slave="up", on="low")),
+        joints=dict(foot=dict(between=["low", "ground"]), joint=dict(between=["up", "low"])),
     )
     assert len(structure_model(case).joints) == 2
 
@@ -436,7 +436,7 @@ def test_a_slab_that_overhangs_rests_and_its_weight_is_shared():
             slab=dict(kind="slab", length_m=1.2, width_m=0.4, thickness_m=0.1, at_m=[0.1, 0, 0.6])
             | stone,
         ),
-        joints=dict(foot=dict(slave="low", on="ground"), joint=dict(slave="slab", on="low")),
+        joints=dict(foot=dict(between=["low", "ground"]), joint=dict(between=["slab", "low"])),
         contact=dict(interior_points=4),
     )
     rows, columns = columns_and_rows(case, 0.1)
@@ -474,7 +474,9 @@ def test_bodies_carry_what_stands_on_them():
             )
             | STONE,
         ),
-        joints=dict(feet=dict(slave="column", on="ground"), heads=dict(slave="column", on="slab")),
+        joints=dict(
+            feet=dict(between=["column", "ground"]), heads=dict(between=["column", "slab"])
+        ),
         initial=dict(column=dict(tilt_rad=0.01)),
     )
     model = structure_model(case)

@@ -82,8 +82,8 @@ def on_plinth(engine: str, at: tuple[float, float] = (0.0, 0.0), joint=None, **i
     return case_of(
         dict(plinth=PLINTH, body=DOMED | dict(at_m=[*at, PLINTH["height_m"]])),
         dict(
-            base=dict(slave="plinth", on="ground"),
-            foot=dict(slave="body", on="plinth") | (joint or {}),
+            base=dict(between=["plinth", "ground"]),
+            foot=dict(between=["body", "plinth"]) | (joint or {}),
         ),
         engine,
         1e-3,

@@ -27,7 +27,7 @@ HEAVY = dict(mass_kg=1e6, floor_masses_kg=[0.1])
 def _model(**keys):
     case = structure(
         bodies=dict(building=KEYS | dict(mass_kg=5e4, youngs_modulus_pa=30e9) | keys),
-        joints=dict(foot=dict(slave="building", on="ground")),
+        joints=dict(foot=dict(between=["building", "ground"])),
     )
     return structure_model(case).parts[0]
 

@@ -125,7 +125,7 @@ def test_drift_of_a_pushed_building_is_shear_over_stiffness(tmp_path):
     )
     case = structure(
         bodies=dict(building=building),
-        joints=dict(foot=dict(slave="building", on="ground")),
+        joints=dict(foot=dict(between=["building", "ground"])),
         integration=dict(duration_s=1.5),
         contact=dict(friction_coefficient=0.7, interior_points=0),
         motion=dict(source=str(tmp_path / "ramp.csv"), units="m/s2"),
@@ -167,8 +167,8 @@ def test_a_block_that_slides_out_of_the_prepared_face_ends_the_analysis_by_name(
     case = structure(
         bodies=dict(wide=wide, block=block),
         joints=dict(
-            foot=dict(slave="wide", on="ground"),
-            joint=dict(slave="block", on="wide")
+            foot=dict(between=["wide", "ground"]),
+            joint=dict(between=["block", "wide"])
             | ({} if allowance is None else dict(allowance_m=allowance)),
         ),
         contact=dict(friction_coefficient=0.1, interior_points=0),
@@ -209,7 +209,7 @@ def test_a_drum_that_rocks_over_in_a_plane_loses_what_housners_impact_on_its_far
     )
     case = structure(
         bodies=dict(drum=drum),
-        joints=dict(foot=dict(slave="drum", on="ground")),
+        joints=dict(foot=dict(between=["drum", "ground"])),
         initial=dict(drum=dict(tilt_rad=0.02)),
         contact=dict(friction_coefficient=0.7, interior_points=0),
         integration=dict(engine="rigid", dt_s=dt),

@@ -21,7 +21,7 @@ def _masses(**body):
     """Mass [kg], centre and inertia of a body, reduced rigidly: its mesh alone."""
     case = structure(
         bodies=dict(body=body | STONE | dict(rigid=True)),
-        joints=dict(foot=dict(slave="body", on="ground")),
+        joints=dict(foot=dict(between=["body", "ground"])),
     )
     model = structure_model(case).parts[0].model
     return model.mass, model.center, model.inertia, model
@@ -64,7 +64,7 @@ def test_body_of_a_stated_mass_has_it_flange_included():
         bodies=dict(
             body=dict(kind="cylinder", outer_diameter_m=0.2, height_m=1.0, mass_kg=77.0, rigid=True)
         ),
-        joints=dict(foot=dict(slave="body", on="ground")),
+        joints=dict(foot=dict(between=["body", "ground"])),
     )
     assert structure_model(case).parts[0].model.mass == pytest.approx(77.0, rel=1e-12)
 
@@ -78,7 +78,7 @@ def pillar():
         kind="block", length_m=0.41, width_m=0.21, height_m=0.2, at_m=[0, 0, 1.2], rigid=True
     )
     case = structure(
-        **block(dict(head=dict(slave="block", on="top")))
+        **block(dict(head=dict(between=["block", "top"])))
         | dict(bodies=dict(block=BLOCK | dict(element_order=2, coarse_size_m=0.3), top=top))
     )
     return structure_model(case).parts[0].model
@@ -115,7 +115,7 @@ def test_block_has_its_mass_inertia_and_bending_frequency(pillar):
 def test_bodies_bend_as_beams_do_at_the_sizes_they_are_given(body, exact):
     case = structure(
         bodies=dict(body=body | STONE | dict(poissons_ratio=0.2)),
-        joints=dict(foot=dict(slave="body", on="ground")),
+        joints=dict(foot=dict(between=["body", "ground"])),
     )
     one = drawing(case, "body", "small.toml")
     assert elastic_modes(body_of(one.shape, one.material), 1)[0][0] / 2 / np.pi == pytest.approx(
@@ -184,7 +184,7 @@ def test_copies_and_equal_bodies_share_one_model():
     assert all(part.model is parts[0].model for part in parts[:4])
     twin = dict(block(rigid=True)["bodies"]["block"], at_m=[1.0, 0.0, 0.0])
     case = structure(
-        **block(dict(other=dict(slave="twin", on="ground")), rigid=True)
+        **block(dict(other=dict(between=["twin", "ground"])), rigid=True)
         | dict(bodies=dict(block=BLOCK | dict(rigid=True), twin=twin))
     )
     block_part, twin_part = structure_model(case).parts

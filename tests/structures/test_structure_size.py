@@ -57,7 +57,7 @@ def test_estimate_counts_what_is_built(body):
         bodies=dict(
             body=body | {key: value for key, value in STONE.items() if key != "poissons_ratio"}
         ),
-        joints=dict(foot=dict(slave="body", on="ground")),
+        joints=dict(foot=dict(between=["body", "ground"])),
     )
     shape = shape_of("bodies.body", case.bodies["body"], "small.toml")
     found = size_of(case, "small.toml")
@@ -105,7 +105,7 @@ def test_elements_that_would_not_fit_are_refused_at_once_with_a_size_that_fits(k
                 | keys
                 | (dict(coarse_size_m=value) if kind == "plate" else {})
             ),
-            joints=dict(foot=dict(slave="piece", on="ground")),
+            joints=dict(foot=dict(between=["piece", "ground"])),
         )
 
     began = time.perf_counter()
@@ -138,12 +138,12 @@ def test_elements_that_would_not_fit_are_refused_at_once_with_a_size_that_fits(k
 )
 def test_a_prism_drawn_in_millimetres_is_told_so(outline, width, key):
     body = dict(kind="prism", outline_m=outline, width_m=width, element_size_m=1.0)
-    case = structure(bodies=dict(a=body), joints=dict(foot=dict(slave="a", on="ground")))
+    case = structure(bodies=dict(a=body), joints=dict(foot=dict(between=["a", "ground"])))
     with pytest.raises(InputError, match="of 900 m, which looks like millimetres") as caught:
         structure_model(case, "small.toml")
     assert caught.value.key == f"bodies.a.{key}" and "\n" not in str(caught.value)
     coarse = dict(a=body | dict(element_size_m=100.0, rigid=True))
-    foot, drawn = dict(foot=dict(slave="a", on="ground")), dict(start="drawn")
+    foot, drawn = dict(foot=dict(between=["a", "ground"])), dict(start="drawn")
     case = structure(bodies=coarse, joints=foot, integration=drawn)
     with pytest.warns(UserWarning, match='bodies.a: "a" is 900 m large, which looks like millim'):
         structure_model(case, "small.toml")
@@ -163,7 +163,9 @@ def test_coarse_size_alone_is_named_where_it_is_the_cause():
     plate = dict(kind="plate", length_m=3.0, width_m=2.0, thickness_m=0.3, coarse_size_m=0.002)
     with pytest.raises(InputError, match="m would fit") as caught:
         structure_model(
-            structure(bodies=dict(plate=plate), joints=dict(foot=dict(slave="plate", on="ground"))),
+            structure(
+                bodies=dict(plate=plate), joints=dict(foot=dict(between=["plate", "ground"]))
+            ),
             "small.toml",
         )
     assert caught.value.key == "bodies.plate.coarse_size_m"

@@ -8,7 +8,7 @@ from fecolumn.study.plan import read_plan
 STUDY = """
 [case]
 bodies.block = {kind = "block", length_m = 0.4, width_m = 0.2, height_m = 1.2, rigid = true}
-joints.foot = {slave = "block", on = "ground"}
+joints.foot = {between = ["block", "ground"]}
 integration.duration_s = 0.1
 [axes]
 %s

@@ -83,7 +83,7 @@ def test_a_rod_that_jams_stays_jammed_and_one_that_is_free_stays_free():
     )
     case = structure(
         bodies=dict(rod=rod),
-        joints=dict(tip=dict(slave="rod", on="ground")),
+        joints=dict(tip=dict(between=["rod", "ground"])),
         initial=dict(rod=dict(tilt_rad=TILT)),
         contact=dict(friction_coefficient=MU, interior_points=0),
         integration=dict(engine="rigid", dt_s=DT, alpha_hht=0.0, n_modes=0),

@@ -87,7 +87,7 @@ WRONG = [
                     rigid=True,
                 )
             ),
-            joints=dict(other=dict(slave="side", on="ground")),
+            joints=dict(other=dict(between=["side", "ground"])),
         ),
         "bodies.side",
         '"side" and "lower" overlap',
@@ -109,7 +109,7 @@ WRONG = [
                 | RIGID,
                 lower=dict(element_size_m=0.6, coarse_size_m=0.8),
             ),
-            joints=dict(other=dict(slave="side", on="ground")),
+            joints=dict(other=dict(between=["side", "ground"])),
         ),
         "bodies.side",
         '"side" and "lower" overlap',
@@ -144,8 +144,16 @@ WRONG = [
         "links.tie.damping_n_s_m",
         "greater than 0",
     ),
-    (stack(joints=dict(joint=dict(on="lwoer"))), "joints.joint.between", "did you mean lower"),
-    (stack(joints=dict(joint=dict(on="upper"))), "joints.joint.between", "no other copy"),
+    (
+        stack(joints=dict(joint=dict(between=["upper", "lwoer"]))),
+        "joints.joint.between",
+        "did you mean lower",
+    ),
+    (
+        stack(joints=dict(joint=dict(between=["upper", "upper"]))),
+        "joints.joint.between",
+        "no other copy",
+    ),
     (stack(initial=dict(middle=dict(tilt_rad=0.1))), "initial.middle", "no such body"),
     (stack(bodies=dict(upper=dict(kind="ball"))), "bodies.upper.kind", "must be one of tube"),
     (
@@ -187,28 +195,28 @@ WRONG = [
     ),
     (stack(observed="lower.floor 1"), "observed", "no such mark"),
     (
-        stack(joints=dict(joint=False, foot=dict(slave="lower", on="upper"))),
+        stack(joints=dict(joint=False, foot=dict(between=["lower", "upper"]))),
         "joints",
         "no contact path",
     ),
     # one joint stated twice: in each direction, by another name, and of one copy beside all of them
     (
-        stack(joints=dict(again=dict(slave="lower", on="upper"))),
+        stack(joints=dict(again=dict(between=["lower", "upper"]))),
         "joints.again",
         'the joint of joints.joint again: the same faces of "upper" and "lower"',
     ),
     (
-        stack(joints=dict(again=dict(slave="upper", on="lower", friction_coefficient=0.1))),
+        stack(joints=dict(again=dict(between=["upper", "lower"], friction_coefficient=0.1))),
         "joints.again",
         'the joint of joints.joint again: the same faces of "upper" and "lower"',
     ),
     (
-        stack(joints=dict(again=dict(slave="lower", on="ground"))),
+        stack(joints=dict(again=dict(between=["lower", "ground"]))),
         "joints.again",
         'the joint of joints.foot again: the same faces of "lower" and the ground',
     ),
     (
-        frame(joints=dict(again=dict(slave="column 2", on="slab"))),
+        frame(joints=dict(again=dict(between=["column 2", "slab"]))),
         "joints.again",
         'the joint of joints.heads again: the same faces of "column 2" and "slab"',
     ),
@@ -271,7 +279,7 @@ WRONG = [
             bodies=dict(
                 tube=dict(kind="tube", outer_diameter_m=1.0, height_m=3.0, wall_m=4e-5) | STONE
             ),
-            joints=dict(foot=dict(slave="tube", on="ground")),
+            joints=dict(foot=dict(between=["tube", "ground"])),
         ),
         "bodies.tube",
         "its elements measure 4e-05 m across",
@@ -465,7 +473,7 @@ def test_coarse_plate_on_columns_stands_on_their_heads_whichever_is_named_first(
     case = structure(
         **merge(
             frame(slab=dict(element_size_m=0.6)),
-            dict(joints=dict(heads=dict(slave="slab", on="column"))),
+            dict(joints=dict(heads=dict(between=["slab", "column"]))),
         )
     )
     made = structure_model(case)
