@@ -172,5 +172,5 @@ def test_a_model_of_its_own_table_has_no_bodies_to_draw(tmp_path):
     made = case_of_table(table | dict(integration=dict(duration_s=0.1)), "case.toml")
     assert body_motion(made, response, "case.toml") == {}
     run(made, tmp_path / "run", quiet=True)
-    with pytest.raises(InputError, match="which tells no bodies"):
+    with pytest.raises(InputError, match="which has no bodies to draw"):
         read_result(tmp_path / "run")

@@ -46,8 +46,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--exaggerate",
         metavar="N",
         default="1",
-        help="draw elastic displacements N times as large, or auto; needs fields (default: "
-        "1, true)",
+        help="draw elastic displacements N times as large, or auto; needs states or fields "
+        "(default: 1, true)",
     )
     parser.add_argument(
         "--colour",
@@ -55,14 +55,14 @@ def add_arguments(parser: ArgumentParser) -> None:
         dest="color",
         choices=("stress", "displacement", "none"),
         default="",
-        help="by von Mises stress (default where fields were written), by displacement, or none "
-        "(default with --forces)",
+        help="by von Mises stress (default where there are states or fields), by displacement, or "
+        "none (default with --forces)",
     )
     parser.add_argument(
         "--forces",
         action="store_true",
         help="draw the forces in the joints over the bodies: their resultants as arrows, the "
-        "thrust line and hinges; lean, front and side then look along the level",
+        "thrust line and hinges; lean, front and side then look horizontally",
     )
     parser.add_argument(
         "--start",

@@ -215,9 +215,9 @@ def read_result(folder: Path | str, body: str = "") -> Result:
             folder,
             table,
             None,
-            "is the table of a rocking model, which tells no bodies that could be drawn; its "
-            "history has figures; with the model's name as integration.engine of a case with "
-            "[bodies] there are pictures",
+            "is the table of a rocking model, which has no bodies to draw; figures of its history "
+            "are in the folder; pictures need a case with [bodies] and the model's name as "
+            "integration.engine",
         )
     if not is_file(folder / SUMMARY_FILE):
         raise InputError(

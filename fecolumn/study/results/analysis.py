@@ -223,8 +223,8 @@ class AnalysisResult:
         size
             (width, height) of the movie [pixels], even numbers.
         colour
-            "stress" (von Mises), "displacement" or "none"; left out: stress where fields were
-            written, none with `forces`.
+            "stress" (von Mises), "displacement" or "none"; left out: stress where there are
+            states or fields, none with `forces`.
         exaggerate
             factor on elastic displacements, 1 to 1e6, or "auto".
         forces
