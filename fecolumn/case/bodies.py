@@ -299,7 +299,11 @@ class Storeys(WithMaterial):
         doc="height of each storey, the first above the slab's top", unit="m", above=0, high=100
     )
     stiffness_x_n_m: tuple[float, ...] = parameter(
-        (), doc="stiffness of each storey along x; or give period_s", unit="N/m", above=0, high=1e15
+        (),
+        doc="stiffness of each storey along x; or state period_s",
+        unit="N/m",
+        above=0,
+        high=1e15,
     )
     stiffness_y_n_m: tuple[float, ...] = parameter(
         (),
@@ -317,8 +321,8 @@ class Storeys(WithMaterial):
     )
     profile: str = parameter(
         "uniform",
-        doc="stiffnesses that give period_s: uniform: all alike; triangular, shear, "
-        "flexural: such that floors at height z of H move in the first mode as z / H, "
+        doc="how the stiffnesses that have period_s are distributed: uniform: all alike; "
+        "triangular, shear, flexural: such that floors at height z of H move in the first mode as z / H, "
         "sin(pi z / 2 H), 1 - cos(pi z / 2 H)",
         choices=("uniform", "triangular", "shear", "flexural"),
     )

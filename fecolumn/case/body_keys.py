@@ -136,9 +136,9 @@ class Solid(WithMaterial):
     )
     rigid: bool = parameter(
         False,
-        doc="a rigid body that gives only at its contact points, by "
-        "contact_stiffness_n_m3; in the rigid engine every body is rigid and gives "
-        "nowhere unless that is stated",
+        doc="a rigid body, whose contact points alone are compliant, by "
+        "contact_stiffness_n_m3; in the rigid engine every body is rigid, with contact points "
+        "that are compliant where that key is stated",
     )
     fixed: bool = parameter(
         False,

@@ -129,7 +129,7 @@ class Base(Section):
     )
     shear_stiffness_n_m3: float = parameter(
         0.0,
-        doc="springs along a pad per area; 0 takes 0.8 of stiffness_n_m3",
+        doc="springs along a pad per area; 0: 0.8 of stiffness_n_m3",
         unit="N/m3",
         low=0,
         high=1e15,

@@ -19,7 +19,7 @@ class Ground(Section):
 
     kind: str = parameter(
         "rigid",
-        doc="rigid: a flat that does not give; plate: elastic plate with edges; unbounded: the "
+        doc="rigid: a flat that does not deform; plate: elastic plate with edges; unbounded: the "
         "same layer without edges; pad: springs and dashpots per area, without edges",
         choices=("rigid", "plate", "unbounded", "pad"),
     )
@@ -83,7 +83,7 @@ class Ground(Section):
     )
     shear_stiffness_n_m3: float = parameter(
         0.0,
-        doc="springs along a pad per area; 0 takes 0.8 of stiffness_n_m3",
+        doc="springs along a pad per area; 0: 0.8 of stiffness_n_m3",
         unit="N/m3",
         low=0,
         high=1e15,

@@ -62,7 +62,7 @@ class Joint(Section):
     )
     shear_stiffness_n_m3: float = parameter(
         0.0,
-        doc="springs along the pad per area; 0 takes 0.8 of stiffness_n_m3",
+        doc="springs along the pad per area; 0: 0.8 of stiffness_n_m3",
         unit="N/m3",
         low=0,
         high=1e15,
@@ -103,8 +103,8 @@ class Joint(Section):
     )
     bond_fracture_energy_j_m2: float = parameter(
         0.0,
-        doc="energy that the layer takes per area until it has failed, its stress falling in a "
-        "straight line; 0: it fails at once",
+        doc="fracture energy of the layer per area, its stress falling in a straight line; 0: "
+        "it fails at once",
         unit="J/m2",
         low=0,
         high=1e7,
@@ -120,7 +120,7 @@ class Joint(Section):
     )
     bond_shear_stiffness_n_m3: float = parameter(
         0.0,
-        doc="stiffness of that layer per area along the faces; 0 takes 0.4 of bond_stiffness_n_m3",
+        doc="stiffness of that layer per area along the faces; 0: 0.4 of bond_stiffness_n_m3",
         unit="N/m3",
         low=0,
         high=1e15,

@@ -166,7 +166,7 @@ class Integration(Section):
         "reduced",
         doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, "
         "exact static compliance of the same mesh; rigid: reduced without modes, a "
-        "structure's bodies without any give; housner: no finite elements, the planar "
+        "structure's bodies without local compliance; housner: no finite elements, the planar "
         "rigid block of fecolumn help rocking; wobbling: the rigid column that rolls "
         "on its rim; rocking_frame, wobbling_frame, podium: models of a table of their "
         "own, such as [podium], or of columns and what stands on them in [bodies]",
@@ -184,8 +184,8 @@ class Integration(Section):
     )
     duration_s: float = parameter(
         0.0,
-        doc="analysed time; 0 takes the motion and its free vibration, and must not stand "
-        "where there is no motion",
+        doc="analysed time; 0: that of the motion and its free vibration; a case without a "
+        "motion needs it",
         unit="s",
         low=0,
         high=1e5,
@@ -205,10 +205,9 @@ class Integration(Section):
     )
     substeps: str = parameter(
         "rolling",
-        doc="what a step is made in parts for, 64 at most; rolling: a round rim that rolls "
-        "fast; impacts: a point that lands, so that it does in the smallest part; "
-        "none: nothing, the step that is asked for is taken. What does not converge is "
-        "cut in any case",
+        doc="when a step is divided into parts, at most 64; rolling: while a round rim rolls "
+        "fast; impacts: where a point lands, so that it lands in the smallest part; none: never. "
+        "A step that does not converge is divided in any case",
         choices=SUBSTEPS,
         since="0.7",
     )

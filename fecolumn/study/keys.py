@@ -16,7 +16,7 @@ class StudyKeys:
 
     case: str = parameter(
         doc="path of a case file; or a table [case] of keys of a case, with extends = "
-        '"case.toml" for what it takes over'
+        '"case.toml" for the other keys'
     )
     title: str = parameter("", doc="title of tables and figures; left out: the file's name")
     axes: dict[str, Any] = parameter(

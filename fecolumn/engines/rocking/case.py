@@ -49,7 +49,7 @@ class ModelCase:
     dt_s
         step at which motions are sampled; between samples they are straight lines [s].
     duration_s
-        time followed; 0 takes the motion and its free vibration [s].
+        time followed; 0: that of the motion and its free vibration [s].
     """
 
     name: str
