@@ -322,8 +322,8 @@ class Storeys(WithMaterial):
     profile: str = parameter(
         "uniform",
         doc="how the stiffnesses that have period_s are distributed: uniform: all alike; "
-        "triangular, shear, flexural: such that floors at height z of H move in the first mode as z / H, "
-        "sin(pi z / 2 H), 1 - cos(pi z / 2 H)",
+        "triangular, shear, flexural: such that floors at height z of H move in the first mode "
+        "as z / H, sin(pi z / 2 H), 1 - cos(pi z / 2 H)",
         choices=("uniform", "triangular", "shear", "flexural"),
     )
     damping: str = parameter(
