@@ -128,7 +128,7 @@ WRONG = [
     (lambda: fecolumn.Case(bodies={"a b": DRUM}, joints={"foot": FOOT}), "without blanks"),
     (lambda: fecolumn.Case(bodies={1: DRUM}, joints={"foot": FOOT}), "must be text in quotes"),
     (lambda: drum_with(joints={"foot": DRUM}), "must be a Joint(...)"),
-    (lambda: drum_with(joints={"foot": fecolumn.Joint()}), "joints.foot.between: missing"),
+    (lambda: drum_with(joints={"foot": fecolumn.Joint()}), "joint.between: missing"),
     (lambda: drum_with(joints={"f": fecolumn.Joint(between=("dum", "ground"))}), "mean drum?"),
     (lambda: drum_with(motion="lick:1"), "motion = 'lick:1': must be a Motion(...)"),
     (lambda: drum_with(integration={"dt_s": 1}), "must be an Integration(...)"),

@@ -302,7 +302,7 @@ def test_engine_is_an_axis_of_a_study_of_structures(tmp_path):
         for key, value in body.items()
     ]
     lines += [
-        f'joints.{name}.{key} = "{value}"'
+        f"joints.{name}.{key} = {json.dumps(value)}"
         for name, one in tables["joints"].items()
         for key, value in one.items()
     ]
