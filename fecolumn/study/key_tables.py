@@ -61,9 +61,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         default="",
         metavar="SECTION",
-        help="one table such as contact or study, or one key such as contact.law",
+        help="print only this table, such as contact or study, or this key, such as contact.law",
     )
-    parser.add_argument("--markdown", action="store_true", help="as tables in Markdown")
+    parser.add_argument("--markdown", action="store_true", help="print tables in Markdown")
 
 
 def main(args: argparse.Namespace) -> int:
