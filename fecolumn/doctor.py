@@ -1,4 +1,4 @@
-"""Versions of all that fecolumn needs on this machine, and the problems that it would have here.
+"""Versions of all that fecolumn uses on this machine, and known problems of this machine.
 
 Stands alone: it needs neither the rest of the package nor any library it looks for. The libraries
 are looked at in a child process, in the order an analysis loads them, so that one that crashes is a

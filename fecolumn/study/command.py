@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "study",
         metavar="STUDY.toml",
-        help="study file, with title, case and [axes], [[zip]] or [latin_hypercube]",
+        help="study file, with title, case, and [axes], [[zip]], [latin_hypercube] as needed",
     )
     parser.add_argument(
         "-o",

@@ -37,9 +37,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=float,
         default=None,
         metavar="M",
-        help="displacement that runs that overturned or slid off have in the correlation R, and "
-        "largest of all others there; 0.25 in Katsamakas and Vassiliou (default: the "
-        "largest peak of the runs that stayed standing)",
+        help="cap on displacements in the correlation R, and displacement there of runs that "
+        "overturned or slid off; 0.25 in Katsamakas and Vassiliou (default: the largest "
+        "peak of the runs that stayed standing)",
     )
     # its name until 0.10
     parser.add_argument("--cap-mm", type=float, default=None, help=argparse.SUPPRESS)
@@ -51,8 +51,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=float,
         default=None,
         metavar="SHARE",
-        help="of two analyses: difference, divided by the larger peak, from which on they count "
-        "as different, above 0 and at most 1 (default: 0.05)",
+        help="of two analyses: difference, divided by the larger peak, at which they count as "
+        "parted, above 0 and at most 1 (default: 0.05)",
     )
 
 

@@ -26,7 +26,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--view",
         choices=VIEW_NAMES,
-        help="direction of view; lean (default; with --html iso): across the plane of the "
+        help="direction of view (default: lean, with --html iso); lean: across the plane of the "
         "largest lean; front: along y; side: along -x",
     )
     parser.add_argument(
