@@ -223,14 +223,18 @@ def _parser() -> argparse.ArgumentParser:
     mesh.add_argument(
         "-o", "--output", required=True, metavar="DIR", help="folder for meshes, picture and table"
     )
-    run = add("run", "run one analysis, or go on with it", main=_run, stopped=_FROM_CHECKPOINT)
+    run = add("run", "run one analysis, or continue it", main=_run, stopped=_FROM_CHECKPOINT)
     run.add_argument("case", metavar="CASE.toml", help="case file to analyse")
     run.add_argument(
-        "-o", "--output", required=True, metavar="DIR", help="result folder, one a case"
+        "-o",
+        "--output",
+        required=True,
+        metavar="DIR",
+        help="result folder; each case needs its own",
     )
     resume = add(
         "resume",
-        "go on with an analysis from its last checkpoint",
+        "continue an analysis from its last checkpoint",
         main=_resume,
         stopped=_FROM_CHECKPOINT,
     )
@@ -240,52 +244,71 @@ def _parser() -> argparse.ArgumentParser:
         one.add_argument(
             "--profile",
             action="store_true",
-            help="time each step: a table and a histogram of what the time went to",
+            help="time each step; prints a table and draws a histogram of where the time goes",
         )
-    add("cost", "measure what an analysis takes, and by how much keys make it cheaper", cost)
+    add(
+        "cost",
+        "measure how long an analysis takes, and how much faster it is with other keys",
+        cost,
+    )
     add("study", "run a sweep of analyses and compare their CDFs", study, stopped=_ON)
     add(
         "compare",
-        "compare two analyses, or two ensembles: settings, studies, computation and experiment",
+        "compare two analyses, or two ensembles: settings, studies, or computation and experiment",
         compare,
     )
     add("report", "write the report of a study: one HTML page, figures and tables", report)
     add(
         "fragility",
-        "probability of overturning over one or two intensity measures, of a study or "
-        "of your own table",
+        "fit the probability of overturning over one or two intensity measures, from a study or "
+        "your own table",
         fragility,
     )
     add(
         "design",
-        "the least or largest value of a key for which a limit state holds",
+        "find the least or largest value of a key for which a limit state holds",
         design,
         stopped=_ON,
     )
-    add("risk", "how often a limit state is reached: fragility and hazard curve of a site", risk)
+    add(
+        "risk",
+        "compute how often a limit state is reached, from a fragility and the hazard "
+        "curve of a site",
+        risk,
+    )
     add(
         "screen", "rank a list of objects by how likely they overturn or slide", screen, stopped=_ON
     )
     add("calibrate", "fit keys of a case to a measured free-rocking test", calibrate, stopped=_ON)
     add(
         "render",
-        "draw an analysis: movie, stills, sequence figure, a page, ParaView's view",
+        "draw an analysis: movie, stills, sequence figure, HTML page, script for ParaView",
         render,
     )
     model = add(
         "rocking",
-        "run a rocking model of rigid bodies in a motion or an ensemble; overturning spectra",
+        "run a rocking model of rigid bodies in a motion or an ensemble; compute overturning "
+        "spectra",
         rocking,
     )
     new.in_any_order = model.in_any_order = True
     add("motions", "make, fit, look at and convert ground motions", motions)
     add("show", "print the full form of a case: bodies, grounds, joints", show)
-    add("keys", "every key of a case and of a study: meaning, unit, range, default", keys)
-    add("help", "the manual, topic by topic", manual)
+    add("keys", "print every key of a case and of a study: meaning, unit, range, default", keys)
+    add("help", "print the manual, topic by topic", manual)
     add("verify", "check the engines against exact solutions", verify)
-    add("prepare", "compile what each machine compiles once; the set-up does it", main=_prepare)
-    add("doctor", "versions and known traps of this machine")
-    add("completion", "completion of the command line by the Tab key", completion, _completion)
+    add(
+        "prepare",
+        "compile all that has to be compiled once on each machine; the set-up calls it",
+        main=_prepare,
+    )
+    add("doctor", "print versions and known problems of this machine")
+    add(
+        "completion",
+        "print the script by which the Tab key completes commands and options",
+        completion,
+        _completion,
+    )
     _describe(parser)
     return parser
 

@@ -1,5 +1,4 @@
-"""What this machine offers: the version of everything fecolumn rests on, and the traps it would
-step into.
+"""Versions of all that fecolumn uses on this machine, and known problems of this machine.
 
 Stands alone: it needs neither the rest of the package nor any library it looks for. The libraries
 are looked at in a child process, in the order an analysis loads them, so that one that crashes is a

@@ -15,14 +15,16 @@ from fecolumn.mesh.mesh_file import MeshFile
 
 @section_class()
 class Footed(Solid):
-    """Tubes, cylinders and blocks: a foot that is not flat, in the reduced and rigid engine."""
+    """Keys of tubes, cylinders and blocks: a foot that is not flat, in the reduced and rigid engine
+    only; a finely meshed lower part, and the cap.
+    """
 
     foot_radius_m: float | None = parameter(
         None,
-        doc="radius of the sphere of which the foot is a cap, its lowest point at the "
-        "place of the body; the body rolls on it, and beyond its edge on that; at "
-        "least the radius of a round body, the half diagonal of a block; left out: a "
-        "flat foot",
+        doc="radius of the sphere that forms the foot, its lowest point at the place of the "
+        "body; the body rolls on the sphere and, when tilted further, on the edge of the "
+        "sphere; at least the radius of a round body, the half diagonal of a block; left "
+        "out: a flat foot",
         unit="m",
         above=0,
         high=1e5,
@@ -30,8 +32,8 @@ class Footed(Solid):
     )
     edge_radius_m: float = parameter(
         0.0,
-        doc="radius by which the outer edge of a flat foot is rounded; less than half its "
-        "smaller side",
+        doc="radius by which the outer edge of a flat foot is rounded, less than half the foot's "
+        "smaller side; 0: a sharp edge",
         unit="m",
         low=0,
         high=50,
@@ -39,9 +41,10 @@ class Footed(Solid):
     )
     fine_height_m: float | None = parameter(
         None,
-        doc="height of a finely meshed lower part, of element_size_m, to which a coarser upper "
-        "part is tied, of coarse_size_m: what stands on one foot alone; left out: one grid, "
-        "fine at both ends",
+        doc="height of a lower part that is finely meshed, with element_size_m; a coarser upper "
+        "part, with coarse_size_m, is tied to it; for a body that touches others with its "
+        "foot only; left out: one grid, fine at both ends, but in a block with cap or flange "
+        "as fine_height_m of [column]",
         unit="m",
         low=0,
         high=1000,
@@ -49,8 +52,9 @@ class Footed(Solid):
     )
     cap_size_m: float | None = parameter(
         None,
-        doc="element size of the cap; left out: element_size_m, with fine_height_m a coarse "
-        "element, but 16 of the cap's longer side at most",
+        doc="element size of the cap of a block, or with fine_height_m; left out: coarse_size_m, "
+        "but at most 16 elements along the cap's longer side; in other bodies the cap has "
+        "element_size_m",
         unit="m",
         above=0,
         high=10,
@@ -62,9 +66,9 @@ class Footed(Solid):
 
 @section_class()
 class Tube(Footed):
-    """kind = "tube": a hollow cylinder, its axis along z."""
+    """kind = "tube": a hollow cylinder with its axis along z."""
 
-    kind: str = parameter("tube", doc="what the body is", choices=("tube",))
+    kind: str = parameter("tube", doc="kind of body", choices=("tube",))
     outer_diameter_m: float = required(doc="outer diameter", unit="m", above=0, high=100)
     wall_m: float = required(doc="wall thickness", unit="m", above=0, high=50)
     height_m: float = required(doc="height without flange and cap", unit="m", above=0, high=1000)
@@ -72,9 +76,9 @@ class Tube(Footed):
 
 @section_class()
 class Cylinder(Footed):
-    """kind = "cylinder": a solid cylinder, its axis along z: a column, a drum."""
+    """kind = "cylinder": a solid cylinder with its axis along z, such as a column or a drum."""
 
-    kind: str = parameter("cylinder", doc="what the body is", choices=("cylinder",))
+    kind: str = parameter("cylinder", doc="kind of body", choices=("cylinder",))
     outer_diameter_m: float = required(doc="diameter", unit="m", above=0, high=100)
     height_m: float = required(doc="height without flange and cap", unit="m", above=0, high=1000)
 
@@ -83,14 +87,14 @@ class Cylinder(Footed):
 class Block(Footed):
     """kind = "block": a rectangular block."""
 
-    kind: str = parameter("block", doc="what the body is", choices=("block",))
+    kind: str = parameter("block", doc="kind of body", choices=("block",))
     length_m: float = required(doc="length along x", unit="m", above=0, high=100)
     width_m: float = required(doc="width along y", unit="m", above=0, high=100)
     height_m: float = required(doc="height along z", unit="m", above=0, high=1000)
     turned_deg: float = parameter(
         0.0,
-        doc="angle by which it is turned about the vertical through the middle of its "
-        "foot, from x to y",
+        doc="angle by which the body is turned about the vertical axis through the middle of its "
+        "foot, from x towards y",
         unit="deg",
         low=-360,
         high=360,
@@ -100,11 +104,11 @@ class Block(Footed):
 
 @section_class()
 class Plate(Solid):
-    """kind = "plate" or "slab": a flat rectangular body on or below others, meshed finely where
-    they meet it.
+    """kind = "plate" or "slab": a flat rectangular body above or below others, finely meshed where
+    they touch it.
     """
 
-    kind: str = parameter("plate", doc="what the body is", choices=("plate", "slab"))
+    kind: str = parameter("plate", doc="kind of body", choices=("plate", "slab"))
     length_m: float = required(doc="length along x", unit="m", above=0, high=1000)
     width_m: float = required(doc="width along y", unit="m", above=0, high=1000)
     thickness_m: float = required(doc="thickness along z", unit="m", above=0, high=100)
@@ -112,11 +116,11 @@ class Plate(Solid):
 
 @section_class()
 class Cone(Solid):
-    """kind = "cone": a solid frustum of a cone, its axis along z: a tapered drum."""
+    """kind = "cone": a solid truncated cone with its axis along z, such as a tapered drum."""
 
-    kind: str = parameter("cone", doc="what the body is", choices=("cone",))
-    bottom_diameter_m: float = required(doc="diameter of its foot", unit="m", above=0, high=100)
-    top_diameter_m: float = required(doc="diameter of its head", unit="m", above=0, high=100)
+    kind: str = parameter("cone", doc="kind of body", choices=("cone",))
+    bottom_diameter_m: float = required(doc="diameter of the foot", unit="m", above=0, high=100)
+    top_diameter_m: float = required(doc="diameter of the head", unit="m", above=0, high=100)
     height_m: float = required(doc="height", unit="m", above=0, high=1000)
 
     @property
@@ -127,29 +131,29 @@ class Cone(Solid):
 
 @section_class()
 class Prism(Solid):
-    """kind = "prism": an extruded polygon: a voussoir, a wedge, a tapered pier, a buttress; meshed
-    in elements of element_size_m, which every corner of it is a node of.
+    """kind = "prism": an extruded polygon, such as a voussoir, a wedge, a tapered pier or a
+    buttress; all its elements are of element_size_m, with a node at every corner of the polygon.
     """
 
-    kind: str = parameter("prism", doc="what the body is", choices=("prism",))
+    kind: str = parameter("prism", doc="kind of body", choices=("prism",))
     at_m: tuple[float, ...] = parameter(
         (0.0, 0.0, 0.0),
-        doc="place [x, y, z] from which its outline is measured, so that many prisms may be drawn "
-        "in one frame",
+        doc="point [x, y, z] from which the outline is measured; the same for many prisms that "
+        "are drawn in one system of coordinates",
         unit="m",
         low=-1e4,
         high=1e4,
     )
     outline_m: tuple[tuple[float, ...], ...] = required(
-        doc="corners of the polygon in their order, in either sense: [x, z] of each, with "
+        doc="corners of the polygon in order, clockwise or not: [x, z] of each corner, with "
         'along = "z" [x, y]',
         unit="m",
         low=-1e4,
         high=1e4,
     )
     width_m: float = required(
-        doc="length along y, half of it to each side of at_m; with "
-        'along = "z" its height, from at_m upwards',
+        doc='width along y, half of it on each side of at_m; with along = "z" the height, from '
+        "at_m upwards",
         unit="m",
         above=0,
         high=1000,
@@ -157,7 +161,8 @@ class Prism(Solid):
     along: str = parameter("y", doc="axis along which the outline is extruded", choices=("y", "z"))
     turned_deg: float = parameter(
         0.0,
-        doc="angle by which it is turned about the vertical through at_m, from x to y",
+        doc="angle by which the body is turned about the vertical axis through at_m, from x "
+        "towards y",
         unit="deg",
         low=-360,
         high=360,
@@ -166,48 +171,59 @@ class Prism(Solid):
 
 @section_class()
 class Arch(Solid):
-    """kind = "arch": a ring sector in the plane of x and z of equal voussoirs, prisms "NAME 1",
-    "NAME 2" ... from from_deg on; NAME stands for all of them, in a joint between NAME and NAME for
-    neighbours. mass_kg is that of all. A table [bodies."NAME 3"] beside it has what differs of that
-    voussoir: its material, mass, mesh, whether it is fixed.
+    """kind = "arch": equal voussoirs that form a part of a ring in the plane of x and z: prisms
+    "NAME 1", "NAME 2" ..., counted from from_deg. NAME stands for all of them; a joint between NAME
+    and NAME connects neighbours. mass_kg is the mass of the whole arch. A table [bodies."NAME 3"]
+    beside it states what is different in this voussoir: material, mass, mesh, whether it is fixed.
     """
 
-    kind: str = parameter("arch", doc="what the body is", choices=("arch",))
+    kind: str = parameter("arch", doc="kind of body", choices=("arch",))
     at_m: tuple[float, ...] = parameter(
         (0.0, 0.0, 0.0),
-        doc="place [x, y, z] of the middle of its circle",
+        doc="place [x, y, z] of the centre of the arch's circle",
         unit="m",
         low=-1e4,
         high=1e4,
     )
-    mean_radius_m: float = required(doc="radius of its middle line", unit="m", above=0, high=1000)
+    mean_radius_m: float = required(
+        doc="radius of the arch's middle line", unit="m", above=0, high=1000
+    )
     thickness_m: float = required(
-        doc="thickness along the radius; less than 2 mean_radius_m", unit="m", above=0, high=1000
+        doc="thickness along the radius; less than twice mean_radius_m",
+        unit="m",
+        above=0,
+        high=1000,
     )
     width_m: float = required(
-        doc="length along y, half of it to each side of at_m", unit="m", above=0, high=1000
+        doc="width along y, half of it on each side of at_m", unit="m", above=0, high=1000
     )
     voussoirs: int = required(doc="number of voussoirs", low=2, high=500)
     from_deg: float = parameter(
-        0.0, doc="angle of its first springing from the x axis", unit="deg", low=-360, high=360
+        0.0,
+        doc="angle of the first springing, measured from the x axis",
+        unit="deg",
+        low=-360,
+        high=360,
     )
     to_deg: float = parameter(
         180.0,
-        doc="angle of its last springing; greater than from_deg, by less than 360",
+        doc="angle of the last springing; greater than from_deg, by less than 360",
         unit="deg",
         low=-360,
         high=360,
     )
     arc_sides: int = parameter(
         4,
-        doc="straight sides of each voussoir along its inner and its outer arc, corners so far "
-        "outside these that its area is that of the true sector",
+        doc="number of straight sides of each voussoir along its inner arc, and along its outer "
+        "arc; the corners lie so far outside these arcs that the voussoir has the area of "
+        "the true sector",
         low=1,
         high=100,
     )
     turned_deg: float = parameter(
         0.0,
-        doc="angle by which it is turned about the vertical through at_m, from x to y",
+        doc="angle by which the arch is turned about the vertical axis through at_m, from x "
+        "towards y",
         unit="deg",
         low=-360,
         high=360,
@@ -216,33 +232,33 @@ class Arch(Solid):
 
 @section_class()
 class MeshBody(Solid):
-    """kind = "mesh": a body of one's own mesh, where its file has it unless at_m or copies_m says
-    otherwise; element_size_m is the length that penalty_factor refers to.
+    """kind = "mesh": a body from your own mesh file. It stays where the file has it, unless at_m or
+    copies_m is stated; element_size_m is the length in penalty_factor.
     """
 
     SECTION: ClassVar[str] = "mesh body"  # other than the table [mesh]
 
-    kind: str = parameter("mesh", doc="what the body is", choices=("mesh",))
+    kind: str = parameter("mesh", doc="kind of body", choices=("mesh",))
     at_m: tuple[float, ...] | None = parameter(  # type: ignore[assignment]  # None: as drawn
         None,
-        doc="place [x, y, z] to which the middle of its flat foot is moved; left out: nothing is "
-        "moved",
+        doc="place [x, y, z] to which the middle of the body's flat foot is moved; left out: the "
+        "body stays where its file has it",
         unit="m",
         low=-1e4,
         high=1e4,
     )
     mesh_file: str = required(
-        doc="shape of the body, z up: elements, 8-node bricks or tetrahedra, in any format meshio "
-        "reads; a closed surface (.stl, .obj, .ply), a CAD body (.step, .iges) or a script of Gmsh "
-        "(.geo), in which elements are made"
+        doc="file with the shape of the body, z up: elements (8-node bricks or tetrahedra) in "
+        "any format that meshio reads; or a closed surface (.stl, .obj, .ply), a CAD body "
+        "(.step, .iges) or a script of Gmsh (.geo), which are then meshed"
     )
     mesh_unit: str | None = unit_key()
     mesh_size_m: float | None = size_key()
     cut_foot_m: float | None = cut_key()
     turned_deg: float = parameter(
         0.0,
-        doc="angle by which it is turned about the vertical through the middle of its "
-        "foot, or of its lowest points, from x to y",
+        doc="angle by which the body is turned about the vertical axis through the middle of its "
+        "foot, or of its lowest points, from x towards y",
         unit="deg",
         low=-360,
         high=360,
@@ -250,7 +266,8 @@ class MeshBody(Solid):
     )
     cap_size_m: float | None = parameter(
         None,
-        doc="element size of the cap; left out: 16 elements along the cap's longer side",
+        doc="element size of the cap; left out: three times the element size of the foot, but at "
+        "most 16 elements along the cap's longer side",
         unit="m",
         above=0,
         high=10,
@@ -277,16 +294,16 @@ class MeshBody(Solid):
 @section_class()
 class Storeys(WithMaterial):
     """kind = "storeys": a rigid slab with a building on it, whose floors move sideways on springs;
-    each list has a number a floor, from below, or one for all.
+    each list has one number per floor, from below, or one number for all floors.
     """
 
-    kind: str = parameter("storeys", doc="what the body is", choices=("storeys",))
+    kind: str = parameter("storeys", doc="kind of body", choices=("storeys",))
     length_m: float = required(
         doc="length of slab and floors along x", unit="m", above=0, high=1000
     )
     width_m: float = required(doc="width of slab and floors along y", unit="m", above=0, high=1000)
     thickness_m: float = required(
-        doc="thickness of the slab; its mass is mass_kg or by its density",
+        doc="thickness of the slab; the mass of the slab is mass_kg, or follows from its density",
         unit="m",
         above=0,
         high=100,
@@ -300,7 +317,7 @@ class Storeys(WithMaterial):
     )
     stiffness_x_n_m: tuple[float, ...] = parameter(
         (),
-        doc="stiffness of each storey along x; or state period_s",
+        doc="stiffness of each storey along x; needed without period_s",
         unit="N/m",
         above=0,
         high=1e15,
@@ -314,27 +331,28 @@ class Storeys(WithMaterial):
     )
     period_s: float | None = parameter(
         None,
-        doc="first period of the building on a fixed slab, along x and y, instead of stiffnesses",
+        doc="first period of the building on a fixed slab, the same along x and y; instead of "
+        "stiffnesses",
         unit="s",
         above=0,
         high=100,
     )
     profile: str = parameter(
         "uniform",
-        doc="how the stiffnesses that have period_s are distributed: uniform: all alike; "
-        "triangular, shear, flexural: such that floors at height z of H move in the first mode "
-        "as z / H, sin(pi z / 2 H), 1 - cos(pi z / 2 H)",
+        doc="distribution of the storey stiffnesses that have period_s: uniform: all equal; "
+        "triangular, shear, flexural: such that floors at height z of H move in the first "
+        "mode as z / H, sin(pi z / 2 H), 1 - cos(pi z / 2 H)",
         choices=("uniform", "triangular", "shear", "flexural"),
     )
     damping: str = parameter(
         "modal",
-        doc="modal: damping_ratio in each mode; rayleigh: damping_ratio in rayleigh_modes "
-        "of the building on a fixed slab, in others by Rayleigh's law",
+        doc="modal: damping_ratio in every mode; rayleigh: damping_ratio in the two "
+        "rayleigh_modes of the building on a fixed slab, in the other modes by Rayleigh's law",
         choices=("modal", "rayleigh"),
     )
     rayleigh_modes: tuple[int, ...] = parameter(
         (1, 2),
-        doc="two modes along an axis that have damping_ratio by Rayleigh's law",
+        doc="the two modes along each axis that have damping_ratio in Rayleigh's law",
         low=1,
         high=100,
     )
@@ -342,22 +360,22 @@ class Storeys(WithMaterial):
 
 @section_class()
 class Matrices(Placed):
-    """kind = "matrices": mass and stiffness of an elastic body from another program; it is free,
-    nothing holds it.
+    """kind = "matrices": an elastic body by its mass and stiffness matrices from another program;
+    they are those of the free body, without supports.
     """
 
-    kind: str = parameter("matrices", doc="what the body is", choices=("matrices",))
+    kind: str = parameter("matrices", doc="kind of body", choices=("matrices",))
     mass_file: str = required(
-        doc="mass matrix [kg]: MatrixMarket (.mtx), scipy.sparse.save_npz, or .npz with "
-        "the array mass"
+        doc="mass matrix [kg]: a file of MatrixMarket (.mtx) or of scipy.sparse.save_npz, or "
+        ".npz with the array mass"
     )
     stiffness_file: str = required(
-        doc="stiffness matrix [N/m]: likewise, in .npz the array stiffness"
+        doc="stiffness matrix [N/m]: in the same formats; in .npz the array stiffness"
     )
     nodes_file: str = required(
-        doc=".npz with the arrays dofs (n, 3), rows of the matrices for x, y, z of each "
-        "contact node counted from 0, and coordinates (n, 3) [m], if wanted triangles "
-        "(t, 3) of its faces; or text with these six numbers a line"
+        doc=".npz with the arrays dofs (n, 3): rows of the matrices, counted from 0, for x, y, z "
+        "of each contact node; coordinates (n, 3) [m]; optionally triangles (t, 3) of the "
+        "faces; or a text file with the first six numbers on each line"
     )
 
 

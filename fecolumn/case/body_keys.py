@@ -10,18 +10,18 @@ from fecolumn.foundation.section_class import section_class
 
 @section_class()
 class Placed(Section):
-    """Every body: where it is at the start, upright, and its modes."""
+    """Keys of every body: its place at the start, upright, and its modes."""
 
     at_m: tuple[float, ...] = parameter(
         (0.0, 0.0, 0.0),
-        doc="place [x, y, z] of the middle of its foot",
+        doc="place [x, y, z] of the middle of the body's foot",
         unit="m",
         low=-1e4,
         high=1e4,
     )
     copies_m: tuple[tuple[float, ...], ...] = parameter(
         (),
-        doc="places of equal bodies in a list, instead of at_m: NAME then stands for all "
+        doc="places of several equal bodies, a list, instead of at_m: NAME then stands for all "
         'of them, "NAME 1" for the first',
         unit="m",
         low=-1e4,
@@ -29,14 +29,14 @@ class Placed(Section):
     )
     modes: int | None = parameter(
         None,
-        doc="elastic modes of the reduced engine; left out: integration.n_modes",
+        doc="number of elastic modes in the reduced engine; left out: integration.n_modes",
         low=0,
         high=1000,
     )
     damping_ratio: float | None = parameter(
         None,
-        doc="damping ratio of its elastic modes, never of rigid motion; left out: that of "
-        "its material",
+        doc="damping ratio of the body's elastic modes; rigid-body motion is not damped; left "
+        "out: that of its material, 0 for matrices",
         low=0,
         high=0.5,
     )
@@ -60,12 +60,14 @@ class Placed(Section):
 
 @section_class()
 class WithMaterial(Placed):
-    """Every body but one of matrices: what it is made of, and how stiff its faces are where it does
-    not deform.
+    """Keys of every body except matrices: its material, and the stiffness of its faces where it
+    does not deform.
     """
 
     material: str = parameter(
-        "", doc="name of a table of [materials]; left out: steel, but for the keys below"
+        "",
+        doc="name of a table of [materials]; the keys below take the place of single values "
+        "of it; left out: steel",
     )
     youngs_modulus_pa: float | None = parameter(
         None, doc="Young's modulus; left out: the material's", unit="Pa", above=0, high=1e15
@@ -77,21 +79,28 @@ class WithMaterial(Placed):
         None, doc="density; left out: the material's", unit="kg/m3", above=0, high=1e5
     )
     mass_kg: float | None = parameter(
-        None, doc="mass; its density follows from it", unit="kg", above=0, high=1e12
+        None,
+        doc="mass, instead of density_kg_m3, which then follows from it",
+        unit="kg",
+        above=0,
+        high=1e12,
     )
     contact_stiffness_n_m3: float | None = parameter(
         None,
-        doc="stiffness per area of the faces of a body that does not deform; left out: "
-        "that of a rigid punch of the face's area on its material, 2 E / ((1 - nu^2) "
-        "sqrt(pi A)), none in the rigid engine",
+        doc="contact stiffness per area of the faces of a rigid or fixed body; left out: that of "
+        "a rigid punch of the face's area A on the body's material, 2 E / ((1 - nu^2) "
+        "sqrt(pi A)); in the rigid engine no compliance",
         unit="N/m3",
         above=0,
         high=1e20,
     )
     element_size_m: float | None = parameter(
         None,
-        doc="element size at feet, heads and where other bodies stand; left out: 24 "
-        "elements around, 8 along a block, a half of what stands on a plate",
+        doc="element size at foot and head, and where other bodies stand; left out: 24 elements "
+        "around a round body, 8 along the mean side of a block or prism; with fine_height_m, "
+        "and in a block with cap or flange, 48, 32 and 12 as fine_size_m of [mesh]; in a "
+        "plate half the smaller side of what stands on it, a quarter where its elements are "
+        "of order 1",
         unit="m",
         above=0,
         high=100,
@@ -100,20 +109,23 @@ class WithMaterial(Placed):
 
 @section_class()
 class Solid(WithMaterial):
-    """Every body but one of matrices or storeys: its finite elements."""
+    """Keys of every body except matrices and storeys: its finite elements, and whether it is rigid
+    or fixed.
+    """
 
     coarse_size_m: float | None = parameter(
         None,
-        doc="largest element size away from there; left out: a fifth of the smaller side, "
-        "of a plate an eighth of its longer one",
+        doc="largest element size elsewhere; left out: a fifth of the diameter or smaller side; "
+        "in a plate an eighth of its longer side; in a body with fine_height_m, and in a "
+        "block with cap or flange, as coarse_size_m of [mesh]; not for prisms and meshes",
         unit="m",
         above=0,
         high=100,
     )
     centre_m: tuple[float, ...] = parameter(
         (),
-        doc="centre of mass [x, y, z] where it was found by weighing, measured as point_m of a "
-        "link is; left out: that of its shape",
+        doc="centre of mass [x, y, z], if known by weighing, measured from the same point as "
+        "point_m of a link; left out: that of the body's shape",
         unit="m",
         low=-1e4,
         high=1e4,
@@ -121,8 +133,8 @@ class Solid(WithMaterial):
     )
     inertia_kg_m2: tuple[float, ...] = parameter(
         (),
-        doc="inertia about the centre of mass, [xx, yy, zz] or [xx, yy, zz, xy, xz, yz] of the "
-        "tensor, before turned_deg; left out: that of its shape",
+        doc="inertia tensor about the centre of mass, [xx, yy, zz] or [xx, yy, zz, xy, xz, yz], "
+        "before turned_deg; left out: that of the body's shape",
         unit="kg m2",
         low=-1e15,
         high=1e15,
@@ -130,24 +142,24 @@ class Solid(WithMaterial):
     )
     element_order: int | None = parameter(
         None,
-        doc="polynomial order of its elements; left out: 1, but 2 of plates and tetrahedra",
+        doc="polynomial order of the body's elements; left out: 1, but 2 for plates and tetrahedra",
         low=1,
         high=2,
     )
     rigid: bool = parameter(
         False,
-        doc="a rigid body, whose contact points alone are compliant, by "
-        "contact_stiffness_n_m3; in the rigid engine every body is rigid, with contact points "
-        "that are compliant where that key is stated",
+        doc="true: a rigid body that is compliant only at its contact points, by "
+        "contact_stiffness_n_m3; in the rigid engine every body is rigid, with compliant "
+        "contact points only where that key is stated",
     )
     fixed: bool = parameter(
         False,
-        doc="a rigid body that a ground holds: an abutment, a springer, a wall; bodies meet it by "
-        "joints, as any other body",
+        doc="true: a rigid body that is fixed to a ground, such as an abutment, a springer, a "
+        "wall; other bodies touch it at joints, as they touch any body",
         since="0.9",
     )
     moves_with: str = parameter(
-        "", doc="ground with which a fixed body moves; left out: the first", since="0.9"
+        "", doc="ground to which a fixed body is fixed; left out: the first ground", since="0.9"
     )
 
     @property

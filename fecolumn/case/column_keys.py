@@ -14,54 +14,60 @@ from fecolumn.mesh.upright import Upright
 
 @section_class()
 class Column(Section):
-    """Upright column, its axis along z, its foot at z = 0: tube, solid cylinder, block, or the
-    user's own mesh.
+    """Upright column with its axis along z and its foot at z = 0: a tube, a solid cylinder, a
+    block, or the shape in mesh_file.
     """
 
     outer_diameter_m: float | None = parameter(
-        None, doc="outer diameter; a tube and a solid cylinder need it", unit="m", above=0, high=100
+        None,
+        doc="outer diameter; needed for a tube and a solid cylinder",
+        unit="m",
+        above=0,
+        high=100,
     )
     height_m: float | None = parameter(
         None,
-        doc="height of the column without cap and flange; every built column needs it",
+        doc="height of the column without cap and flange; needed without mesh_file",
         unit="m",
         above=0,
         high=1000,
     )
     wall_m: float | None = parameter(
         None,
-        doc="wall thickness, which a tube needs; half the diameter makes a solid cylinder",
+        doc="wall thickness; needed for a tube; half the diameter: a solid cylinder",
         unit="m",
         above=0,
         high=50,
     )
     fine_height_m: float | None = parameter(
         None,
-        doc="height of the finely meshed lower part; left out: half the width of the foot",
+        doc="height of the finely meshed lower part; left out: half the column's diameter or "
+        "smaller side, at most its height",
         unit="m",
         low=0,
         high=1000,
     )
     mesh_file: str = parameter(
         "",
-        doc="shape of the body, z up: elements, 8-node bricks or tetrahedra, in any format meshio "
-        "reads; a closed surface (.stl, .obj, .ply), a CAD body (.step, .iges) or a script of Gmsh "
-        "(.geo), in which elements are made; replaces the built column",
+        doc="file with the shape of the body, z up: elements (8-node bricks or tetrahedra) in "
+        "any format that meshio reads; or a closed surface (.stl, .obj, .ply), a CAD body "
+        "(.step, .iges) or a script of Gmsh (.geo), which are then meshed; takes the place "
+        "of the built column",
     )
     mesh_unit: str | None = unit_key()
     mesh_size_m: float | None = size_key()
     cut_foot_m: float | None = cut_key()
     shape: str = parameter(
         "tube",
-        doc="built column: tube, solid cylinder or rectangular block",
+        doc="shape of the built column: tube, solid cylinder or rectangular block",
         choices=("tube", "solid", "block"),
         since="0.2",
     )
     length_m: float | None = parameter(
-        None, doc="length along x, which a block needs", unit="m", above=0, high=100, since="0.2"
+        None, doc="length along x; needed for a block", unit="m", above=0, high=100, since="0.2"
     )
     width_m: float | None = parameter(
-        None, doc="width along y, which a block needs", unit="m", above=0, high=100, since="0.2"
+        None, doc="width along y; needed for a block", unit="m", above=0, high=100, since="0.2"
     )
 
     @property
@@ -72,20 +78,22 @@ class Column(Section):
 
 @section_class()
 class Base(Section):
-    """What the column stands on: an elastic plate held at its bottom, a flat of the same layer
-    without edges, or a pad of springs and dashpots.
+    """What the column stands on: an elastic plate fixed at its bottom, the same layer without
+    edges, or a pad of springs and dashpots.
     """
 
     length_m: float | None = parameter(
         None,
-        doc="length along x; left out: the foot's and three times the larger side of the foot",
+        doc="length along x; left out: the length of the foot plus three times the foot's larger "
+        "side",
         unit="m",
         above=0,
         high=1000,
     )
     width_m: float | None = parameter(
         None,
-        doc="length along y; left out: the foot's and three times the larger side of the foot",
+        doc="width along y; left out: the width of the foot plus three times the foot's larger "
+        "side",
         unit="m",
         above=0,
         high=1000,
@@ -99,8 +107,8 @@ class Base(Section):
     )
     slide_allowance_m: float | None = parameter(
         None,
-        doc="finely meshed margin around the footprint; left out: a quarter of the foot's "
-        "smaller side",
+        doc="finely meshed margin around the foot, over which it may slide; left out: a quarter "
+        "of the foot's smaller side, or less where the stated length and width leave less",
         unit="m",
         low=0,
         high=1000,
@@ -121,7 +129,7 @@ class Base(Section):
     )
     stiffness_n_m3: float = parameter(
         0.0,
-        doc="springs across a pad per area (subgrade modulus); needed for a pad",
+        doc="stiffness of a pad per area across the contact (subgrade modulus); needed for a pad",
         unit="N/m3",
         low=0,
         high=1e15,
@@ -129,7 +137,7 @@ class Base(Section):
     )
     shear_stiffness_n_m3: float = parameter(
         0.0,
-        doc="springs along a pad per area; 0: 0.8 of stiffness_n_m3",
+        doc="stiffness of a pad per area along the contact (shear); 0: 0.8 of stiffness_n_m3",
         unit="N/m3",
         low=0,
         high=1e15,
@@ -137,7 +145,8 @@ class Base(Section):
     )
     damping_ratio: float = parameter(
         0.0,
-        doc="of the dashpots of a pad: that of the standing column's vertical mode",
+        doc="damping ratio, by the dashpots of a pad, of the vertical vibration of the column "
+        "that stands on it",
         low=0,
         high=10,
         since="0.2",
@@ -152,47 +161,47 @@ class MeshSizes(Section):
 
     fine_size_m: float | None = parameter(
         None,
-        doc="brick size of the column's lower part, of the flange and of the base below; "
-        "left out: 48 around the wall of a tube, 32 around a cylinder, 12 along the side of a "
-        "block; 40 around a flange, or three times these sizes; of a mesh of one's own as its foot "
-        "has, between 8 and 24 along the side",
+        doc="brick size of the column's lower part, of the flange and of the base below; left "
+        "out: 48 bricks around the wall of a tube, 32 around a cylinder, 12 along the mean "
+        "side of a block; with a flange 40 around it, but not more than three times these "
+        "sizes; with mesh_file as in its foot, between 8 and 24 along the foot",
         unit="m",
         above=0,
         high=10,
     )
     coarse_size_m: float | None = parameter(
         None,
-        doc="brick size along height and circumference of the column's upper part; left "
-        "out: three fine bricks of a tube, two of a solid column",
+        doc="brick size of the column's upper part, along height and circumference; left out: "
+        "three times the fine size in a tube, twice in a solid column or block",
         unit="m",
         above=0,
         high=10,
     )
     cap_size_m: float | None = parameter(
         None,
-        doc="brick size of the cap plate; left out: a coarse brick, but 16 of the cap's "
-        "longer side at most",
+        doc="brick size of the cap; left out: coarse_size_m, but at most 16 bricks along the "
+        "cap's longer side",
         unit="m",
         above=0,
         high=10,
     )
     base_size_m: float | None = parameter(
         None,
-        doc="largest brick size of the base, away from the footprint; left out: six fine bricks",
+        doc="largest brick size of the base, away from the foot; left out: six times fine_size_m",
         unit="m",
         above=0,
         high=10,
     )
     element_order: int | None = parameter(
         None,
-        doc="polynomial order of the column's and cap's elements; left out: 1 for bricks, "
-        "2 for tetrahedra",
+        doc="polynomial order of the elements of column and cap; left out: 1 for bricks, 2 for "
+        "tetrahedra",
         low=1,
         high=2,
     )
     limit_dofs: int = parameter(
         500_000,
-        doc="degrees of freedom above which a mesh is refused before it is built",
+        doc="number of degrees of freedom above which a mesh is refused before it is built",
         low=100,
         high=10**9,
         counts=False,

@@ -10,7 +10,9 @@ import argparse
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn completion`."""
     parser.add_argument(
-        "shell", choices=("bash", "zsh", "fish"), help="whose script is printed, one of %(choices)s"
+        "shell",
+        choices=("bash", "zsh", "fish"),
+        help="shell for which the script is printed, one of %(choices)s",
     )
 
 

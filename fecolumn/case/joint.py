@@ -13,13 +13,15 @@ from fecolumn.foundation.section_class import section_class
 
 @section_class()
 class Joint(Section):
-    """A joint: faces of two bodies, or of a body and a ground, that touch at the start, or look at
-    one another across a gap; copies each with each. Which body comes first decides nothing.
+    """A joint: faces of two bodies, or of a body and a ground, that touch at the start or lie
+    opposite each other across a gap. Of bodies with copies, every copy of one is joined with every
+    copy of the other that it touches. The order of the two does not matter.
     """
 
     between: tuple[str, ...] = required(
-        doc='the two bodies that touch, or a body and a ground, as in ["drum", "ground"]; '
-        "the same body twice where copies stand on one another, or voussoirs of an arch touch",
+        doc='names of the two bodies that touch, or of a body and a ground, such as ["drum", '
+        '"ground"]; the same name twice where copies stand on one another or voussoirs of an '
+        "arch touch",
     )
     friction_coefficient: float | None = parameter(
         None, doc="Coulomb friction coefficient; left out: that of [contact]", low=0, high=10
@@ -31,7 +33,7 @@ class Joint(Section):
     )
     penalty_factor: float | None = parameter(
         None,
-        doc="penalty stiffness per area as a multiple of E / element size of the body with the "
+        doc="penalty stiffness per area, divided by E / element size of the body with the "
         "smaller face; left out: that of [contact]",
         above=0,
         high=1e9,
@@ -45,16 +47,16 @@ class Joint(Section):
     )
     rolling_resistance: float | None = parameter(
         None,
-        doc="energy that a rolling rim loses per length rolled, over the contact force; left "
-        "out: that of [contact], 0 on a pad",
+        doc="energy that a rolling rim loses per length rolled, divided by the contact force; "
+        "left out: that of [contact], on a pad 0",
         low=0,
         high=0.1,
         since="0.7",
     )
     stiffness_n_m3: float | None = parameter(
         None,
-        doc="springs across a pad between the two, per area; left out: that of the ground, "
-        "between bodies no pad",
+        doc="stiffness per area, across the contact, of a pad between the two; left out: that of "
+        "the ground if it is a pad, otherwise there is no pad",
         unit="N/m3",
         above=0,
         high=1e15,
@@ -62,7 +64,7 @@ class Joint(Section):
     )
     shear_stiffness_n_m3: float = parameter(
         0.0,
-        doc="springs along the pad per area; 0: 0.8 of stiffness_n_m3",
+        doc="stiffness of the pad per area along the contact (shear); 0: 0.8 of stiffness_n_m3",
         unit="N/m3",
         low=0,
         high=1e15,
@@ -70,14 +72,15 @@ class Joint(Section):
     )
     damping_ratio: float = parameter(
         0.0,
-        doc="of the dashpots of the pad: that of the vertical vibration on it of what it carries",
+        doc="damping ratio, by the dashpots of the pad, of the vertical vibration of what the "
+        "pad carries",
         low=0,
         high=10,
         since="0.7",
     )
     yield_pa: float | None = parameter(
         None,
-        doc="pressure at which the pad yields, and settles for good; left out: never",
+        doc="pressure at which the pad yields and settles permanently; left out: it never yields",
         unit="Pa",
         above=0,
         high=1e12,
@@ -85,8 +88,8 @@ class Joint(Section):
     )
     bond_tension_pa: float = parameter(
         0.0,
-        doc="tensile strength of wax, putty or mortar between the faces, which holds each contact "
-        "point until it fails there; 0: nothing holds them together",
+        doc="tensile strength of a bond (wax, putty or mortar) between the faces; it acts at "
+        "each contact point until it fails there; 0: no bond",
         unit="Pa",
         low=0,
         high=1e9,
@@ -94,7 +97,7 @@ class Joint(Section):
     )
     bond_cohesion_pa: float | None = parameter(
         None,
-        doc="shear strength of that layer without pressure, friction comes on top; left out: "
+        doc="shear strength of the bond at zero pressure, to which friction is added; left out: "
         "bond_tension_pa",
         unit="Pa",
         above=0,
@@ -103,8 +106,8 @@ class Joint(Section):
     )
     bond_fracture_energy_j_m2: float = parameter(
         0.0,
-        doc="fracture energy of the layer per area, its stress falling in a straight line; 0: "
-        "it fails at once",
+        doc="fracture energy of the bond per area; after its strength the stress falls linearly; "
+        "0: the bond fails at once",
         unit="J/m2",
         low=0,
         high=1e7,
@@ -112,7 +115,8 @@ class Joint(Section):
     )
     bond_stiffness_n_m3: float = parameter(
         0.0,
-        doc="stiffness of that layer per area: its modulus over its thickness",
+        doc="stiffness of the bond per area, across the faces: modulus over thickness of its "
+        "layer; needed with bond_tension_pa",
         unit="N/m3",
         low=0,
         high=1e15,
@@ -120,7 +124,7 @@ class Joint(Section):
     )
     bond_shear_stiffness_n_m3: float = parameter(
         0.0,
-        doc="stiffness of that layer per area along the faces; 0: 0.4 of bond_stiffness_n_m3",
+        doc="stiffness of the bond per area, along the faces; 0: 0.4 of bond_stiffness_n_m3",
         unit="N/m3",
         low=0,
         high=1e15,
@@ -128,21 +132,23 @@ class Joint(Section):
     )
     interior_points: int | None = parameter(
         None,
-        doc="contact points inside the outlines of the smaller face; left out: that of [contact]",
+        doc="number of contact points inside the outline of the smaller face; left out: that of "
+        "[contact]",
         low=0,
         high=10**6,
     )
     open: bool | None = parameter(
         None,
-        doc="whether faces that look at one another across a gap belong to it, too, and may meet; "
-        "left out: where no faces of the two touch at the start",
+        doc="true: faces that lie opposite each other across a gap belong to the joint as well, "
+        "and may come into contact; left out: true only where no faces of the two touch at "
+        "the start",
         since="0.9",
     )
     allowance_m: float | None = parameter(
         None,
-        doc="how far the body with the smaller face may slide on the other before what is known of "
-        "that one's compliance ends; left out: a quarter of the smaller face's smaller side, its "
-        "larger one across a gap",
+        doc="how far the body with the smaller face may slide before it leaves the part of the "
+        "other body whose compliance is known; left out: a quarter of the smaller side of "
+        "the smaller face, across a gap its larger side",
         unit="m",
         low=0,
         high=1000,

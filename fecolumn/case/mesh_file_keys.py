@@ -14,8 +14,8 @@ def unit_key() -> Any:
     """Unit of a mesh file."""
     return parameter(
         None,
-        doc="unit of the lengths in mesh_file; left out: the metre, of STEP and IGES what the file "
-        "says",
+        doc="unit of the lengths in mesh_file; left out: metres, for STEP and IGES the unit that "
+        "the file states",
         choices=("m", "cm", "mm", "in", "ft"),
         since="0.10",
     )
@@ -25,8 +25,8 @@ def size_key() -> Any:
     """Size of the elements made in what a mesh file draws [m]."""
     return parameter(
         None,
-        doc="size of the elements made inside a surface, a CAD body or by a script; left out: an "
-        "eighth of the cube root of the volume, less of a thin body",
+        doc="size of the elements with which a surface, a CAD body or a script of Gmsh is "
+        "meshed; left out: an eighth of the cube root of the volume, less for a thin body",
         unit="m",
         above=0,
         high=100,
@@ -38,8 +38,8 @@ def cut_key() -> Any:
     """Height at which a drawn surface is cut off [m]."""
     return parameter(
         None,
-        doc="height above its lowest point at which a surface is cut off, so that it has a flat "
-        "foot; left out: not cut",
+        doc="height above the lowest point at which a surface is cut off, so that the body has a "
+        "flat foot; left out: not cut",
         unit="m",
         above=0,
         high=1000,

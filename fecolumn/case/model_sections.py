@@ -14,26 +14,29 @@ CRV, CAV = LAWS = ("CRV", "CAV")
 
 @section_class()
 class BlockModel(RockingKeys):
-    """Rectangular rigid block that rocks along x, about the edges of its foot (Housner 1963); with
-    depth_m along y, too, as if each did not know of the other.
+    """Rectangular rigid block that rocks along x about the edges of its foot (Housner 1963); with
+    depth_m also along y, the two directions independent of each other.
     """
 
     depth_m: float | None = parameter(
         None,
-        doc="depth along y; left out: 1 m of a wall that rocks along x alone",
+        doc="depth along y; left out: 1 m of a wall, which rocks along x only",
         unit="m",
         above=0,
         high=1000,
     )
     density_kg_m3: float = parameter(
         2000.0,
-        doc="density; of a free block it matters to forces and energies alone",
+        doc="density; of a free block it changes only forces and energies",
         unit="kg/m3",
         above=0,
         high=1e5,
     )
     sides: int = parameter(
-        2, doc="2: leans to both sides; 1: to +x alone, held by a wall behind it", low=1, high=2
+        2,
+        doc="2: the block leans to both sides; 1: to +x only, with a wall behind it",
+        low=1,
+        high=2,
     )
     spring_n_m: float = parameter(
         0.0,
@@ -47,23 +50,23 @@ class BlockModel(RockingKeys):
     )
     bed_n_m2: float = parameter(
         0.0,
-        doc="stiffness over height of horizontal springs smeared over the block's axis",
+        doc="stiffness per height of horizontal springs distributed along the block's axis",
         unit="N/m2",
         low=0,
         high=1e12,
     )
     bed_from_m: float = parameter(
-        0.0, doc="lower end of that bed of springs", unit="m", low=0, high=1000
+        0.0, doc="lower end of these distributed springs", unit="m", low=0, high=1000
     )
     bed_to_m: float | None = parameter(
         None,
-        doc="upper end of that bed of springs; left out: the top",
+        doc="upper end of these distributed springs; left out: the top",
         unit="m",
         above=0,
         high=1000,
     )
     roof_mass_kg: float = parameter(
-        0.0, doc="mass on the top, which moves with it as a point", unit="kg", low=0, high=1e9
+        0.0, doc="point mass on the top, which moves with the block", unit="kg", low=0, high=1e9
     )
     roof_eccentricity_m: float = parameter(
         0.0,
@@ -90,8 +93,8 @@ class FrameModel(RockingKeys):
     columns: int = parameter(2, doc="number of columns", low=1, high=10_000)
     tendon_joints: int = parameter(
         1,
-        doc="joints that a tendon crosses: 1 where it is anchored in the column, 2 where "
-        "it runs from foundation to beam",
+        doc="number of joints that a tendon crosses; 1: it is anchored in the column; 2: it runs "
+        "from foundation to beam",
         low=1,
         high=2,
     )
@@ -103,7 +106,7 @@ class WobblingModel(RollingKeys):
 
     density_kg_m3: float = parameter(
         2000.0,
-        doc="density; of a free column it matters to forces and energies alone",
+        doc="density; of a free column it changes only forces and energies",
         unit="kg/m3",
         above=0,
         high=1e5,
@@ -112,8 +115,8 @@ class WobblingModel(RollingKeys):
 
 @section_class()
 class WobblingFrameModel(RollingKeys):
-    """Slab on equal round columns that roll on their rims; a tendon is anchored in its column and
-    the slab.
+    """Slab on equal round columns that roll on their rims; each tendon is anchored in its column
+    and in the slab.
     """
 
     column_mass_kg: float = parameter(doc="mass of one column", unit="kg", above=0, high=1e9)
@@ -140,23 +143,24 @@ class PodiumModel(RectangleKeys):
     storeys: int = parameter(3, doc="number of storeys", low=1, high=200)
     period_s: float | None = parameter(
         None,
-        doc="period of the building's first mode on a fixed base; left out: a tenth of the "
-        "number of storeys",
+        doc="period of the building's first mode on a fixed base; left out: 0.1 s per storey",
         unit="s",
         above=0,
         high=100,
     )
-    damping_ratio: float = parameter(0.05, doc="of modes 1 and 2 (Rayleigh)", low=0, high=0.5)
+    damping_ratio: float = parameter(
+        0.05, doc="damping ratio of modes 1 and 2 (Rayleigh damping)", low=0, high=0.5
+    )
     profile: str = parameter(
         "shear",
-        doc="first mode over the height x: flexural 1 - cos(pi x/2), shear sin(pi x/2), "
-        "triangular x",
+        doc="shape of the first mode over the relative height x: flexural 1 - cos(pi x/2), shear "
+        "sin(pi x/2), triangular x",
         choices=("flexural", "shear", "triangular"),
     )
     impact: str = parameter(
         CRV,
-        doc="floors at an impact keep their velocity relative to the beam (CRV) or their "
-        "absolute one (CAV)",
+        doc="at an impact floors keep their velocity relative to the beam (CRV) or their "
+        "absolute velocity (CAV)",
         choices=LAWS,
     )
 

@@ -34,7 +34,7 @@ class Start(Section):
     tilt_rad: float = parameter(0.0, doc="tilt; 0 starts upright", unit="rad", low=0, high=1.5)
     direction_deg: float = parameter(
         0.0,
-        doc="direction towards which the top leans, from x to y",
+        doc="direction in which the top leans: angle from x towards y",
         unit="deg",
         low=-360,
         high=360,

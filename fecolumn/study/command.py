@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "study",
         metavar="STUDY.toml",
-        help="study file: title, case and [axes], [[zip]], [latin_hypercube]",
+        help="study file, with title, case, and [axes], [[zip]], [latin_hypercube] as needed",
     )
     parser.add_argument(
         "-o",
@@ -36,67 +36,66 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         type=int,
         default=None,
-        help="analyses at a time on this machine (default: one a core); under mpirun every "
-        "rank but the first does one",
+        help="number of analyses at a time on this machine (default: one per core); under mpirun "
+        "every rank except the first runs one",
     )
     parser.add_argument(
         "--array-index",
         metavar="I",
         type=int,
         default=None,
-        help="do one share only, counted from 0, as a task of a job array",
+        help="run only this share of the analyses, counted from 0, as a task of a job array",
     )
     parser.add_argument(
         "--array-size",
         metavar="N",
         type=int,
         default=None,
-        help="number of shares; the tasks may run at once in one DIR",
+        help="number of shares; all tasks may run at the same time in one DIR",
     )
     parser.add_argument(
         "--scheduler",
         metavar="ADDRESS",
         default=None,
-        help="do the analyses on the workers of a dask scheduler, such as tcp://node7:8786; "
-        "DIR must be where all see it",
+        help="run the analyses on the workers of a dask scheduler, such as tcp://node7:8786; all "
+        "workers must see DIR",
     )
     parser.add_argument(
         "--until",
         choices=["decided"],
         default=None,
-        help="take motions of the ensemble stage by stage, 40, 80, 160, ..., until each "
-        "pair of settings is told apart or told alike",
+        help="add motions of the ensemble in stages, 40, 80, 160, ..., until each pair of "
+        "settings is found to be different or alike",
     )
     parser.add_argument(
         "--margin",
         metavar="D",
         type=float,
         default=None,
-        help="with --until: distance of two CDFs up to which they are alike (default: 0.1)",
+        help="with --until: largest distance of two CDFs that count as alike (default: 0.1)",
     )
     parser.add_argument(
         "--error",
         metavar="P",
         type=float,
         default=None,
-        help="with --until: error allowed for each statement, all looks together (default: 0.05)",
+        help="with --until: probability of error allowed for each statement, over all stages "
+        "together (default: 0.05)",
     )
     parser.add_argument(
         "--most",
         metavar="N",
         type=int,
         default=None,
-        help="with --until: motions in each setting at most (default: 1000)",
+        help="with --until: largest number of motions in each setting (default: 1000)",
     )
-    parser.add_argument(
-        "--retry-failed", action="store_true", help="run the analyses again that failed before"
-    )
+    parser.add_argument("--retry-failed", action="store_true", help="run failed analyses again")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
     parser.add_argument(
         "--entry",
         metavar="MODULE:FUNCTION",
         default=None,
-        help="analysis function (default: fecolumn.simulation:run)",
+        help="function that runs an analysis (default: fecolumn.simulation:run)",
     )
 
 

@@ -23,33 +23,36 @@ ANALYSIS = "an analysis"
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn compare`."""
     form = (
-        "folder of an analysis; or study folder, with a choice of settings as "
-        "DIR@integration.dt_s=1e-3,integration.alpha_hht=-0.2, or CSV of maxima"
+        "folder of an analysis; or of a study, with selected settings as "
+        "DIR@integration.dt_s=1e-3,integration.alpha_hht=-0.2; or CSV file of maxima"
     )
     parser.add_argument("a", metavar="A", help=form)
     parser.add_argument("b", metavar="B", help="the reference, in the same form")
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for tables and figure")
-    parser.add_argument("--unpaired", action="store_true", help="do not match runs by motion")
+    parser.add_argument(
+        "--unpaired", action="store_true", help="do not pair the runs of A and B by motion"
+    )
     parser.add_argument(
         "--cap-m",
         type=float,
         default=None,
         metavar="M",
-        help="displacement of a run in R that overturned or slid off, such as 0.25 of "
-        "Katsamakas and Vassiliou (default: the largest peak of those that stood)",
+        help="cap on displacements in the correlation R, and displacement there of runs that "
+        "overturned or slid off; 0.25 in Katsamakas and Vassiliou (default: the largest "
+        "peak of the runs that stayed standing)",
     )
     # its name until 0.10
     parser.add_argument("--cap-mm", type=float, default=None, help=argparse.SUPPRESS)
     parser.add_argument(
-        "--seed", type=int, default=0, help="of the permutations (default: %(default)s)"
+        "--seed", type=int, default=0, help="seed of the permutations (default: %(default)s)"
     )
     parser.add_argument(
         "--tolerance",
         type=float,
         default=None,
         metavar="SHARE",
-        help="of two analyses: difference over the larger peak at which they have parted, "
-        "above 0 and at most 1 (default: 0.05)",
+        help="of two analyses: difference, divided by the larger peak, at which they count as "
+        "parted, above 0 and at most 1 (default: 0.05)",
     )
 
 

@@ -30,8 +30,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="S",
         type=float,
         default=_SECONDS,
-        help="wall time of steps of the case as it is, 0.1 to 3600; what is made before the first "
-        f"step comes on top (default: {_SECONDS:g})",
+        help="wall time for steps of the case as it is, 0.1 to 3600 [s]; the time before the first "
+        f"step is added (default: {_SECONDS:g})",
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 

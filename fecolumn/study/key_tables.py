@@ -61,9 +61,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         default="",
         metavar="SECTION",
-        help="one table such as contact or study, or one key such as contact.law",
+        help="print only this table, such as contact or study, or this key, such as contact.law",
     )
-    parser.add_argument("--markdown", action="store_true", help="as tables in Markdown")
+    parser.add_argument("--markdown", action="store_true", help="print tables in Markdown")
 
 
 def main(args: argparse.Namespace) -> int:
@@ -91,7 +91,7 @@ def tables() -> list[Table]:
         "",
         "path",
         "none",
-        "another file, read first; what stands here overrides it key by key",
+        "another file, read first; keys in this file take the place of its keys",
     )
     sections = {
         name: inner
@@ -153,8 +153,8 @@ def _of_structures() -> list[Table]:
         "",
         "text",
         "none",
-        'body, or "BODY.MARK", whose displacement is u_top, such as "building.floor '
-        "2\"; left out: the highest body's top",
+        'body, or "BODY.MARK" such as "building.floor 2", whose displacement is u_top; left out: '
+        "the top of the highest body",
     )
     kinds: list[type[Placed]] = [Placed, WithMaterial, Solid, Footed]
     bodies = [own(kind) for kind in [*kinds, *dict.fromkeys(BODY_KINDS.values())]]
@@ -172,8 +172,8 @@ def _of_structures() -> list[Table]:
     return [
         Table(
             "",
-            "A structure of bodies: its tables, and [contact], [integration], "
-            "[motion], [overturn], [output] as above.",
+            "A structure of bodies: the tables below, and [contact], [integration], [motion], "
+            "[overturn], [output] as above.",
             (top,),
             "structure",
         ),

@@ -10,42 +10,41 @@ from fecolumn.foundation.schema import parameter
 
 @dataclass(frozen=True, slots=True)
 class StudyKeys:
-    """What a study file holds; its axes are keys of the case, such as
+    """Keys of a study file; its axes are keys of the case, such as
     "contact.friction_coefficient".
     """
 
     case: str = parameter(
-        doc="path of a case file; or a table [case] of keys of a case, with extends = "
+        doc="path of a case file; or a table [case] with keys of a case, and extends = "
         '"case.toml" for the other keys'
     )
     title: str = parameter("", doc="title of tables and figures; left out: the file's name")
     axes: dict[str, Any] = parameter(
         "",
-        doc="table of lists, each with each: a key of the case and its values; of "
-        "motion.source, lick:* and lick:1-40 or "
-        "ensemble.h5#* and ensemble.h5#1-40 are lists of motions, too",
+        doc="table of keys of the case, each with a list of values; every value of one key is "
+        "combined with every value of the others; in motion.source, lick:*, lick:1-40, "
+        "ensemble.h5#* and ensemble.h5#1-40 also stand for lists of motions",
     )
     zip: list[Any] = parameter(
         "",
-        doc="[[zip]], as often as needed: a table of lists of one length whose values go "
-        "together, one factor of the product",
+        doc="[[zip]], as often as needed: a table of keys with lists of one length, whose values "
+        "change together; combined with every value of the other axes",
     )
     latin_hypercube: dict[str, Any] = parameter(
         "",
-        doc='table of samples, seed and ranges [low, high] or [low, high, "log"] of '
-        "numbers, evenly spread at "
-        "random: one factor of the product",
+        doc='table of samples, seed and ranges [low, high] or [low, high, "log"] of keys with '
+        "numbers, sampled by a Latin hypercube; combined with every value of the other axes",
     )
 
 
 @dataclass(frozen=True, slots=True)
 class LatinHypercube:
-    """Keys of a study's [latin_hypercube] beside its ranges."""
+    """Keys of [latin_hypercube] of a study, besides the keys of the case and their ranges."""
 
     samples: int = parameter(doc="number of samples", low=1, high=10**6)
     seed: int = parameter(
         0,
-        doc="of the random numbers; the same seed gives the same samples on any machine",
+        doc="seed of the random numbers; the same seed makes the same samples on every machine",
         low=0,
         high=10**6,
     )

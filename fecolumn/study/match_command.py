@@ -29,29 +29,34 @@ _FACTOR = 4.0
 def add_match_actions(actions: Any) -> None:
     """Actions of `fecolumn motions` that fit motions to a spectrum; actions: its subparsers."""
     for name, words in (
-        ("scale", "motions scaled so that each fits a target response spectrum best"),
-        ("select", "of many motions those that fit a target spectrum and its dispersion together"),
+        ("scale", "scale motions so that each fits a target response spectrum best"),
+        (
+            "select",
+            "select from many motions those that together fit a target spectrum and its dispersion",
+        ),
     ):
         parser = actions.add_parser(name, help=words)
         parser.add_argument(
             "sources",
             nargs="+",
             metavar="SET",
-            help="as in motion.source of a case; ensemble.h5#*, lick:* are all of a set",
+            help="motion, as in motion.source of a case; ensemble.h5#*, lick:*: all motions of a "
+            "set",
         )
         parser.add_argument(
             "--to-spectrum",
             required=True,
             metavar="TARGET.csv",
-            help="columns period_s, sa_g or sa_m_s2 (median, 5 %% damping) and, where the "
-            "dispersion shall fit, sigma_ln",
+            help="table with columns period_s, sa_g or sa_m_s2 (median, 5 %% damping) and, if "
+            "the dispersion should fit as well, sigma_ln",
         )
         parser.add_argument(
             "--periods",
             type=float,
             nargs=2,
             metavar=("LOW", "HIGH"),
-            help="range in which the spectra shall fit [s] (default: that of the target)",
+            help="range of periods in which the spectra should fit [s] (default: that of the "
+            "target)",
         )
         parser.add_argument(
             "--most-factor",
@@ -76,14 +81,14 @@ def add_match_actions(actions: Any) -> None:
             parser.add_argument(
                 "--scaled",
                 action="store_true",
-                help="scale each to the target first (default: motions as they are)",
+                help="scale each motion to the target first (default: motions are not scaled)",
             )
         parser.add_argument(
             "-o",
             "--output",
             required=True,
             metavar="ENSEMBLE.h5",
-            help="its table and a figure of the spectra stand beside it",
+            help="ensemble to write; its table and a figure of the spectra are written beside it",
         )
         parser.set_defaults(command=functools.partial(_match, name))
 

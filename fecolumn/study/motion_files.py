@@ -33,7 +33,7 @@ def add_output(parser: argparse.ArgumentParser) -> None:
         "--output",
         required=True,
         metavar="ENSEMBLE.h5",
-        help="its table stands beside it, ENSEMBLE.csv",
+        help="ensemble to write; its table is written beside it, ENSEMBLE.csv",
     )
 
 
@@ -60,7 +60,7 @@ def add_components(parser: argparse.ArgumentParser, of: str = "") -> None:
             f"--source-{axis}",
             default="",
             metavar="FILE",
-            help=f"file of the {axis} component, for formats of one component a file{of}",
+            help=f"file of the {axis} component, where each component has its own file{of}",
         )
 
 

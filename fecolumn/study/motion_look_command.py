@@ -26,7 +26,8 @@ def add_look_actions(actions: Any) -> None:
     """Actions of `fecolumn motions` that look at motions and convert them."""
     info = actions.add_parser(
         "info",
-        help="what a file or an ensemble is: format, unit, peaks, and what is odd; medians, spread",
+        help="describe a file (format, unit, peaks, and what looks wrong) or an ensemble "
+        "(medians, spread)",
         epilog=f"Files that are read: {FORMATS}.",
     )
     info.add_argument(
@@ -38,9 +39,11 @@ def add_look_actions(actions: Any) -> None:
     info.set_defaults(command=_info)
 
     correct = actions.add_parser(
-        "correct", help="take the drift out of a record: baseline and band-pass, with a picture"
+        "correct",
+        help="remove the drift of a record: baseline correction and band-pass filter, "
+        "with a picture",
     )
-    correct.add_argument("source", metavar="SOURCE", help="as in motion.source of a case")
+    correct.add_argument("source", metavar="SOURCE", help="record, as in motion.source of a case")
     add_components(correct)
     add_unit_and_step(correct)
     correct.add_argument(
@@ -48,23 +51,26 @@ def add_look_actions(actions: Any) -> None:
         type=float,
         default=0.1,
         metavar="HZ",
-        help="corner below which it is taken out, 0 for none (default: %(default)s)",
+        help="corner frequency of the high-pass filter, 0: none (default: %(default)s)",
     )
     correct.add_argument(
         "--low-pass",
         type=float,
         default=0.0,
         metavar="HZ",
-        help="corner above which it is taken out, 0 for none (default: %(default)s)",
+        help="corner frequency of the low-pass filter, 0: none (default: %(default)s)",
     )
     correct.add_argument(
-        "--order", type=int, default=4, help="of the filter, run twice (default: %(default)s)"
+        "--order",
+        type=int,
+        default=4,
+        help="order of the filter, which is run forwards and backwards (default: %(default)s)",
     )
     correct.add_argument(
         "--degree",
         type=int,
         default=1,
-        help="of the polynomial taken off first, -1 for none (default: %(default)s)",
+        help="degree of the polynomial that is subtracted first, -1: none (default: %(default)s)",
     )
     correct.add_argument(
         "-o", "--output", required=True, metavar="DIR", help="folder of the motion and the picture"
@@ -73,10 +79,12 @@ def add_look_actions(actions: Any) -> None:
 
     plot = actions.add_parser(
         "plot",
-        help="figures of an ensemble: three motions, spectra, distributions, rocking spectra",
+        help="draw figures of an ensemble: three motions, spectra, distributions, rocking spectra",
     )
     plot.add_argument(
-        "ensemble", metavar="ENSEMBLE.h5", help="what motions make, convert, scale or select wrote"
+        "ensemble",
+        metavar="ENSEMBLE.h5",
+        help="ensemble written by motions make, convert, scale or select",
     )
     plot.add_argument(
         "-o", "--output", required=True, metavar="DIR", help="folder of the figures, PNG and PDF"
@@ -86,26 +94,27 @@ def add_look_actions(actions: Any) -> None:
         type=int,
         nargs="+",
         metavar="NUMBER",
-        help="motions to show, counted from 1 (default: small, median and large PGV)",
+        help="numbers of motions to show, counted from 1 (default: those of small, median and "
+        "large PGV)",
     )
     plot.add_argument(
         "--slenderness",
         type=float,
         default=0.1,
         metavar="ALPHA",
-        help="of the blocks of the rocking spectra, tan alpha = width/height [rad] "
-        "(default: %(default)s)",
+        help="slenderness alpha of the blocks of the rocking spectra, tan alpha = width/height "
+        "[rad] (default: %(default)s)",
     )
     plot.set_defaults(command=_plot)
 
     convert = actions.add_parser(
-        "convert", help="any motions into an ensemble (.h5), or into text files in a folder"
+        "convert", help="write any motions as an ensemble (.h5), or as text files in a folder"
     )
     convert.add_argument(
         "sources",
         nargs="+",
         metavar="SOURCE",
-        help="as in motion.source of a case; ensemble.h5#* are all of its motions",
+        help="motion, as in motion.source of a case; ensemble.h5#*: all motions of the ensemble",
     )
     add_components(convert, ", with one SOURCE")
     add_unit_and_step(convert, "a file")
@@ -113,14 +122,15 @@ def add_look_actions(actions: Any) -> None:
         "--format",
         choices=("csv", "at2"),
         default="csv",
-        help="of the text files (default: %(default)s)",
+        help="format of the text files (default: %(default)s)",
     )
     convert.add_argument(
         "-o",
         "--output",
         required=True,
         metavar="ENSEMBLE.h5|DIR",
-        help="an ensemble where it ends in .h5, else a folder for a text file of each motion",
+        help="ensemble to write, if the name ends in .h5; otherwise a folder, with one text file "
+        "for each motion",
     )
     convert.set_defaults(command=_convert)
 

@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     kinds = make.add_subparsers(required=True, metavar="KIND")
 
     seeded = kinds.add_parser(
-        "seeded", help="stochastic motions of a fitted model; the Lick ensemble by default"
+        "seeded", help="stochastic motions of a fitted model (default: the Lick ensemble)"
     )
     seeded.add_argument(
         "model",
@@ -52,21 +52,24 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="number of motions (default: %(default)s)",
     )
     seeded.add_argument(
-        "--seed", type=int, default=lick.SEED, help="of the random numbers (default: %(default)s)"
+        "--seed",
+        type=int,
+        default=lick.SEED,
+        help="seed of the random numbers (default: %(default)s)",
     )
     seeded.add_argument(
         "--variability",
         choices=("fixed", "drawn"),
         default="fixed",
-        help="one set of parameters for all motions, or drawn after Dabaghi and Der "
-        "Kiureghian (default: %(default)s)",
+        help="fixed: one set of parameters for all motions; drawn: parameters drawn for each "
+        "motion after Dabaghi and Der Kiureghian (default: %(default)s)",
     )
     seeded.add_argument(
         "--time-scale",
         type=float,
         default=lick.TIME_SCALE,
-        help="factor on time, accelerations kept; 0.5 fits a specimen of a quarter of the "
-        "size (default: %(default)s)",
+        help="factor on time, with accelerations unchanged; 0.5 is right for a specimen of a "
+        "quarter of the size (default: %(default)s)",
     )
     seeded.set_defaults(command=_make_seeded)
     makers.add_kinds(kinds, add_output, store)
@@ -79,7 +82,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     fit.add_argument(
         "source",
         metavar="RECORD",
-        help="record as in motion.source of a case, TARGET.toml, or lick",
+        help="record, as in motion.source of a case; or a table of target figures, TARGET.toml; "
+        "or lick",
     )
     add_components(fit)
     add_unit_and_step(fit)
@@ -90,10 +94,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         type=int,
         default=800,
-        help="size of the ensemble fitted on (default: %(default)s)",
+        help="number of motions in the ensemble used for the fit (default: %(default)s)",
     )
     fit.add_argument(
-        "--iterations", type=int, default=14, help="steps of the fit (default: %(default)s)"
+        "--iterations",
+        type=int,
+        default=14,
+        help="number of iterations of the fit (default: %(default)s)",
     )
     fit.add_argument(
         "-o",

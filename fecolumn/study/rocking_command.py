@@ -29,16 +29,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         choices=(*TABLES.values(), _SPECTRUM),
         metavar="MODEL",
-        help=f"{', '.join(TABLES.values())}; or {_SPECTRUM}: which pulses overturn a "
-        "block, CASE its [block] (default: the model of the case's own table, or of its "
+        help=f"{', '.join(TABLES.values())}; or {_SPECTRUM}: which pulses "
+        "overturn the [block] of CASE (default: the model of the case's own table, or of its "
         "integration.engine)",
     )
     parser.add_argument(
         "case",
         metavar="CASE.toml",
-        help="the model's table, such as [block] or [frame], with [motion]; or a case of "
-        "fecolumn run. "
-        'motion.source = "ensemble.h5#*" or "lick:1-40" runs an ensemble',
+        help="file with the model's table, such as [block] or [frame], and [motion]; or a case "
+        'of fecolumn run. With motion.source = "ensemble.h5#*" or "lick:1-40" the model '
+        "runs in an ensemble",
     )
     parser.add_argument(
         "-o",

@@ -19,7 +19,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--name",
         metavar="NAME",
         default="",
-        help=f"cases whose name contains NAME, of {', '.join(CASES)}",
+        help=f"run only cases whose name contains NAME, of {', '.join(CASES)}",
     )
     parser.add_argument("--case", dest="name", action=OlderOption, newer="--name")
     parser.add_argument(
@@ -27,8 +27,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="E",
         action="append",
         choices=("full", *ALL_ENGINES),
-        help="engine, of %(choices)s; full: both kinematics of full order, corotated and "
-        "total_lagrangian (default: each)",
+        help="run only this engine, of %(choices)s; full: both kinematics of the full engine, "
+        "corotated and total_lagrangian (default: all)",
     )
     parser.add_argument(
         "-j",
@@ -36,7 +36,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="N",
         type=int,
         default=os.cpu_count() or 1,
-        help="cases at a time (default: %(default)s)",
+        help="number of cases at a time (default: %(default)s)",
     )
     parser.add_argument(
         "--long",
@@ -44,7 +44,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="finer meshes and smaller steps as well, about three hours on two cores",
     )
     parser.add_argument(
-        "-q", "--quiet", action="store_true", help="no rows as cases end: the verdict alone"
+        "-q", "--quiet", action="store_true", help="print only the verdict, not a row for each case"
     )
 
 

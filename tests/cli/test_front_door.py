@@ -165,7 +165,7 @@ def test_help_tells_of_every_command_and_argument():
 def test_help_of_doctor_is_a_sentence(capsys):
     with pytest.raises(SystemExit):
         main(["doctor", "--help"])
-    assert "the traps it would step into." in " ".join(capsys.readouterr().out.split())
+    assert "and known problems of this machine." in " ".join(capsys.readouterr().out.split())
 
 
 def test_verify_tells_the_cases_of_the_engines_that_are_asked_for(tmp_path, capsys):

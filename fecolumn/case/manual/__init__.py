@@ -35,7 +35,11 @@ TOPICS = (
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn help`."""
     parser.add_argument(
-        "topic", nargs="?", default="", metavar="TOPIC", help="a topic; without one: all topics"
+        "topic",
+        nargs="?",
+        default="",
+        metavar="TOPIC",
+        help="topic to print (default: list all topics)",
     )
 
 

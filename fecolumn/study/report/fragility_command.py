@@ -24,17 +24,17 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "source",
         metavar="DIR|FILE.csv",
-        help="folder of a study, or a table with the column overturned and columns of "
-        "intensity measures, such as responses.csv of fecolumn rocking",
+        help="folder of a study; or a table with a column overturned and columns of intensity "
+        "measures, such as responses.csv of fecolumn rocking",
     )
     parser.add_argument(
         "--im",
         action="append",
         metavar="NAME",
         default=None,
-        help="intensity measure, given twice for two: a column of the file; of a study "
-        "pgv_m_s (default), pga_m_s2, "
-        "pgd_m, arias_m_s, ds5_75_s, ds5_95_s, cav_m_s or housner_m",
+        help="intensity measure, --im twice for two measures: a column of the table; with a "
+        "study pgv_m_s (default), pga_m_s2, pgd_m, arias_m_s, ds5_75_s, ds5_95_s, cav_m_s "
+        "or housner_m",
     )
     parser.add_argument(
         "-o", "--output", metavar="DIR", required=True, help="folder for table and figure"
