@@ -162,6 +162,18 @@ WRONG = [
         "did you mean bodies.upper.height_m",
     ),
     (stack(bodies=dict(upper=dict(material="gold"))), "bodies.upper.material", "no such table"),
+    (stack(bodies=dict(upper=dict(cap_size_m=0.1))), "bodies.upper.cap_size_m", "without a cap"),
+    (
+        stack(
+            bodies=dict(
+                drum=dict(kind="cylinder", outer_diameter_m=0.3, height_m=0.5, cap_size_m=0.1)
+                | dict(cap=dict(length_m=0.4, width_m=0.4, thickness_m=0.05))
+                | STONE
+            )
+        ),
+        "bodies.drum.cap_size_m",
+        "state fine_height_m",
+    ),
     (stack(bodies=dict(upper=dict(mass_kg=3.0))), "bodies.upper.mass_kg", "without density_kg_m3"),
     (stack(bodies=dict(upper=dict(at_m=[0, 1]))), "bodies.upper.at_m", "three numbers"),
     (
