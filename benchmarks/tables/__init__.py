@@ -56,6 +56,11 @@ class Table:
         return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
     @property
+    def machines(self) -> list[str]:
+        """That measured it."""
+        return self.about["machine"].split("; ")
+
+    @property
     def current(self) -> bool:
         """Whether what this code computes is what was measured."""
         return self.about["physics"] in ("none", str(PHYSICS))
@@ -88,6 +93,12 @@ def read(name: str) -> Table:
     return Table(name, about, columns, rows)
 
 
+def machines_of(folder: str) -> tuple[str, ...]:
+    """That measured the rows kept in a folder of benchmarks/tables, each once."""
+    found = [read(f"{folder}/{file.stem}") for file in sorted((FOLDER / folder).glob("*.csv"))]
+    return tuple(dict.fromkeys(one for table in found for one in table.machines))
+
+
 def names() -> list[str]:
     """Of all tables."""
     return sorted(file.stem for file in FOLDER.glob("*.csv") if file.stem != QUOTED)
@@ -102,10 +113,8 @@ def write(
     physics: int | str = PHYSICS,
     machines: tuple[str, ...] = (),
 ) -> None:
-    """Write a table as measured by this code, now, on this machine; machines: others, of which
-    there are rows, too.
-    """
-    machine = "; ".join(dict.fromkeys((*machines, _machine())))
+    """Write a table as measured by this code, now; machines: that measured it, else this one."""
+    machine = "; ".join(dict.fromkeys(machines or [this_machine()]))
     about = (title, command, __version__, commit(), date.today().isoformat(), machine, physics)
     text = io.StringIO()
     text.writelines(f"# {key}: {value}\n" for key, value in zip(HEADER, about))
@@ -143,7 +152,7 @@ def commit() -> str:
     return found.stdout.strip() + "-dirty" * bool(changed) if found.stdout else "unknown"
 
 
-def _machine() -> str:
+def this_machine() -> str:
     """Processor, by its family and model, too, which decide how libraries round; number of
     cores.
     """

@@ -2,13 +2,14 @@
 
     python -m benchmarks.tables                          which are of an older physics
     python -m benchmarks.tables --again [TABLE ...]      measure them again, or those named
-    python -m benchmarks.tables printed.txt TABLE [TABLE ...] [--title T] [--command C]
+    python -m benchmarks.tables printed.txt TABLE [TABLE ...] [--title T] [--command C] [--rows R]
 
 The first names the tables that today's code may not measure any more, and their commands. The
 second runs the commands that can be run as they stand, one after the other, and keeps what they
 print; a benchmark that was stopped goes on where it was. The third keeps the last tables of
 printed.txt, in their order, as benchmarks/tables/TABLE.csv. Version, commit, date, machine and
-physics are those of now; title and command are kept of a table that is there.
+physics are those of now; title and command are kept of a table that is there. With --rows the
+machines are those of the rows in benchmarks/tables/R, of which the tables are made.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from benchmarks.tables import FOLDER, from_markdown, names, read, write
+from benchmarks.tables import FOLDER, from_markdown, machines_of, names, read, write
 from benchmarks.tables.again import RUNS_AS_IT_STANDS, by_command, measure_again, older
 
 
@@ -31,6 +32,7 @@ def main() -> None:
     parser.add_argument("--again", action="store_true")
     parser.add_argument("--title")
     parser.add_argument("--command")
+    parser.add_argument("--rows", metavar="R")
     given = parser.parse_args()
     if given.again:
         _again(parser, [given.printed, *given.names] if given.printed else [])
@@ -69,7 +71,8 @@ def _keep(parser: argparse.ArgumentParser, given: argparse.Namespace) -> None:
         title, command = (getattr(given, key) or old.get(key) for key in ("title", "command"))
         if not (title and command):
             parser.error(f"{name} is a new table: state --title and --command")
-        write(name, columns, rows, title, command)
+        machines = machines_of(given.rows) if given.rows else ()
+        write(name, columns, rows, title, command, machines=machines)
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ def write_runs(
     columns = list(next(iter(runs.values())))
     rows = [[motion, *map(_cell, runs[motion].values())] for motion in sorted(runs)]
     if any([motion, *map(_cell, one.values())] in rows for motion, one in before.items()):
-        more["machines"] = tuple(tables.read(name).about["machine"].split("; "))
+        more["machines"] = (*tables.read(name).machines, tables.this_machine())
     tables.write(name, [MOTION, *columns], rows, title, command, **more)
 
 

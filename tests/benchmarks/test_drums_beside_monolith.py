@@ -136,7 +136,7 @@ def test_the_header_names_the_machines_of_all_rows(tmp_path, monkeypatch):
     monkeypatch.setattr(tables, "FOLDER", tmp_path)
 
     def machines(runs, here):
-        monkeypatch.setattr(tables, "_machine", lambda: here)
+        monkeypatch.setattr(tables, "this_machine", lambda: here)
         write_runs("set", runs, "T.", "python -m x")
         return tables.read("set").about["machine"]
 
@@ -146,3 +146,6 @@ def test_the_header_names_the_machines_of_all_rows(tmp_path, monkeypatch):
     assert machines({4: dict(u=0.4)}, "A, 2 cores") == "A, 2 cores; B, 2 cores"
     again = {motion: dict(u=0.5 + motion) for motion in (1, 2, 3, 4)}
     assert machines(again, "C, 2 cores") == "C, 2 cores"
+    write_runs("rows/one", first, "T.", "python -m x", machines=("B, 2 cores", "A, 2 cores"))
+    write_runs("rows/two", again, "T.", "python -m x")
+    assert tables.machines_of("rows") == ("B, 2 cores", "A, 2 cores", "C, 2 cores")
