@@ -1,4 +1,4 @@
-"""Rocking and sliding of free-standing columns: finite-element contact dynamics, judged by
+"""Rocking and sliding of free-standing structures: finite-element contact dynamics, judged by
 statistics.
 
 Units are SI everywhere. z points up, gravity along -z; displacements are relative to the base. A

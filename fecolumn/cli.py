@@ -194,7 +194,7 @@ def _parser() -> argparse.ArgumentParser:
 
     parser = _Parser(
         prog="fecolumn",
-        description="Rocking and sliding of free-standing columns: finite-element contact "
+        description="Rocking and sliding of free-standing structures: finite-element contact "
         "dynamics, judged by statistics.",
         epilog="First steps: fecolumn new DIR, or fecolumn help quick-start. Every option of "
         "a command: fecolumn COMMAND --help.",

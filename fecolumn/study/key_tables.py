@@ -240,7 +240,8 @@ def text(found: list[Table]) -> str:
         )
         for key in table.keys:
             unit = f" [{key.unit}]" if key.unit else ""
-            parts.append(f"  {key.name + unit}: {key.allowed}; default {key.default}")
+            default = key.default if key.default == "required" else f"default {key.default}"
+            parts.append(f"  {key.name + unit}: {key.allowed}; {default}")
             parts.append(
                 textwrap.fill(
                     key.meaning, _WIDTH, initial_indent="      ", subsequent_indent="      "

@@ -77,7 +77,7 @@ def test_manual_has_the_table_of_keys_as_it_is_now():
                 "wobbling_frame, podium; default reduced"
             ],
         ),
-        ("study", ["samples: whole number, in [1, 1000000]; default required", "[[zip]]"]),
+        ("study", ["samples: whole number, in [1, 1000000]; required", "[[zip]]"]),
     ],
 )
 def test_keys_of_a_section_tell_range_unit_and_default(name, words, capsys):
