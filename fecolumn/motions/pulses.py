@@ -99,7 +99,7 @@ class Pulse:
         if self.cycles != int(self.cycles) or self.cycles < 1:
             raise OutOfRange("cycles", self.cycles, "be a whole number, at least 1")
         if self.cycles != 1 and self.shape != "type_c":
-            must = f"be 1 for {self.shape}; only type_c has cycles"
+            must = f"be 1 for {self.shape}: only type_c has cycles"
             raise OutOfRange("cycles", self.cycles, must)
 
     @property
@@ -186,7 +186,8 @@ def sample(pulse: Pulse, dt: float, lead: float = 0.0, tail: float = 0.0) -> Gro
         step too coarse, or a negative rest.
     """
     if not 0 < dt <= 0.1 * pulse.period * (1 + 1e-12):
-        must = f"be greater than 0 and at most a tenth of the pulse's period, {pulse.period:g} s"
+        longest = 0.1 * pulse.period
+        must = f"be greater than 0 and at most {longest:g} s, a tenth of the pulse's period"
         raise OutOfRange("dt", dt, must, "s")
     for name, rest in (("lead", lead), ("tail", tail)):
         if not 0 <= rest < math.inf:

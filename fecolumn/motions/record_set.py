@@ -73,9 +73,9 @@ def record_set(
     if set_name not in SETS:
         known = ", ".join(f"{long} ({short})" for short, long in SHORT_NAMES.items())
         raise UnusableRecord(f"unknown set {name!r}; must be one of {known}")
-    for argument, value in (("time_scale", time_scale), ("pgv", pgv)):
+    for argument, value, unit in (("time_scale", time_scale, ""), ("pgv", pgv, "m/s")):
         if value is not None and not 0 < value < np.inf:
-            raise OutOfRange(argument, value, "be finite and greater than 0")
+            raise OutOfRange(argument, value, f"be finite and greater than 0 {unit}".strip(), unit)
     if measure not in MEASURES:
         raise ValueError(f"measure = {measure!r}: must be one of {', '.join(MEASURES)}")
     members = [entry for entry in available() if entry.name.split("/")[0].endswith(f":{set_name}")]

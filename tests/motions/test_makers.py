@@ -98,7 +98,7 @@ def test_records_scaled_to_a_velocity():
         (("near-fault", "--magnitudes", "6", "-n", "1", "--dt", "0.05"), "--dt = 0.05: .* 0.02 s"),
         (
             ("pulses", "one_sine", "--amplitudes", "1", "--periods", "1", "0.5", "--dt", "0.06"),
-            "--dt = 0.06: must .* a tenth of the pulse's period, 0.5 s",
+            "--dt = 0.06: must .* at most 0.05 s, a tenth of the pulse's period",
         ),
         (
             ("pulses", "one_sine", "--amplitudes", "1", "--periods", "1", "--tail", "-1"),

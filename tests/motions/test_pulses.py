@@ -144,5 +144,5 @@ def test_impossible_pulse_is_refused(arguments, said):
 
 
 def test_step_too_coarse_for_the_pulse_is_refused():
-    with pytest.raises(ValueError, match="at most a tenth of the pulse's period, 0.1 s"):
+    with pytest.raises(ValueError, match="at most 0.01 s, a tenth of the pulse's period"):
         sample(Pulse("one_sine", 1.0, 0.1), 0.02)
