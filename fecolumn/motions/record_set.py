@@ -32,6 +32,10 @@ def rotd50_pgv(motion: GroundMotion) -> float:
 MEASURES = {ROTD50: rotd50_pgv, "resultant": resultant_pgv}
 
 
+class UnknownChoice(UnusableRecord, OutOfRange):
+    """A set, or a record of it, that is not there."""
+
+
 def record_set(
     name: str,
     pgv: float | None = None,
@@ -72,19 +76,20 @@ def record_set(
     set_name = SHORT_NAMES.get(name, name)
     if set_name not in SETS:
         known = ", ".join(f"{long} ({short})" for short, long in SHORT_NAMES.items())
-        raise UnusableRecord(f"unknown set {name!r}; must be one of {known}")
+        message = f"unknown set {name!r}; must be one of {known}"
+        raise UnknownChoice("set", name, f"be one of {known}", message=message)
     for argument, value, unit in (("time_scale", time_scale, ""), ("pgv", pgv, "m/s")):
         if value is not None and not 0 < value < np.inf:
             raise OutOfRange(argument, value, f"be finite and greater than 0 {unit}".strip(), unit)
     if measure not in MEASURES:
         raise ValueError(f"measure = {measure!r}: must be one of {', '.join(MEASURES)}")
     members = [entry for entry in available() if entry.name.split("/")[0].endswith(f":{set_name}")]
-    unknown = set(without) - {entry.name for entry in members}
+    unknown = sorted(set(without) - {entry.name for entry in members})
     if unknown:
-        raise UnusableRecord(
-            f"no record {', '.join(sorted(unknown))} in {set_name}; must be "
-            f"{members[0].name} to {members[-1].name}"
-        )
+        known = f"{members[0].name} to {members[-1].name}"
+        message = f"no record {', '.join(unknown)} in {set_name}; must be {known}"
+        must = f"be records of the set, {known}"
+        raise UnknownChoice("without", unknown[0], must, message=message)
     members = [entry for entry in members if entry.name not in without]
     if not members:
         raise UnusableRecord(f"no record of {set_name} is left")

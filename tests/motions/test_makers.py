@@ -94,7 +94,7 @@ def test_records_scaled_to_a_velocity():
             ("pulses", "one_sine", "--amplitudes", "1", "--periods", "1", "--cycles", "2"),
             "only type_c",
         ),
-        (("near-fault", "-n", "0"), "--count = 0: must be a whole number, at least 1"),
+        (("near-fault", "-n", "0"), "-n = 0: must be at least 1"),
         (("near-fault", "--magnitudes", "6", "-n", "1", "--dt", "0.05"), "--dt = 0.05: .* 0.02 s"),
         (
             ("pulses", "one_sine", "--amplitudes", "1", "--periods", "1", "0.5", "--dt", "0.06"),
