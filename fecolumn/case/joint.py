@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 from pathlib import Path
 from typing import Any
 
@@ -164,38 +163,26 @@ class Joint(Section):
         """The second of the two: a body or a ground."""
         return self.between[1]
 
+    @classmethod
+    def _by_newer_names(cls, keys: dict[str, Any], file: Path | str, prefix: str) -> dict[str, Any]:
+        """Keys of a joint by their names in this version: `between` for `slave` and `on`.
 
-def by_between(keys: dict[str, Any], file: Path | str, prefix: str) -> dict[str, Any]:
-    """Keys of a joint, the two that touch by `between` where they are told by `slave` and `on`, as
-    in earlier versions.
-
-    Raises
-    ------
-    InputError
-        one of the two older keys is missing, or stands beside `between`.
-    """
-    older = [key for key in ("slave", "on") if key in keys]
-    if not older:
-        return keys
-    if keys.get("between"):
-        told = "must be left out beside between, which names both bodies"
-        raise InputError(file, prefix + older[0], keys[older[0]], told)
-    if len(older) == 1:
-        (missing,) = {"slave", "on"} - set(older)
-        told = f'missing; or give {prefix}between = ["one body", "other body"] instead'
-        raise InputError(file, prefix + missing, None, f"{told} of slave and on")
-    if Path(file).name != "case.json":  # of a result, which nobody writes by hand
-        warn_of_older_name(str(file), "slave with on", "between")
-    others = {key: value for key, value in keys.items() if key not in (*older, "between")}
-    return {"between": (keys["slave"], keys["on"]), **others}
-
-
-def _by_older_names(init: Any) -> Any:
-    @functools.wraps(init)
-    def made(self: Joint, *values: Any, **keys: Any) -> None:
-        init(self, *values, **by_between(keys, "script", "Joint."))
-
-    return made
-
-
-Joint.__init__ = _by_older_names(Joint.__init__)  # type: ignore[method-assign]
+        Raises
+        ------
+        InputError
+            one of the two older keys is missing, or stands beside `between`.
+        """
+        older = [key for key in ("slave", "on") if key in keys]
+        if not older:
+            return keys
+        if keys.get("between"):
+            told = "must be left out beside between, which names both bodies"
+            raise InputError(file, prefix + older[0], keys[older[0]], told)
+        if len(older) == 1:
+            (missing,) = {"slave", "on"} - set(older)
+            told = f'missing; or give {prefix}between = ["one body", "other body"] instead'
+            raise InputError(file, prefix + missing, None, f"{told} of slave and on")
+        if Path(file).name != "case.json":  # of a result, which nobody writes by hand
+            warn_of_older_name(str(file), "slave with on", "between")
+        others = {key: value for key, value in keys.items() if key not in (*older, "between")}
+        return {"between": (keys["slave"], keys["on"]), **others}

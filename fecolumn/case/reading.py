@@ -13,7 +13,7 @@ from fecolumn.case.bodies import BODY_KINDS
 from fecolumn.case.case_tables import COMMON, NAMED
 from fecolumn.case.given import by_two_bodies, check_name, with_files
 from fecolumn.case.ground import GROUND_NAME, Ground
-from fecolumn.case.joint import Joint, by_between
+from fecolumn.case.joint import Joint
 from fecolumn.case.sections import (
     located,
 )
@@ -156,8 +156,6 @@ def _named(
                     file, f"{name}.{key}", table, f"must be a table [{name}.NAME] of keys"
                 )
             check_name(name, key, tables, grounds, file)
-            if kind is Joint:
-                table = by_between(table, file, f"{name}.{key}.")
             section = _built(_kind_of(name, key, table, kind, file), table, file, f"{name}.{key}.")
             if isinstance(section, Joint):
                 section = by_two_bodies(section, grounds, file, f"{name}.{key}.")

@@ -311,6 +311,15 @@ class Section:
     if typing.TYPE_CHECKING:  # every section is made a dataclass
         __dataclass_fields__: typing.ClassVar[dict[str, dataclasses.Field[typing.Any]]]
 
+    @classmethod
+    def _by_newer_names(
+        cls, keys: dict[str, typing.Any], file: Path | str, prefix: str
+    ) -> dict[str, typing.Any]:
+        """Keys of a file or a script by their names in this version; a section that had others
+        says so.
+        """
+        return keys
+
     def __repr__(self) -> str:
         """The keys that are not at their defaults, as they are given."""
         given = (
@@ -368,6 +377,8 @@ def build(section: type, table: typing.Any, file: Path | str, prefix: str = "") 
     """
     if not isinstance(table, dict):
         raise InputError(file, prefix.rstrip("."), table, "must be a table of keys")
+    if issubclass(section, Section):
+        table = section._by_newer_names(table, file, prefix)
     kinds, errors, values = _kinds(section), [], {}
     for key, value in table.items():
         if key not in kinds:

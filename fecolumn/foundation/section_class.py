@@ -64,6 +64,7 @@ def _by_known_keys(init: typing.Any, cls: typing.Any, kw_only: bool) -> typing.A
     def checked(self: _Made, *values: typing.Any, **keys: typing.Any) -> None:
         name = section_name(cls)
         prefix = f"{name}." if name else ""
+        keys = cls._by_newer_names(keys, "script", f"{cls.__name__}.")
         errors = [
             InputError(
                 "case",
