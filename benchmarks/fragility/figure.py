@@ -6,7 +6,7 @@ import numpy as np
 
 from benchmarks.fragility.motions import PGV
 from benchmarks.fragility.report import PERIODS, half_lost, lost, surface
-from benchmarks.fragility.structures import COLUMN, DRUMS, ELASTIC, RIGID
+from benchmarks.fragility.structures import COLUMN, DRUMS, ELASTIC
 from fecolumn.pictures.figures.style import (
     BLACK,
     BLUE,
@@ -24,7 +24,18 @@ from fecolumn.pictures.figures.style import (
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.store import FAILED
 
-_COLOURS = (BLACK, BLUE, SKY, GREEN, ORANGE, VERMILION, GREY, PURPLE)
+#: Rigid structures that have curves over PGV, and their elastic twins in the same colour; the other
+#: columns of drums stand in the middle panel alone
+_COLOURS = {
+    "monolith": BLACK,
+    "2 drums": BLUE,
+    "3 drums": SKY,
+    "4 drums": GREEN,
+    "6 drums": ORANGE,
+    "8 drums": VERMILION,
+    "trilith": GREY,
+    "frame": PURPLE,
+}
 #: Edges of the classes of PGV in which shares are drawn [m/s]
 _CLASSES = np.geomspace(0.15, 2.5, 7)
 _TICKS = 0.2, 0.5, 1, 2
@@ -40,10 +51,10 @@ def draw(found: dict[str, list[dict]], path):
         left, middle, right = panels.subplots(1, 3)
         for name, rows in found.items():
             told = [row for row in rows if row["outcome"] != FAILED]
-            if not told:
-                continue
             kind = name.removeprefix(ELASTIC)
-            style = dict(color=_COLOURS[RIGID.index(kind)], linestyle="--" if kind != name else "-")
+            if not told or kind not in _COLOURS:
+                continue
+            style = dict(color=_COLOURS[kind], linestyle="--" if kind != name else "-")
             _shares(left, told, name, style)
             _shifts(right, told, name, style)
         _halves(middle, found)

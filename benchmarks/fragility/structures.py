@@ -7,7 +7,7 @@ from fecolumn.case.case import Case
 
 #: Diameter and height of the columns of drums [m]
 COLUMN = (1.0, 6.0)
-DRUMS = (1, 2, 3, 4, 6, 8)
+DRUMS = (1, 2, 3, 4, 5, 6, 7, 8)
 #: Contact points around a face; friction is that of `frames_and_stacks`, 0.7.
 AROUND = 12
 _FRAMES = {"trilith": 2, "frame": 4}

@@ -104,7 +104,7 @@ def test_two_motions_of_a_monolith_are_kept_and_told(tmp_path, capsys, monkeypat
     assert not list(tmp_path.glob("**/history.h5"))
     assert not list(tmp_path.glob("elsewhere/**/summary.json"))
     with pytest.raises(SystemExit):
-        main(["5 drums"])
+        main(["9 drums"])
     with pytest.raises(SystemExit):
         main([*command, here, "--dt", "1e-3", "--keep"])
 
