@@ -144,7 +144,7 @@ PROGRAMS = (
         "bodies that land after one another within a step land together: the columns of the "
         "trilith do so 1e-4 s apart when the beam slides, and lose 11.4 J instead of 8.3; of the "
         "tube the reference, as the planar program has no third dimension",
-        structures=("tube", "trilith"),
+        structures=("tube", "drums", "trilith"),
     ),
     Program(
         "reduced",
