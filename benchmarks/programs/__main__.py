@@ -21,11 +21,11 @@ that of gravity (and strain) less the work of the ground, which friction and imp
 from, at rows of 5 ms, over the energy that overturns; its error: of our sum of that work, of
 fecolumn that of its balance.
 
-Prints two tables: results, and settings. Each analysis is a file of its own below DIR: what was
-stopped goes on with the same command. What benchmarks/tables/programs holds is not computed again
-(of a peer while its scripts and settings are the same); --keep writes what is done there, --report
-computes nothing. --trial prints what the peers' settings err by, by which the best were chosen
-(`benchmarks.programs.trial`).
+Prints three tables: results, settings, and each two programs beside each other. Each analysis is a
+file of its own below DIR: what was stopped goes on with the same command. What
+benchmarks/tables/programs holds is not computed again (of a peer while its scripts and settings are
+the same); --keep writes what is done there, --report computes nothing. --trial prints what the
+peers' settings err by, by which the best were chosen (`benchmarks.programs.trial`).
 """
 
 from __future__ import annotations

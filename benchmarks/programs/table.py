@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,18 @@ HEAD = (
     "energy balance, error [%]",
     "steps unsolved",
     "CPU of a motion [s]",
+)
+#: Heads of `pairs`
+PAIRS_HEAD = (
+    "structure and programs",
+    "motions",
+    "overturned in the first",
+    "in the second",
+    "D",
+    "p",
+    "in the first alone",
+    "in the second alone",
+    "McNemar p",
 )
 
 
@@ -77,6 +90,25 @@ def cells(
     )
 
 
+def pairs(found: dict[str, dict[str, dict]]) -> list[tuple[str, ...]]:
+    """Each two programs on the same structure, as `pair_cells`, with how many overturn of the
+    motions that both have.
+    """
+    rows = []
+    for structure, programs in found.items():
+        for (one, first), (other, second) in combinations(programs.items(), 2):
+            common = first.keys() & second.keys()
+            rows.append(
+                (
+                    f"{structure}: {BY_NAME[one].label} and {BY_NAME[other].label}",
+                    str(len(common)),
+                    *(str(sum(runs[n]["overturned"] for n in common)) for runs in (first, second)),
+                    *pair_cells(first, second),
+                )
+            )
+    return rows
+
+
 def against(runs: dict, reference: dict) -> tuple[str, ...]:
     """D, p, motions that overturn in one alone, McNemar's p, and by how much the peaks of what
     stands in both are off, of the motions in both.
@@ -94,7 +126,8 @@ def _peak(run: dict) -> float:
 def tables(
     found: dict[str, dict[str, dict]], references: dict[str, str], versions: dict[str, str]
 ) -> str:
-    """Both tables: of results by structure and program, and of the programs' settings.
+    """All tables: of results by structure and program, of the programs' settings, and of the
+    programs beside each other.
 
     found: runs by motion by program's name by structure.
     """
@@ -118,6 +151,7 @@ def tables(
             markdown(HEAD, rows),
             f"Reference of D, p and McNemar's p: {named}.",
             markdown(("program", "version", "step [s]", "settings", "because"), settings),
+            markdown(PAIRS_HEAD, pairs(found)),
         ]
     )
 

@@ -120,7 +120,7 @@ def test_planar_program_and_housner_agree_and_what_is_done_is_kept(tmp_path, cap
     given = ["--structure", "block", "--program", "housner", "judge", "--motions", "2"]
     given += ["-o", str(tmp_path), "-j", "1"]
     assert command.main(given) == 0
-    results, settings = from_markdown(capsys.readouterr().out)
+    results, settings, pairs = from_markdown(capsys.readouterr().out)
     rows = [dict(zip(results[0], row)) for row in results[1:]]
     assert [row["structure and program"] for row in rows] == [
         "block: Housner's block, exact",
@@ -129,6 +129,9 @@ def test_planar_program_and_housner_agree_and_what_is_done_is_kept(tmp_path, cap
     assert rows[0]["overturned"] == rows[1]["overturned"] and rows[0]["motions"] == "2"
     assert float(rows[1]["energy fed in, median [%]"]) < 0.05
     assert len({row[0] for row in settings[1:]}) == 2
+    assert [row[:2] for row in pairs[1:]] == [
+        ["block: Housner's block, exact and planar program", "2"]
+    ]
     files = sorted(tmp_path.rglob("summary.json"))
     before = [file.stat().st_mtime_ns for file in files]
     assert len(files) == 4 and command.main(given) == 0
@@ -205,6 +208,10 @@ def test_table_sets_each_program_beside_the_reference():
     assert row["energy fed in, median [%]"] == "0.15" and row["most [%]"] == "0.3"
     assert judge[head.index("D")] == "-" and "block: planar program" in text
     assert [line[0] for line in from_markdown(text)[1]][1:] == ["planar program", "MuJoCo, best"]
+    pair = dict(zip(*from_markdown(text)[2]))
+    assert pair["motions"] == "4" and pair["D"] == "0.750"
+    assert [pair["overturned in the first"], pair["in the second"]] == ["1", "2"]
+    assert [pair["in the first alone"], pair["in the second alone"]] == ["0", "1"]
 
 
 def test_settings_are_named_once_and_full_order_runs_where_it_is_named():
