@@ -98,6 +98,8 @@ def pairs(found: dict[str, dict[str, dict]]) -> list[tuple[str, ...]]:
     for structure, programs in found.items():
         for (one, first), (other, second) in combinations(programs.items(), 2):
             common = first.keys() & second.keys()
+            if not common:
+                continue
             rows.append(
                 (
                     f"{structure}: {BY_NAME[one].label} and {BY_NAME[other].label}",
