@@ -7,9 +7,13 @@ import pytest
 from scipy.stats import binomtest
 
 from benchmarks import tables
+from benchmarks.fragility.report import beside, lost
+from benchmarks.fragility.run import kept_name
+from benchmarks.fragility.structures import COLUMN, DRUMS
 from benchmarks.impact.kept_map import kept_cells
 from benchmarks.results import RESULTS
 from benchmarks.tables.runs import read_runs
+from fecolumn.case.sections import GRAVITY
 from fecolumn.statistics.holm import holm
 from fecolumn.verification.multi_drum import OUTCOMES
 
@@ -56,6 +60,7 @@ def test_claims_of_the_paper_with_fixed_steps():
     here = {row.partition(", ")[2]: cell for row, cell in column("paper_claims", "here").items()}
     supported = {claim for claim, verdict in here.items() if verdict == "supported"}
     assert supported == {"a1", "a2, α", "b1", "d1", "d2"} and "five are supported:" in PAGE
+    assert "d2, by times that are no finding" in PAGE
     assert here["a2, Δt"] == "not supported" and {here["b2"], here["c"]} == {"undecided"}
     least = min(float(p) for p in column("paper_alphas", "least p").values())
     assert f"the least p is {least:.3f}" in PAGE and 30 * least > 0.05
@@ -72,14 +77,94 @@ def test_steps_with_rolling_substeps_are_told_apart_as_the_text_says():
     assert f"(-0.333: p < 0.001, else {min(others):.2f} to {max(others):.2f})" in PAGE
     told = {alpha: one[1] for alpha, one in shortest.items() if one[1] < 0.05}
     assert list(told) == ["-0.05", "-0.1", "-0.333"]
-    assert "(-0.05, -0.1 and -0.333: 0.016, 0.004 and < 0.001; by Holm's rule for five" in PAGE
-    corrected = dict(zip(shortest, holm([one[1] for one in shortest.values()])))
-    assert [alpha for alpha, p in corrected.items() if p < 0.05] == list(told)
+    assert "(-0.05, -0.1 and -0.333: 0.016, 0.004 and < 0.001; by Holm's rule for the ten" in PAGE
+    ten = [*short.values(), *shortest.values()]
+    corrected = holm([one[1] for one in ten])
+    told = [alpha for alpha, p in zip([*short, *shortest], corrected) if p < 0.05]
+    assert told == ["-0.333", "-0.1", "-0.333"]
+    assert "with a shorter step at the last two" in PAGE
     least = sorted(one[1] for one in fine.values())[:2]
-    assert f"1e-3 and 1e-4 s at two ({least[0]} and {least[1]}; by Holm's rule at none)" in PAGE
-    assert min(holm([one[1] for one in fine.values()])) > 0.05
-    flips = holm([one[2] for one in shortest.values()])
-    assert [alpha for alpha, p in zip(shortest, flips) if p < 0.05] == ["-0.333"]
+    told = f"1e-3 and 1e-4 s at two ({least[0]} and {least[1]}; by Holm's rule for five at none)"
+    assert told in PAGE and min(holm([one[1] for one in fine.values()])) > 0.05
+    flips = [one[2] for one in ten]
+    assert min(holm(flips)) > 0.05 and f"(least McNemar's p {min(flips):.3f})" in PAGE
+
+
+def test_about_half_of_the_difference_is_gone_with_rolling_substeps():
+    def fallen(table, row):
+        names = tables.read(table)
+        (cells,) = [one for one in names.rows if one[0] == row]
+        return sum(int(cell.partition(" of ")[0]) for cell in cells[1:])
+
+    found = {
+        (reading, dt): fallen(table, f"{reading}, {dt} s")
+        for table, reading in (
+            ("paper_overturned", "fixed step"),
+            ("paper_parts_overturned", "rolling substeps"),
+        )
+        for dt in ("0.02", "0.001", "0.0001")
+    }
+    fewer = {
+        (reading, dt): found[reading, dt] - found[reading, "0.02"]
+        for reading, dt in found
+        if dt != "0.02"
+    }
+    told = "{} fewer fall at 0.02 s than at 1e-3 s with fixed steps and {} fewer with rolling"
+    assert told.format(*(fewer[one, "0.001"] for one in ("fixed step", "rolling substeps"))) in PAGE
+    told = "than at 1e-4 s, {} and {} fewer"
+    more = [fewer[one, "0.0001"] for one in ("fixed step", "rolling substeps")]
+    assert told.format(*more) in PAGE and 0.4 < more[1] / more[0] < 0.6
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert f"{more[0]} of 575 columns fewer fall at 0.02 s than at 1e-4 s" in readme
+    assert f"with fixed steps, {more[1]} by default" in readme
+
+
+def pairs_of_programs(structure, *labels):
+    """Cells of the pairs of these programs on a structure, by head."""
+    table = tables.read("programs_pairs")
+    wanted = {f"{structure}: {a} and {b}" for a in labels for b in labels}
+    return [dict(zip(table.columns, row)) for row in table.rows if row[0] in wanted]
+
+
+def test_programs_that_are_not_told_apart():
+    best = "MuJoCo, best", "Siconos, best of the tube", "fecolumn, rigid, short steps"
+    found = [float(pair["p"]) for pair in pairs_of_programs("tube", *best)]
+    assert len(found) == 3 and min(found) > 0.71 and "not told apart (p at least 0.71)" in PAGE
+    peers = "MuJoCo, best", "MuJoCo, defaults", "Siconos, best", "Siconos, defaults"
+    p = {name: float(column("programs", "p")[f"trilith: {name}"]) for name in peers}
+    assert min(p.values()) == p["Siconos, defaults"] > 0.05
+    assert max(p.values()) == p["MuJoCo, defaults"]
+
+
+def test_shake_table_draws():
+    brier = float(column("shake_table_brier", "Brier's score")["one draw, mean"])
+    assert f"One draw is right in {1 - brier:.3f} in the mean" in PAGE
+    table = tables.read("shake_table")
+    ours, best = (
+        next(row for row in table.rows if row[0] == name)
+        for name in ("fecolumn", "discrete elements, KN=10 KS=1")
+    )
+    misses, alarms = (
+        table.columns.index(head) for head in ("predicted to stand", "stood: predicted to overturn")
+    )
+    fell = int(ours[misses - 1]) + int(ours[misses])
+    told = f"it misses more falls ({ours[misses]} of {fell}; theirs {best[misses]}) and has fewer"
+    assert f"{told} false alarms ({ours[alarms]}; theirs {best[alarms]})" in PAGE
+    low = tables.read("shake_table_reliability").rows[:5]
+    assert all(float(row[3]) > float(row[2]) for row in low) and low[-1][0].endswith("to 0.8")
+    assert f"of the {low[0][1]} tests to which they give at most 0.05" in PAGE
+    assert f"{100 * float(low[0][3]):.1f} % did" in PAGE
+
+
+def test_elastic_monoliths_that_walk_before_rigid_ones_lift():
+    width, height = COLUMN
+    weak = [
+        run
+        for run in read_runs("fragility/elastic-monolith").values()
+        if run["pga_m_s2"] < GRAVITY * width / height
+    ]
+    told = f"In {sum(run['shift_m'] > 1e-3 for run in weak)} of {len(weak)} motions too weak"
+    assert told in PAGE
 
 
 def test_alphas_with_rolling_substeps():
@@ -126,6 +211,13 @@ def test_what_less_damping_costs():
 
 
 def test_map_of_impacts():
+    soft = [
+        100 * one["half_width"] / one["loss"]
+        for one in kept_cells()
+        if one["group"] == 1e3 and one["ratio"] in (7, 10)
+    ]
+    told = f"the means of H/B 7 and 10 are uncertain by {min(soft):.0f} to {max(soft):.0f} %"
+    assert told in PAGE
     stiff = [one for one in kept_cells() if one["group"] >= 1e6]
     low, high = np.quantile([one["loss"] for one in stiff], [0.25, 0.75])
     most = max(one["loss"] for one in stiff if one["ratio"] <= 3)
@@ -143,7 +235,7 @@ def test_cost_of_shaken_structures():
     assert cheaper == 5 and "in five of eight rows" in PAGE
     drums = list(column("shaken", "rigid [us]")).index("drums of 8, shaken by 1.5 of uplift")
     assert round(rigid[drums] / soft[drums]) == 11 and round(rigid[drums] / stiff[drums]) == 3
-    assert "eleven times as much, three times what MuJoCo takes at stiff settings" in PAGE
+    assert "eleven times as much, three times what MuJoCo takes at these stiff settings" in PAGE
     weak = [shaken.endswith("0.1 of uplift") for shaken in column("shaken", "rigid [us]")]
     ratio = elastic / rigid
     assert 2 <= ratio[weak].min() and ratio[weak].max() <= 3
@@ -151,6 +243,12 @@ def test_cost_of_shaken_structures():
     rest = np.delete(ratio, [*np.flatnonzero(weak), standing])
     assert round(rest.min()) == 7 and round(rest.max()) == 26
     assert "seven to twenty-six times where feet open, slip, lift and land" in PAGE
+    moved = [
+        1e3 * float(cell)
+        for row, cell in column("shaken", "peak, MuJoCo [m]").items()
+        if row.endswith(("0.1 of uplift", "0.5 of uplift"))
+    ]
+    assert f"should stand by up to {min(moved):.1f} to {max(moved):.1f} mm" in PAGE
 
 
 def test_models_agree_more_often_than_by_chance():
@@ -167,6 +265,12 @@ def test_models_agree_more_often_than_by_chance():
     ]
     assert f"on more than {max(agree):.0f} % of the outcomes" in PAGE
     motions = int(column("models_beside", "motions")[full])
+    here, other = (
+        [int(cell) for cell in column("models_beside", head).values() if cell != "-"]
+        for head in ("overturn in it alone", "in the other alone")
+    )
+    flips = [binomtest(a, a + b).pvalue for a, b in zip(here, other, strict=True)]
+    assert len(flips) == 4 and f"by Holm's rule for four pairs {min(holm(flips)):.3f})" in PAGE
     for same, by_chance in zip(agree, chance, strict=True):
         same_outcomes = round(same * motions / 100)
         assert binomtest(same_outcomes, motions, by_chance / 100, "greater").pvalue < 0.05
@@ -201,6 +305,37 @@ def test_lost_structures_that_are_not_told_apart():
     assert f"one of {len(p)} pairs and not told by Holm's rule" in PAGE
 
 
+def test_drums_beside_the_monolith_by_pulse_period():
+    runs = {
+        name: [run | dict(motion=motion) for motion, run in read_runs(kept_name(name)).items()]
+        for name in ("monolith", *(f"{drums} drums" for drums in DRUMS if drums > 1))
+    }
+
+    def within(name, low, high):
+        return [run for run in runs[name] if low <= run["pulse_period_s"] < high]
+
+    def alone(low, high):
+        found = [
+            beside(within("monolith", low, high), within(name, low, high))[1:]
+            for name in runs
+            if name != "monolith" and runs[name]
+        ]
+        monolith, drums, p = zip(*found)
+        return monolith, drums, [float(one) for one in p]
+
+    monolith, drums, p = alone(0, 1)
+    short = within("monolith", 0, 1)
+    told = f"Of the {len(short)} motions with pulses below 1 s {sum(map(lost, short))} lose the"
+    assert told in PAGE and max(monolith) == 1 and max(p) < 0.001
+    assert f"{min(drums)} to {max(drums)} lose a column of drums alone, at most one the" in PAGE
+    monolith, drums, p = alone(2.5, np.inf)
+    assert min(p) > 0.05
+    told = f"With pulses of 2.5 s and more, {len(within('monolith', 2.5, np.inf))} motions"
+    assert told in PAGE
+    told = f"{min(monolith)} to {max(monolith)} lose the monolith alone, {min(drums)} to"
+    assert f"{told} {max(drums)} the drums alone" in PAGE
+
+
 @pytest.mark.parametrize("page", ["README.md", "fecolumn/case/manual/structures.md"])
 def test_pushes_that_overturn_the_column_of_drums_are_those_that_verify_checks(page):
     text = (ROOT / page).read_text(encoding="utf-8")
@@ -208,5 +343,7 @@ def test_pushes_that_overturn_the_column_of_drums_are_those_that_verify_checks(p
         stood = max(a for a, falls in outcomes.items() if not falls)
         fell = min(a for a, falls in outcomes.items() if falls)
         told = f"between {stood} and {fell}"
+        if page == "README.md":
+            told = f"They stand at {stood} g and fall at {fell} g"
         if stood < fell and (tp == 0.1 or page != "README.md"):
             assert told in text
