@@ -281,7 +281,8 @@ def _show(
 ) -> int:
     """Tables and figure, or for a share only its count; 1 when some failed."""
     from fecolumn.engines.ending import cut_short
-    from fecolumn.study.store import DONE, FAILED
+    from fecolumn.study.failures import failed_of, what_to_do
+    from fecolumn.study.store import DONE
 
     done = f"{sum(row['state'] == DONE for row in rows)} of {len(rows)} analyses done"
     if share:
@@ -309,7 +310,7 @@ def _show(
             if said:
                 print(textwrap.fill(said, 110))
         print("\n".join(f"wrote {file}" for file in [os.path.join(folder, "table.csv"), *files]))
-    failed = [row for row in rows if row["state"] == FAILED]
+    failed = failed_of(rows)
     for row in failed:
         values = ", ".join(f"{key} = {value}" for key, value in row["axes"].items())
         print(
@@ -317,5 +318,5 @@ def _show(
             file=sys.stderr,
         )
     if failed:
-        print(f"{len(failed)} failed; add --retry-failed to run them again", file=sys.stderr)
+        print(f"{len(failed)} failed: {what_to_do(failed)}", file=sys.stderr)
     return 1 if failed else 0

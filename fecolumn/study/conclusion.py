@@ -5,18 +5,19 @@ its settings differ, and how sure that is.
 from __future__ import annotations
 
 import itertools
-import statistics
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from fecolumn.engines.ending import lost
-from fecolumn.statistics.ecdf import censored, proportion_interval
+from fecolumn.statistics.ecdf import censored
 from fecolumn.statistics.equivalence import difference_shortfall, distance_bound, equality_shortfall
+from fecolumn.statistics.failed_runs import RunCount
 from fecolumn.statistics.holm import holm
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.alpha import ALPHA_KEY, alpha_note
+from fecolumn.study.failures import FailedSetting, failed_settings, may_be_biased, why_failed
 from fecolumn.study.plan import Plan, member_of
 from fecolumn.study.store import DONE
 from fecolumn.study.substeps import SettingTables, substeps_note
@@ -45,11 +46,12 @@ class SettingPair:
 
 def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
     """A few sentences on a study as far as it is done; of fewer than five motions no more than that
-    steps were made in parts.
+    steps were made in parts, and what failed.
 
     How often the column overturns; whether the settings differ; where the motions are few for what
     is said, how many it needs; what of an effect of alpha, or its lack, is built into the scheme;
-    how many parts of steps were made, where the step is varied. p-values are of the largest
+    how many parts of steps were made, where the step is varied; how many analyses of each setting
+    failed, why, and what to do. p-values are of the largest
     distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
 
     Parameters
@@ -60,13 +62,16 @@ def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
         its ledger, as `complete_study` returns it.
     """
     settings = settings_of(plan, rows)
-    parts_made = substeps_note(plan.case, settings)
+    failed = failed_settings(plan, rows)
+    parts_made = " ".join(
+        part for part in (substeps_note(plan.case, settings), _failures(failed)) if part
+    )
     if not settings or max(len(runs) for _, runs in settings) < _LEAST_MOTIONS:
         return parts_made
     pairs = pairs_of(settings)
-    parts = [_overturns(settings)]
+    parts = [_overturns(settings, failed)]
     if pairs:
-        parts += [_differences(pairs, settings), _shortfall(pairs)]
+        parts += [_differences(pairs), _shortfall(pairs)]
         if any(pair.axis == ALPHA_KEY for pair in pairs):
             parts.append(alpha_note(plan.case, plan.axes))
     return " ".join(part for part in (*parts, parts_made) if part)
@@ -89,34 +94,48 @@ def settings_of(plan: Plan, rows: list[dict[str, Any]]) -> list[SettingTables]:
     return list(groups.values())
 
 
-def _overturns(settings: list[SettingTables]) -> str:
-    """P(overturn) of the setting, or of those in which it is least and most."""
+def _failures(failed: list[FailedSetting]) -> str:
+    """How many analyses of each setting failed, why, and what to do; "" where none did."""
+    told = [
+        (f"at {_name(one.values)}" if one.values else "", len(one.rows), one.planned)
+        for one in failed
+    ]
+    why = why_failed([row for one in failed for row in one.rows])
+    return f"{may_be_biased(told)} {why}".strip()
 
-    def said(setting: SettingTables) -> str:
+
+def _overturns(settings: list[SettingTables], failed: list[FailedSetting]) -> str:
+    """P(overturn) of the setting, or of those in which it is least and most."""
+    not_known = {repr(one.values): len(one.rows) for one in failed}
+
+    def counted(setting: SettingTables) -> RunCount:
         values, runs = setting
         k = sum(bool(run["overturned"]) for run in runs.values())
-        low, high = proportion_interval(k, len(runs))
-        where = f" at {_name(values)}" if len(settings) > 1 else ""
+        return RunCount(k, len(runs), not_known.get(repr(values), 0))
+
+    def said(setting: SettingTables) -> str:
+        count = counted(setting)
+        low, high = count.interval
+        where = f" at {_name(setting[0])}" if len(settings) > 1 else ""
+        more = f", {count.failed} failed" if count.failed else ""
         return (
-            f"{100 * k / len(runs):.1f} % [{100 * low:.1f}, {100 * high:.1f}]{where} ({k} "
-            f"of {len(runs)})"
+            f"{100 * count.share:.1f} % [{100 * low:.1f}, {100 * high:.1f}]{where} ({count.k} "
+            f"of {count.n}{more})"
         )
 
     def share(setting: SettingTables) -> float:
-        return statistics.fmean([bool(run["overturned"]) for run in setting[1].values()])
+        return counted(setting).share
 
     ranked = sorted(settings, key=share)
-    if len(settings) == 1:
-        return f"P(overturn) is {said(ranked[0])}; in brackets the 95 % interval."
-    if share(ranked[0]) == share(ranked[-1]):
-        return (
-            f"P(overturn) is the same at every setting, such as {said(ranked[0])}; in "
-            "brackets the 95 % interval."
-        )
-    return (
-        f"P(overturn) lies between {said(ranked[0])} and {said(ranked[-1])}; in brackets "
-        "the 95 % interval."
+    p = "P(overturn) of the analyses that are done" if failed else "P(overturn)"
+    ends = "in brackets the 95 % interval" + (
+        " of all, whatever the failed ones would have been." if failed else "."
     )
+    if len(settings) == 1:
+        return f"{p} is {said(ranked[0])}; {ends}"
+    if share(ranked[0]) == share(ranked[-1]):
+        return f"{p} is the same at every setting, such as {said(ranked[0])}; {ends}"
+    return f"{p} lies between {said(ranked[0])} and {said(ranked[-1])}; {ends}"
 
 
 def pairs_of(settings: list[SettingTables], confidence: float = 0.95) -> list[SettingPair]:
@@ -167,7 +186,7 @@ def _peak(summary: dict[str, Any]) -> float:
     return float(summary["u_max_m"])
 
 
-def _differences(pairs: list[SettingPair], settings: list[SettingTables]) -> str:
+def _differences(pairs: list[SettingPair]) -> str:
     """Whether the distributions of the peak displacement differ, and by what."""
     corrected = holm([pair.p for pair in pairs])
     widest = max(
@@ -182,10 +201,10 @@ def _differences(pairs: list[SettingPair], settings: list[SettingTables]) -> str
             if len(pairs) > 1
             else "the two settings cannot be told from chance:"
         )
+        loosest = max(pairs, key=lambda other: other.bound)
         return (
-            f"By their CDFs of u_max {many} {apart} ({judged}); with "
-            f"{max(len(runs) for _, runs in settings)} motions "
-            f"a distance up to {max(other.bound for other in pairs):.2f} cannot be excluded."
+            f"By their CDFs of u_max {many} {apart} ({judged}); with {loosest.n} motions "
+            f"a distance up to {loosest.bound:.2f} cannot be excluded."
         )
     if len(pairs) == 1:
         return f"The CDFs of u_max part, by more than chance explains: {apart} ({judged})."

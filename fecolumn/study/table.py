@@ -13,6 +13,7 @@ from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
 from fecolumn.study.device_peaks import BOND_COLUMNS, LINK_COLUMNS, peaks_of_bonds, peaks_of_links
+from fecolumn.study.failures import failed_settings
 from fecolumn.study.plan import Plan
 from fecolumn.study.planned import PlannedStudy
 from fecolumn.study.store import DONE
@@ -35,6 +36,7 @@ _TABLE = (
     "u_max_50_m",
     "u_max_84_m",
     "energy_closure_worst",
+    "failed",
 )
 _ANALYSES = (
     "u_max_m",
@@ -89,7 +91,9 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
     structures with links links.csv, and with glued joints bonds.csv, too.
     """
     table, timing, links, bonds = [], [], [], []
+    failed = _failed(plan, rows)
     for values, done, planned in combinations(plan, rows):
+        lacking = failed.get(repr(values), 0)
         texts = [str(value) for value in values.values()]
         if done:
             row = ensemble(done)
@@ -104,6 +108,7 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
                     *(f"{p:.6f}" for p in shares),
                     *(f"{u:.6e}" for u in (row.u16_m, row.u50_m, row.u84_m)),
                     f"{row.energy_closure_worst:.3e}",
+                    lacking,
                 ]
             )
             timing.append(
@@ -112,7 +117,7 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
             links += [[*texts, *_told(row)] for row in peaks_of_links(done)]
             bonds += [[*texts, *_told(row)] for row in peaks_of_bonds(done)]
         else:
-            table.append([*texts, planned, 0] + [""] * (len(_TABLE) - 2))
+            table.append([*texts, planned, 0, *[""] * (len(_TABLE) - 3), lacking])
     axes = list(plan.analyses[0].combination)
     write_csv(Path(folder) / "table.csv", [[*axes, *_TABLE], *table])
     write_csv(Path(folder) / "timing.csv", [[*axes, "n", "s_per_step", "wall_s"], *timing])
@@ -124,6 +129,11 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
         Path(folder) / "analyses.csv",
         [["case_id", *plan.axes, "state", *_ANALYSES], *map(_analysis_row, rows)],
     )
+
+
+def _failed(plan: PlannedStudy, rows: list[dict[str, Any]]) -> dict[str, int]:
+    """Number of failed analyses by the axis values of a setting, as text."""
+    return {repr(one.values): len(one.rows) for one in failed_settings(plan, rows)}
 
 
 def _told(row: list[Any]) -> list[Any]:
@@ -152,9 +162,9 @@ def _analysis_row(row: dict[str, Any]) -> list[Any]:
 
 def table_text(plan: PlannedStudy, rows: list[dict[str, Any]]) -> str:
     """The table for a reader: a line for each combination, axes of one value left out; columns that
-    slid off their base are counted where there are any.
+    slid off their base, and analyses that failed, are counted where there are any.
     """
-    levels = varied(plan)
+    levels, failed = varied(plan), _failed(plan, rows)
     off = any(
         summary.get("slid_off") for _, done, _ in combinations(plan, rows) for summary in done
     )
@@ -162,6 +172,7 @@ def table_text(plan: PlannedStudy, rows: list[dict[str, Any]]) -> str:
         [
             *(key.split(".")[-1] for key in levels),
             "n",
+            *(["failed"] if failed else []),
             "overturned",
             *(["slid off"] if off else []),
             "P [95 % Wilson]",
@@ -174,14 +185,16 @@ def table_text(plan: PlannedStudy, rows: list[dict[str, Any]]) -> str:
     ]
     for values, done, planned in combinations(plan, rows):
         texts = [str(values[key]) for key in levels]
+        lacking = [str(failed.get(repr(values), 0))] if failed else []
         if not done:
-            lines.append([*texts, f"0/{planned}"] + ["-"] * (7 + off))
+            lines.append([*texts, f"0/{planned}", *lacking] + ["-"] * (7 + off))
             continue
         row = ensemble(done)
         lines.append(
             [
                 *texts,
                 f"{row.n}/{planned}",
+                *lacking,
                 str(row.overturned),
                 *([str(row.slid_off)] if off else []),
                 f"{100 * row.p_overturn:.1f} % [{100 * row.wilson[0]:.1f}, "

@@ -1,5 +1,9 @@
 """How large a key of a case has to be for a limit state to hold: ensembles of the same motions at
 values of a grid, looked at where bisection asks for them.
+
+Analyses may fail by their response, such as a slide beyond what was prepared. The bisection is made
+twice, with none and with all of the failed analyses beyond the limit: a size is decided where both
+find the same.
 """
 
 from __future__ import annotations
@@ -11,16 +15,14 @@ import numpy as np
 
 from fecolumn.pictures.figures.axis_text import axis_unit
 from fecolumn.statistics.crossing import (
-    BROKEN,
     KEPT,
-    SURELY_KEPT,
     CrossingPlace,
     GradedValues,
     crossing_place,
     grade,
-    runs_needed,
 )
-from fecolumn.statistics.ecdf import proportion_interval
+from fecolumn.statistics.failed_runs import RunCount
+from fecolumn.study.failures import failed_of
 from fecolumn.study.outcome import DONE
 from fecolumn.study.plan import Plan, PlannedAnalysis, member_of
 from fecolumn.study.questions.limit import ShareLimit
@@ -36,20 +38,14 @@ def grid_of(low: float, high: float, kind: type, steps: int) -> list[float | int
 
 @dataclass(frozen=True, slots=True)
 class LookedAt:
-    """One value of the key: n runs done, k of them beyond the limit, and whether each motion's
-    was.
+    """One value of the key: its runs, how many of them are beyond the limit and how many failed,
+    and whether each motion that is done is beyond it.
     """
 
     place: int
     value: float
-    k: int
-    n: int
+    count: RunCount
     of_motion: dict[tuple[str, ...], bool]
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """Wilson's 95 % interval of the probability."""
-        return proportion_interval(self.k, self.n)
 
 
 class DesignQuestion:
@@ -69,6 +65,7 @@ class DesignQuestion:
         self.plan, self.key, self.limit = plan, key, limit
         self.grid = list(plan.axes[key])
         self.looked: dict[int, LookedAt] = {}
+        self._failed: dict[int, list[dict[str, Any]]] = {}
         self._analyses: dict[int, list[PlannedAnalysis]] = {}
         for analysis in plan.analyses:
             place = self.grid.index(analysis.values[key])
@@ -80,17 +77,28 @@ class DesignQuestion:
         unit = axis_unit(self.key)
         return "" if unit == "-" else f" {unit}"
 
+    def graded(self, failed_beyond: bool) -> GradedValues:
+        """What bisection knows, with all of the failed analyses beyond the limit, or none."""
+        limit, grades = self.limit, {}
+        for place, one in self.looked.items():
+            k = one.count.k + (one.count.failed if failed_beyond else 0)
+            grades[place] = grade(k, one.count.runs, limit.share, limit.strict)
+        return GradedValues(len(self.grid), grades)
+
     @property
-    def graded(self) -> GradedValues:
-        """What bisection knows."""
-        limit = self.limit
-        return GradedValues(
-            len(self.grid),
-            {
-                place: grade(one.k, one.n, limit.share, limit.strict)
-                for place, one in self.looked.items()
-            },
-        )
+    def failed(self) -> list[dict[str, Any]]:
+        """Rows of the ledger of all analyses that failed at values looked at."""
+        return [row for place in sorted(self._failed) for row in self._failed[place]]
+
+    def wanted(self) -> list[int]:
+        """Places to look at next, whatever the failed analyses would have been."""
+        found = [*self.graded(False).wanted(), *self.graded(True).wanted()]
+        return [place for place in dict.fromkeys(found) if place not in self.looked]
+
+    def looks_left(self) -> int:
+        """Most values that are still to be looked at."""
+        left = self.graded(False).looks_left()
+        return left + self.graded(True).looks_left() if self.failed else left
 
     def ids(self, places: list[int]) -> set[str]:
         """Analyses at places of the grid."""
@@ -115,14 +123,14 @@ class DesignQuestion:
             }
             if not found:
                 raise ValueError(f"{self.key} = {self.grid[place]}: no analysis is done")
-            self.looked[place] = LookedAt(
-                place, self.grid[place], sum(found.values()), len(found), found
-            )
+            self._failed[place] = failed_of([states[one.id] for one in self._analyses[place]])
+            count = RunCount(sum(found.values()), len(found), len(self._failed[place]))
+            self.looked[place] = LookedAt(place, self.grid[place], count, found)
 
     def again(self) -> int:
         """Motions beyond the limit at a value although not at one that is worse for the rest."""
         found = set()
-        places = sorted(self.looked, reverse=not self.graded.rising)
+        places = sorted(self.looked, reverse=not self.graded(False).rising)
         for number, place in enumerate(places):
             for better in places[number + 1 :]:
                 worse, later = self.looked[place].of_motion, self.looked[better].of_motion
@@ -133,82 +141,37 @@ class DesignQuestion:
 
     def table(self) -> list[list[Any]]:
         """Header, and a row for each value looked at."""
-        rows: list[list[Any]] = [
-            ["key", "value", "n", "reached", "probability", "wilson_low", "wilson_high"]
-        ]
+        shares = ["probability", "wilson_low", "wilson_high"]
+        rows: list[list[Any]] = [["key", "value", "n", "reached", *shares, "failed"]]
         for place in sorted(self.looked):
-            one = self.looked[place]
-            shares = (one.k / one.n, *one.interval)
-            rows.append([self.key, f"{one.value:g}", one.n, one.k, *(f"{p:.6f}" for p in shares)])
+            one, count = self.looked[place], self.looked[place].count
+            found = [f"{p:.6f}" for p in (count.share, *count.interval)]
+            rows.append([self.key, f"{one.value:g}", count.n, count.k, *found, count.failed])
         return rows
 
     def place(self) -> CrossingPlace | None:
-        """The place sought, once nothing more is wanted."""
-        return crossing_place(self.graded)
+        """The place sought, once nothing more is wanted; None where the limit is not crossed, or
+        failed analyses leave the place open.
+        """
+        few, many = (crossing_place(self.graded(beyond)) for beyond in (False, True))
+        if not few or not many or (few.kept, few.broken) != (many.kept, many.broken):
+            return None
+        least = None if None in (few.least, many.least) else min(few.least, many.least)
+        most = None if None in (few.most, many.most) else max(few.most, many.most)
+        return CrossingPlace(few.kept, few.broken, least, most)
 
-    def answer(self) -> str:
-        """One sentence with the size, its interval and unit, and what it rests on."""
-        found, unit = self.place(), self.unit
-        if found is None:
-            return self._answer_of_ends()
-        rising = self.graded.rising
-        kept = self.looked[found.kept]
-        low, high = kept.interval
-        resolution = abs(self.grid[found.kept] - self.grid[found.broken])
-        open_ends = found.least is None and found.most is None
-        nothing = "; every value of the range may be the size" if open_ends else ""
-        return (
-            f"{self.limit.text} needs {self.key} of at {'least' if rising else 'most'} "
-            f"{kept.value:g}{unit}, 95 % interval {self._interval(found)} ({kept.n} motions, the "
-            f"same at each value; values {resolution:.3g}{unit} apart; P there "
-            f"{100 * kept.k / kept.n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]){nothing}."
-        )
+    def kept_at_both_ends(self) -> bool | None:
+        """Whether the limit is kept, or broken, at both ends of the grid; None where it is crossed,
+        or failed analyses leave it open.
+        """
+        ends = {
+            self.graded(beyond).grades[place] >= KEPT
+            for beyond in (False, True)
+            for place in (0, len(self.grid) - 1)
+        }
+        return ends.pop() if len(ends) == 1 else None
 
-    def _interval(self, found: CrossingPlace) -> str:
-        ends = [
-            "below the range" if found.least is None else f"{self.grid[found.least]:g}",
-            "beyond the range" if found.most is None else f"{self.grid[found.most]:g}",
-        ]
-        return f"[{ends[0]}, {ends[1]}]{self.unit}"
-
-    def _answer_of_ends(self) -> str:
-        grades = self.graded.grades
-        kept = grades[0] >= KEPT
-        ends = ", ".join(
-            f"{one.k} of {one.n} at {one.value:g}{self.unit}"
-            for one in (self.looked[0], self.looked[len(self.grid) - 1])
-        )
-        pair = self.graded.bracket(SURELY_KEPT if kept else BROKEN)
-        doubt = ""
-        if pair:
-            sure = self.grid[pair[1] if kept else pair[0]]
-            doubt = f", with 95 % confidence {'from' if kept else 'up to'} {sure:g}{self.unit}"
-            if not self.graded.rising:
-                doubt = doubt.replace("from", "up to") if kept else doubt.replace("up to", "from")
-        elif grades[0] in (BROKEN, KEPT):
-            doubt = ", though the motions cannot tell it for sure"
-        return (
-            f"{self.limit.text} is {'kept' if kept else 'broken'} at both ends of {self.key} = "
-            f"{self.grid[0]:g}:{self.grid[-1]:g}{self.unit}{doubt} ({ends}): the size lies beyond "
-            "this range; give --vary another one."
-        )
-
-    def notes(self) -> list[str]:
-        """What a reader has to know besides: motions too few, or motions that return."""
-        told = []
-        n = max((one.n for one in self.looked.values()), default=0)
-        needed = runs_needed(self.limit.share)
-        if n < needed:
-            told.append(
-                f"{n} motions cannot tell that {self.limit.text} even where none is beyond it: "
-                f"{needed} can, so the interval of the size stays open"
-            )
-        if self.looked and (again := self.again()):
-            told.append(
-                f"{again} of {n} motions are beyond the limit at a value that is better for the "
-                "rest: single motions are not monotone, and the size is that of the ensemble"
-            )
-        place = self.place() if self.graded.grades.keys() >= {0, len(self.grid) - 1} else None
-        if place and n >= needed and None in (place.least, place.most):
-            told.append("the interval of the size ends beyond --vary: give it a wider range")
-        return told
+    @property
+    def decided(self) -> bool:
+        """Whether the answer is the same whatever the failed analyses would have been."""
+        return self.place() is not None or self.kept_at_both_ends() is not None

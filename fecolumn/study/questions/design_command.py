@@ -12,8 +12,7 @@ from typing import Any
 from fecolumn.foundation.interrupt import termination_as_interrupt
 
 _COMMAND = "fecolumn design"
-# How many failed analyses are told, and what tries them again
-_TOLD, _AGAIN = 5, "add --retry-failed to run what failed again"
+_TOLD = 5  # failed analyses
 _STEPS = 64  # of the range: finer than any interval of some hundred motions
 
 
@@ -125,28 +124,30 @@ def main(args: argparse.Namespace) -> int:
     question = DesignQuestion(plan, key, limit)
     pool = LastingPool(args.jobs or os.cpu_count() or 1, ENTRY, plan.file)
     try:
-        failed = _look(question, args, pool)
+        _look(question, args, pool)
     except (KeyboardInterrupt, StudyError) as error:
         return stop_code(error)
     except _NoneDone as error:
-        print(f"{_COMMAND}: {error}: {_AGAIN}", file=sys.stderr)
+        print(f"{_COMMAND}: {error}", file=sys.stderr)
         return 1
     finally:
         pool.end()
     _tell(question, Path(args.output))
-    return tell_failed(failed)
+    return tell_failed(question.failed)
 
 
 def tell_failed(failed: list[dict[str, Any]]) -> int:
-    """Tell which analyses failed and how they are tried again; 1 where there are any, else 0.
+    """Tell which analyses failed and what helps; 1 where there are any, else 0.
 
     failed: their rows of the ledger.
     """
+    from fecolumn.study.failures import what_to_do
+
     for row in failed[:_TOLD]:
         values = ", ".join(f"{key} = {value}" for key, value in row["axes"].items())
         print(f"failed: {values}: {row['reason']}", file=sys.stderr)
     if failed:
-        print(f"{len(failed)} failed: {_AGAIN}", file=sys.stderr)
+        print(f"{len(failed)} failed: {what_to_do(failed)}", file=sys.stderr)
     return 1 if failed else 0
 
 
@@ -162,18 +163,17 @@ class _NoneDone(RuntimeError):
     """Not one analysis at a value is done, so that nothing is known there."""
 
 
-def _look(question: Any, args: argparse.Namespace, pool: Any) -> list[dict[str, Any]]:
-    """Look at values until bisection wants no more; rows of the analyses that failed."""
+def _look(question: Any, args: argparse.Namespace, pool: Any) -> None:
+    """Look at values until bisection wants no more."""
+    from fecolumn.study.failures import failed_of, what_to_do
     from fecolumn.study.run import complete_study
-    from fecolumn.study.store import FAILED
 
     # of two values the middle one is the last
     places = list(dict.fromkeys([0, len(question.grid) // 2, len(question.grid) - 1]))
-    asked, spent = set(), 0.0
+    spent = 0.0
     again = iter([args.retry_failed])  # once, not in each look
     while places:
         ids = question.ids(places)
-        asked |= ids
         began = time.monotonic()
         rows = complete_study(
             question.plan,
@@ -189,13 +189,12 @@ def _look(question: Any, args: argparse.Namespace, pool: Any) -> list[dict[str, 
         except ValueError as error:
             if type(error) is not ValueError:  # an InputError of the limit
                 raise
-            here = (row for row in rows if row["id"] in ids and row["state"] == FAILED)
+            here = failed_of([row for row in rows if row["id"] in ids])
             reason = next((row["reason"] for row in here), "")
-            raise _NoneDone(f"{error}, {reason}") from None
+            raise _NoneDone(f"{error}, {reason}: {what_to_do(here)}") from None
         if not args.quiet:
             _say_looked(question, places, spent)
-        places = [place for place in question.graded.wanted() if place not in question.looked]
-    return [row for row in rows if row["id"] in asked and row["state"] == FAILED]
+        places = question.wanted()
 
 
 def _say_looked(question: Any, places: list[int], spent: float) -> None:
@@ -204,14 +203,15 @@ def _say_looked(question: Any, places: list[int], spent: float) -> None:
     """
     from fecolumn.foundation.progress import clock
 
-    left = question.graded.looks_left()
+    left = question.looks_left()
     each = spent / len(question.looked)
     told = f"; at most {left} more, {clock(each * left)}" if left else ""
     for place in places:
-        one = question.looked[place]
+        one, count = question.looked[place], question.looked[place].count
+        failed = f", {count.failed} failed" if count.failed else ""
         print(
-            f"{question.key} = {one.value:g}{question.unit}: {one.k} of {one.n} beyond "
-            f"{question.limit.event.text}{told}",
+            f"{question.key} = {one.value:g}{question.unit}: {count.k} of {count.n} beyond "
+            f"{question.limit.event.text}{failed}{told}",
             file=sys.stderr,
             flush=True,
         )
@@ -221,8 +221,9 @@ def _tell(question: Any, folder: Path) -> None:
     """Table, figure and sentence."""
     from fecolumn.foundation.atomic import write_csv, write_json
     from fecolumn.pictures.figures.design_figure import design_figure
+    from fecolumn.study.questions.design_words import answer_of, notes_of
 
-    found, rows = question.place(), question.table()
+    found, rows, answer = question.place(), question.table(), answer_of(question)
     write_csv(folder / "design.csv", rows)
     ends: dict[str, Any] = {"size": None, "interval": [None, None]}
     if found:
@@ -237,17 +238,19 @@ def _tell(question: Any, folder: Path) -> None:
             "limit": question.limit.text,
             "value": ends["size"],
             **ends,
-            "answer": question.answer(),
+            "decided": question.decided,
+            "failed": len(question.failed),
+            "answer": answer,
         },
     )
     files = design_figure(
-        [[float(cell) for cell in row[1:]] for row in rows[1:]],
+        [[float(cell) for cell in row[1:7]] for row in rows[1:]],
         f"{question.key}{' [' + question.unit.strip() + ']' if question.unit else ''}",
         question.limit,
         ends,
         folder / "design",
     )
-    print(question.answer())
-    for note in question.notes():
+    print(answer)
+    for note in notes_of(question):
         print(f"fecolumn: warning: {note}", file=sys.stderr)
     print("\n".join(f"wrote {file}" for file in [folder / "design.csv", *files]))

@@ -97,18 +97,18 @@ def main(args: argparse.Namespace) -> int:
 def _tell(objects: Any, plan: Any, rows: Any, limits: Any, folder: Path) -> int:
     """Table, figure, page and sentence; 1 where analyses failed."""
     from fecolumn.foundation.atomic import write_bytes, write_csv
+    from fecolumn.study.failures import failed_of
     from fecolumn.study.questions.screening import answer_of, screened, screening_table
     from fecolumn.study.report.html import page_html
-    from fecolumn.study.store import FAILED
 
     ranked = screened(objects, plan, rows, limits)
-    failed = [row for row in rows if row["state"] == FAILED]
-    if not ranked:
+    failed = failed_of(rows)
+    if not any(one.n for one in ranked):
         print(f"none of {len(rows)} analyses is done; see {folder / 'logs'}", file=sys.stderr)
         return tell_failed(failed) or 1
     write_csv(folder / "screen.csv", screening_table(ranked, limits))
-    answer = answer_of(ranked, limits)
-    byline = f"{len(ranked)} objects, {max(one.n for one in ranked)} motions"
+    answer = answer_of(ranked, limits, rows)
+    byline = f"{len(ranked)} objects, {max(one.count(0).runs for one in ranked)} motions"
     sections = _sections(ranked, limits, folder)
     write_bytes(
         folder / "screen.html", page_html("Screening of objects", byline, answer, sections).encode()
@@ -130,13 +130,15 @@ def _tell(objects: Any, plan: Any, rows: Any, limits: Any, folder: Path) -> int:
 
 
 def _percent(p: float, low: float, high: float) -> str:
-    return f"{100 * p:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
+    share = "-" if math.isnan(p) else f"{100 * p:.1f} %"
+    return f"{share} [{100 * low:.1f}, {100 * high:.1f}]"
 
 
 def _short(p: float, low: float, high: float) -> str:
     """The same for a column of a page: two digits."""
     digits = [f"{100 * x:.0f}" if x >= 0.095 else f"{100 * x:.2g}" for x in (p, low, high)]
-    return f"{digits[0]} % [{digits[1]}, {digits[2]}]"
+    share = "-" if math.isnan(p) else f"{digits[0]} %"
+    return f"{share} [{digits[1]}, {digits[2]}]"
 
 
 def _sections(ranked: Any, limits: Any, folder: Path) -> list[Any]:
@@ -147,6 +149,7 @@ def _sections(ranked: Any, limits: Any, folder: Path) -> list[Any]:
 
     for part in ("figures", "tables"):
         (folder / part).mkdir(exist_ok=True)
+    failed_column = [PageColumn("failed", "failed")] if any(one.failed for one in ranked) else []
     table = PageTable(
         "screen",
         (
@@ -160,6 +163,7 @@ def _sections(ranked: Any, limits: Any, folder: Path) -> list[Any]:
                 for place, limit in enumerate(limits, 1)
             ),
             PageColumn("u_max_50_m", "u₅₀ [mm]", _millimetres),
+            *failed_column,
         ),
         [
             (
@@ -170,11 +174,13 @@ def _sections(ranked: Any, limits: Any, folder: Path) -> list[Any]:
                 one.object.friction,
                 *(cell for place in range(len(limits)) for cell in one.share(place)),
                 one.median_m,
+                *([one.failed] if failed_column else []),
             )
             for rank, one in enumerate(ranked, 1)
         ],
         "All objects, the most endangered first; in brackets the 95 % interval (Wilson); u₅₀ the "
-        "median of the largest displacement of the top.",
+        "median of the largest displacement of the top."
+        + (" Intervals hold whatever failed analyses would have been." if failed_column else ""),
     )
     table.write_csv(folder / "tables")
     columns = [
@@ -200,4 +206,6 @@ def _sections(ranked: Any, limits: Any, folder: Path) -> list[Any]:
 
 
 def _millimetres(metres: float) -> str:
+    if math.isnan(metres):
+        return "-"
     return "lost" if math.isinf(metres) else f"{1e3 * metres:.3g}"

@@ -8,6 +8,7 @@ import numpy as np
 
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
+from fecolumn.study.failures import failed_of, may_be_biased, why_failed
 from fecolumn.study.mixture import codes, listed
 from fecolumn.study.report.document import (
     Figure,
@@ -31,6 +32,7 @@ def audit(sweep: Sweep, gallery: Gallery) -> PageSection:
     """The section."""
     blocks: list[PageBlock] = [
         Paragraph(_completeness(sweep)),
+        *([Paragraph(note, warning=True)] if (note := failed_note(sweep)) else []),
         *([Paragraph(f"{sweep.cut}.", warning=True)] if sweep.cut else []),
         _code(sweep),
         Paragraph(_energy(sweep)),
@@ -38,7 +40,7 @@ def audit(sweep: Sweep, gallery: Gallery) -> PageSection:
     ]
     if figure := _overturn_times(sweep, gallery):
         blocks.append(figure)
-    failed = [row for row in sweep.rows if row["state"] == FAILED]
+    failed = failed_of(sweep.rows)
     if failed:
         axes = list(failed[0]["axes"])
         rows = [
@@ -68,6 +70,16 @@ def audit(sweep: Sweep, gallery: Gallery) -> PageSection:
             )
         )
     return PageSection("Audit", blocks)
+
+
+def failed_note(sweep: Sweep) -> str:
+    """How many analyses of each setting failed, why, and what to do; "" where none did."""
+    told = [
+        (sweep.at(setting.values), setting.failed, setting.planned)
+        for setting in sweep.settings
+        if setting.failed
+    ]
+    return f"{may_be_biased(told)} {why_failed(failed_of(sweep.rows))}".strip()
 
 
 def _completeness(sweep: Sweep) -> str:

@@ -14,7 +14,7 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.all_motions import all_motions
-from fecolumn.study.report.audit import audit
+from fecolumn.study.report.audit import audit, failed_note
 from fecolumn.study.report.claim import MARGIN, SUPPORTED, Claim, ClaimList
 from fecolumn.study.report.cost import cost_claims
 from fecolumn.study.report.distribution_claims import distribution_claims
@@ -195,6 +195,8 @@ def _abstract(sweep: Sweep, sections: list[PageSection]) -> str:
             if total - done - failed
             else f"{failed} of {total} analyses failed."
         )
+    if failed:
+        parts.append(failed_note(sweep))
     if sweep.cut:
         parts.append(f"{sweep.cut}.")
     over = sweep.reference.column("overturned")
