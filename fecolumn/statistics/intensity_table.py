@@ -23,6 +23,28 @@ _RESPONSES = ("u_max", "tilt_max")
 
 
 @dataclass(frozen=True, slots=True)
+class FailedRuns:
+    """f runs that failed beside n that are done, of which nobody knows how they would have ended.
+
+    Attributes
+    ----------
+    measures
+        name of each intensity measure to its values (f,); None where they are not to be found.
+    records
+        (n + f,) what the motion of each run is of, those that are done first.
+    count
+        f.
+    why
+        in words, with what to do.
+    """
+
+    measures: dict[str, NDArray[Any]] | None
+    records: NDArray[Any]
+    count: int
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
 class IntensityTable:
     """n runs.
 
@@ -35,11 +57,32 @@ class IntensityTable:
     records
         (n,) what the motion of each run is of, where runs repeat one; None where each stands for
         itself.
+    failed
+        runs that failed; None where none did, or none is known of.
     """
 
     measures: dict[str, NDArray[Any]]
     overturned: NDArray[Any]
     records: NDArray[Any] | None
+    failed: FailedRuns | None = None
+
+    def bounds(self) -> tuple[IntensityTable, ...]:
+        """Tables of all runs, with none and with all of the failed ones overturned: the extremes of
+        what those would have done. None where no run failed, or the intensities of those that
+        failed are not known.
+        """
+        if self.failed is None or self.failed.measures is None:
+            return ()
+        records, more = self.failed.records, self.failed.measures
+        measures = {name: np.append(values, more[name]) for name, values in self.measures.items()}
+        return tuple(
+            IntensityTable(
+                measures,
+                np.append(self.overturned, np.full(self.failed.count, fallen)),
+                records if len(set(records)) < len(records) else None,
+            )
+            for fallen in (False, True)
+        )
 
 
 def read_intensity_table(path: Path | str, wanted: tuple[str, ...] = ()) -> IntensityTable:

@@ -25,8 +25,9 @@ class Answer:
     text
         the sentences of the answer.
     failed
-        number of analyses that ended with an error, which the answer leaves out; 0 of a question
-        that runs none of a study. `fecolumn.load(answer.folder).rows` has their reasons.
+        number of analyses that ended with an error: intervals and what is said to be decided allow
+        for anything that they might have been; 0 of a question that is not of a study.
+        `fecolumn.load(folder).rows` of the study has their reasons.
     """
 
     def __init__(
@@ -88,8 +89,15 @@ class _Heard:
         return next(filter(None, reversed(lines)), "no answer")
 
 
-def asked(command: Any, words: list[str], folder: str | Path, files: tuple[str, str]) -> Answer:
-    """Run a command with these words and read its answer; files: its table and its figure.
+def asked(
+    command: Any,
+    words: list[str],
+    folder: str | Path,
+    files: tuple[str, str],
+    study: str | Path | None = None,
+) -> Answer:
+    """Run a command with these words and read its answer; files: its table and its figure; study:
+    folder of the analyses, left out where it is that of the answer.
 
     Raises
     ------
@@ -112,4 +120,5 @@ def asked(command: Any, words: list[str], folder: str | Path, files: tuple[str, 
     if code and sentences == lines:
         raise StudyError(f"{heard.last}; see {Path(folder) / 'logs'}")
     text = "\n".join(sentences)
-    return Answer(Path(folder), *files, text, failed=StudyResult(folder).failed if code else 0)
+    failed = StudyResult(study or folder).failed if code else 0
+    return Answer(Path(folder), *files, text, failed=failed)

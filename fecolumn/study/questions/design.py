@@ -156,8 +156,11 @@ class DesignQuestion:
         few, many = (crossing_place(self.graded(beyond)) for beyond in (False, True))
         if not few or not many or (few.kept, few.broken) != (many.kept, many.broken):
             return None
-        least = None if None in (few.least, many.least) else min(few.least, many.least)
-        most = None if None in (few.most, many.most) else max(few.most, many.most)
+        least = most = None
+        if few.least is not None and many.least is not None:
+            least = min(few.least, many.least)
+        if few.most is not None and many.most is not None:
+            most = max(few.most, many.most)
         return CrossingPlace(few.kept, few.broken, least, most)
 
     def kept_at_both_ends(self) -> bool | None:

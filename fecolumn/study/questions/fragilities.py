@@ -7,7 +7,10 @@ import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fecolumn.statistics.intensity_table import IntensityTable
 
 # Columns of the interval of the median: now, and in earlier versions
 _ENDS_OF_MEDIAN = (("median_low", "median_high"), ("low", "high"))
@@ -17,12 +20,17 @@ _ENDS_OF_MEDIAN = (("median_low", "median_high"), ("low", "high"))
 class KnownFragility:
     """A lognormal fragility: its median and dispersion, r of them (r, 2) that say how well they are
     known, and the least and the largest intensity of its runs, None where they are not known.
+
+    Where runs failed, `failed` is their number, and `bounds` has the same (r, 2) with none and with
+    all of them beyond the limit.
     """
 
     median: float
     beta: float
     drawn: Any
     runs: tuple[float, float] | None = None
+    failed: int = 0
+    bounds: tuple[Any, ...] = ()
 
 
 def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFragility]:
@@ -37,7 +45,7 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
     from fecolumn.foundation.schema import InputError
     from fecolumn.statistics.fragility import DegenerateData, bootstrap, lognormal
     from fecolumn.study.questions.limit import read_event
-    from fecolumn.study.report.fragility_command import runs_by_setting
+    from fecolumn.study.report.fragility_command import runs_by_setting, warn_of_failed
 
     if not Path(source).is_dir() and (found := _stated(source, measure)):
         return found
@@ -49,6 +57,7 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
         try:
             fit = lognormal(im, table.overturned, table.records)
             drawn = bootstrap(im, table.overturned, lognormal, table.records)
+            bounds = _bounds(table, measure)
         except DegenerateData as error:
             told = str(error)
             if event.quantity != "overturn":
@@ -58,8 +67,14 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
             refused[label] = told
             continue
         fitted[label] = KnownFragility(
-            fit.median, fit.beta, drawn.parameters, (float(im.min()), float(im.max()))
+            fit.median,
+            fit.beta,
+            drawn.parameters,
+            (float(im.min()), float(im.max())),
+            table.failed.count if table.failed else 0,
+            bounds,
         )
+        warn_of_failed(label, table, bounded=True)
         if drawn.refused > 0.05 * (drawn.refused + len(drawn.parameters)):
             print(
                 f"fecolumn: warning: {label + ': ' if label else ''}{drawn.refused} of "
@@ -78,6 +93,28 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
             + "; ".join(dict.fromkeys(refused.values())),
         )
     return fitted
+
+
+def _bounds(table: IntensityTable, measure: str) -> tuple[Any, ...]:
+    """Parameters (r, 2) drawn with none and with all of the failed runs beyond the limit; none
+    where no run failed.
+
+    Raises
+    ------
+    DegenerateData
+        some of what they might have been bounds no curve.
+    """
+    from fecolumn.statistics.fragility import DegenerateData, bootstrap, lognormal
+    from fecolumn.study.report.fragility_command import refused_for_failed
+
+    found = []
+    for other in table.bounds():
+        try:
+            drawn = bootstrap(other.measures[measure], other.overturned, lognormal, other.records)
+        except DegenerateData as error:
+            raise DegenerateData(refused_for_failed(table, error)) from None
+        found.append(drawn.parameters)
+    return tuple(found)
 
 
 def _stated(source: str, measure: str) -> dict[str, KnownFragility]:

@@ -14,6 +14,7 @@ from fecolumn.foundation.older_option import OlderOption
 
 _COMMAND = "fecolumn risk"
 _LITTLE = 0.01  # share of the frequency that may lie outside of the hazard curve in silence
+_ENDS = 0.025, 0.975  # quantiles at which an interval ends
 _MUCH = 0.1  # the same, outside of the intensities of the runs
 
 
@@ -60,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Integrate, tell and draw; returns 0.
+    """Integrate, tell and draw; 0, or 1 where analyses of the study failed.
 
     Raises
     ------
@@ -79,7 +80,7 @@ def main(args: argparse.Namespace) -> int:
     with written(args.output, "risk", names=("risk.csv",)) as draft:
         _write(sets, curve, args, draft)
     print(f"wrote {args.output}")
-    return 0
+    return 1 if any(one.failed for one in sets.values()) else 0
 
 
 def _write(sets: dict[str, Any], curve: Any, args: Any, folder: Path) -> None:
@@ -108,9 +109,12 @@ def _write(sets: dict[str, Any], curve: Any, args: Any, folder: Path) -> None:
     parts: list[list[Any]] = [["setting", *ends, "annual_frequency", "share"]]
     for number, (label, one) in enumerate(sets.items(), 1):
         best = annual_frequency(curve, lognormal_probabilities(one.median, one.beta))
-        drawn = annual_frequency(curve, lognormal_probabilities(*one.drawn.T)).value
         value = float(best.value[0])
-        low, high = np.quantile(drawn, (0.025, 0.975))
+        quantiles = [
+            np.quantile(annual_frequency(curve, lognormal_probabilities(*drawn.T)).value, _ENDS)
+            for drawn in (one.drawn, *one.bounds)  # none, and all of the failed beyond the limit
+        ]
+        low, high = np.min(quantiles), np.max(quantiles)
         p = [float(x) for x in probability_in_years([value, low, high], args.years)]
         share = best.parts[0] / value if value > 0 else best.parts[0]
         name = label or "all"

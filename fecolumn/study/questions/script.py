@@ -54,7 +54,9 @@ def design(
     Answer
         text of the command, its figure, and a table of each value looked at, in the key's unit:
         key, value, n (runs that ended), reached (runs beyond the limit), probability, wilson_low
-        and wilson_high (its 95 % interval). Its `failed` counts the analyses that are left out.
+        and wilson_high (its 95 % interval, over none and all of the failed analyses beyond the
+        limit), failed. Its `failed` counts the analyses that failed; a size that depends on what
+        they would have been is not decided, and the text says so.
 
     Raises
     ------
@@ -116,7 +118,7 @@ def risk(
 
     words = [str(source), "--hazard", str(hazard), "--event", event]
     words += ["--years", repr(float(years)), "--site", str(site)]
-    return asked(risk_command, words, folder, ("risk.csv", "risk.png"))
+    return asked(risk_command, words, folder, ("risk.csv", "risk.png"), source)
 
 
 @renamed(limit="event")
@@ -158,7 +160,8 @@ def screen(
     -------
     Answer
         text of the command, its figure, and a table of the objects, likeliest to be lost first,
-        with the probability of each event. Its `failed` counts the analyses that are left out.
+        with the probability of each event, and its interval over none and all of the failed
+        analyses beyond the limit. Its `failed` counts the analyses that failed.
 
     Raises
     ------

@@ -5,16 +5,20 @@ or of a user's own runs.
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fecolumn.statistics.fragility import Fragility, LogitFragility
-    from fecolumn.statistics.intensity_table import IntensityTable
+    from fecolumn.statistics.intensity_table import FailedRuns, IntensityTable
+    from fecolumn.study.report.intensity import Intensities
 
 # What is asked of the summary of a run
 Happened = Callable[[dict[str, Any]], bool]
+# Ends of the intervals of the median and of the dispersion
+Limits = tuple[tuple[float, float], tuple[float, float]]
 _FEWEST = 5  # runs
 _BINS = 6
 
@@ -42,7 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def main(args: argparse.Namespace) -> int:
-    """Fit, print and draw; returns 0.
+    """Fit, print and draw; 0, or 1 where analyses of the study failed.
 
     Raises
     ------
@@ -64,7 +68,7 @@ def main(args: argparse.Namespace) -> int:
     with written(args.output, "fragility", names=("fragility.csv",)) as draft:
         _write(sets, draft, args.source)
     print(f"wrote {args.output}")
-    return 0
+    return 1 if any(table.failed for table in sets.values()) else 0
 
 
 def runs_by_setting(
@@ -115,7 +119,9 @@ def _of_study(
     from fecolumn.foundation.schema import InputError
     from fecolumn.motions.intensity import intensity_measures
     from fecolumn.statistics.intensity_table import IntensityTable
-    from fecolumn.study.report.intensity import NOT_FOUND, Intensities, across_scales
+    from fecolumn.study.failures import failed_of
+    from fecolumn.study.plan import ENSEMBLE_AXES
+    from fecolumn.study.report.intensity import NOT_FOUND, SCALE, Intensities, across_scales
     from fecolumn.study.report.sweep import read_sweep
 
     sweep, motions = read_sweep(folder), Intensities(Path(folder))
@@ -130,6 +136,14 @@ def _of_study(
             known[key] = intensity_measures(motion)
         return known[key]
 
+    lacking: dict[str, list[dict[str, Any]]] = {}
+    for row in failed_of(sweep.rows):
+        own = {
+            key: value
+            for key, value in row["axes"].items()
+            if key not in ENSEMBLE_AXES and key != SCALE
+        }
+        lacking.setdefault(repr(own), []).append(row)
     sets = {}
     for values, settings in across_scales(sweep.done):
         runs = [run for setting in settings for run in setting.runs.values()]
@@ -149,8 +163,68 @@ def _of_study(
             {name: np.array([one[name] for one in found]) for name in wanted},
             fallen,
             records if len(set(records)) < len(records) else None,
+            _failed(lacking.get(repr(values), []), records, wanted, motions, measures),
         )
     return sets
+
+
+def _failed(
+    rows: list[dict[str, Any]],
+    records: Any,
+    wanted: tuple[str, ...],
+    motions: Intensities,
+    measures: Callable[[dict[str, Any]], dict[str, float]],
+) -> FailedRuns | None:
+    """Intensities of the analyses of a setting that failed, beside records of those that are done;
+    rows: of the ledger; measures: function of a run.
+    """
+    import numpy as np
+
+    from fecolumn.statistics.intensity_table import FailedRuns
+    from fecolumn.study.failures import why_failed
+    from fecolumn.study.report.intensity import NOT_FOUND
+
+    if not rows:
+        return None
+    runs, why = [{"case_id": row["id"]} for row in rows], why_failed(rows)
+    try:
+        found = [measures(run) for run in runs]
+        of_all = np.append(records, [motions.record(run) for run in runs])
+    except NOT_FOUND:  # it failed before its case was written
+        return FailedRuns(None, records, len(rows), why)
+    known = {name: np.array([one[name] for one in found]) for name in wanted}
+    return FailedRuns(known, of_all, len(rows), why)
+
+
+def warn_of_failed(label: str, table: IntensityTable, bounded: bool) -> None:
+    """Tell how many analyses of a setting failed, and whether the intervals of its answer reach
+    over what they might have been; nothing where none failed.
+    """
+    if not (failed := table.failed):
+        return
+    held = (
+        "the intervals reach from none of them beyond the limit to all"
+        if bounded and failed.measures is not None
+        else "what is told is of the others alone, and may be biased, as analyses may fail by "
+        "their response"
+    )
+    print(
+        f"fecolumn: warning: {label + ': ' if label else ''}{failed.count} of "
+        f"{failed.count + table.overturned.size} analyses failed: {held}. {failed.why}",
+        file=sys.stderr,
+    )
+
+
+def refused_for_failed(table: IntensityTable, error: Exception) -> str:
+    """Why a setting has no fragility whose interval reaches over what its failed analyses might
+    have been.
+    """
+    failed = table.failed
+    count, why = (failed.count, failed.why) if failed else (0, "")
+    return (
+        f"{count} of {count + table.overturned.size} analyses failed, and with none, or all, of "
+        f"them beyond the limit: {error}. {why}"
+    ).strip()
 
 
 def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
@@ -163,16 +237,21 @@ def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
     names = list(next(iter(sets.values())).measures)
     curves: dict[str, Fragility] = {}
     surfaces: dict[str, LogitFragility] = {}
+    limits: dict[str, Limits] = {}
     refused = {}
     for label, table in sets.items():
         im = np.column_stack(list(table.measures.values()))
         try:
             if len(names) == 1:
-                curves[label] = lognormal(im[:, 0], table.overturned, table.records)
+                fit = lognormal(im[:, 0], table.overturned, table.records)
+                limits[label] = _limits(table, names[0], fit)
+                curves[label] = fit
             else:
                 surfaces[label] = logit(im, table.overturned, table.records)
         except DegenerateData as error:
             refused[label] = str(error)
+    for label, table in sets.items():
+        warn_of_failed(label, table, bounded=label in curves)
     for label, reason in refused.items():
         print(
             f"{label + ': ' if label else ''}no fragility of "
@@ -185,16 +264,48 @@ def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
             None,
             "its runs bound no fragility: " + "; ".join(dict.fromkeys(refused.values())),
         )
-    rows = _one(names[0], sets, curves, folder) if curves else _two(names, sets, surfaces, folder)
+    rows = (
+        _one(names[0], sets, curves, limits, folder)
+        if curves
+        else _two(names, sets, surfaces, folder)
+    )
     write_csv(folder / "fragility.csv", rows)
     for line in rows:
         print("  ".join(f"{value:>14}" for value in line))
 
 
+def _limits(table: IntensityTable, name: str, fit: Fragility) -> Limits:
+    """Ends of the intervals of a setting's median and dispersion, over none and all of its failed
+    runs overturned.
+
+    Raises
+    ------
+    DegenerateData
+        some of what they might have been bounds no curve.
+    """
+    from fecolumn.statistics.fragility import DegenerateData, lognormal
+
+    fits = [fit]
+    for other in table.bounds():
+        try:
+            fits.append(lognormal(other.measures[name], other.overturned, other.records))
+        except DegenerateData as error:
+            raise DegenerateData(refused_for_failed(table, error)) from None
+    medians, betas = zip(*((one.median_interval(), one.beta_interval()) for one in fits))
+    return (
+        (min(low for low, _ in medians), max(high for _, high in medians)),
+        (min(low for low, _ in betas), max(high for _, high in betas)),
+    )
+
+
 def _one(
-    name: str, sets: dict[str, IntensityTable], fits: dict[str, Fragility], folder: Path
+    name: str,
+    sets: dict[str, IntensityTable],
+    fits: dict[str, Fragility],
+    limits: dict[str, Limits],
+    folder: Path,
 ) -> list[list[Any]]:
-    """Table and figure over one measure."""
+    """Table and figure over one measure; limits: of the intervals of each setting."""
     import numpy as np
 
     from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
@@ -218,6 +329,7 @@ def _one(
     for label, fit in fits.items():
         table = sets[label]
         im = table.measures[name]
+        of_median, of_beta = limits[label]
         rows.append(
             [
                 label or "all",
@@ -228,9 +340,9 @@ def _one(
                     f"{value:.5g}"
                     for value in (
                         fit.median,
-                        *fit.median_interval(),
+                        *of_median,
                         fit.beta,
-                        *fit.beta_interval(),
+                        *of_beta,
                     )
                 ),
             ]

@@ -105,18 +105,24 @@ class Intensities:
         u, lost = (
             np.concatenate(values) for values in zip(*(setting.peaks() for setting in settings))
         )
-        records = [
-            "|".join((table.source, table.source_y, table.source_z))
-            for table in (self._table(run)[0] for _, run in runs)
-        ]
         return Runs(
             np.array([self.peaks(run) for _, run in runs]),
             np.array([name for name, _ in runs]),
-            np.array(records),
+            np.array([self.record(run) for _, run in runs]),
             u,
             lost,
             np.concatenate([setting.column("overturned").astype(bool) for setting in settings]),
         )
+
+    def record(self, run: dict[str, Any]) -> str:
+        """File of the motion of an analysis, whatever its scale and direction.
+
+        Raises
+        ------
+        One of NOT_FOUND: its case is not to be found.
+        """
+        table = self._table(run)[0]
+        return "|".join((table.source, table.source_y, table.source_z))
 
     def _table(self, run: dict[str, Any]) -> tuple[Motion, Path]:
         folder = self._folder / "analyses" / run["case_id"]
