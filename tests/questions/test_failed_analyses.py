@@ -15,11 +15,10 @@ import fecolumn
 from fecolumn.cli import main
 from fecolumn.engines.dynamics.cuts import Stop
 from fecolumn.study.questions.design import DesignQuestion
-from fecolumn.study.questions.design_words import answer_of, notes_of
+from fecolumn.study.questions.design_words import design_answer, design_notes
 from fecolumn.study.questions.limit import read_event, read_limit
 from fecolumn.study.questions.objects import ListedObject
-from fecolumn.study.questions.screening import answer_of as screening_answer
-from fecolumn.study.questions.screening import screened, screening_table
+from fecolumn.study.questions.screening import answer_of, screened, screening_table
 
 KEY = "joints.vase.friction_coefficient"
 LEFT = (
@@ -58,19 +57,19 @@ VASE = {0.12: (0, 2, 14), 0.18: (2, 3, 11), 0.24: (3, 6, 7), 0.3: (3, 9, 4)}
 def test_vase_whose_runs_fail_by_sliding_is_not_decided():
     """With a larger allowance 14 of 16 are beyond the limit at 0.12 and 7 of 16 at 0.3."""
     question = looked(VASE)
-    said = answer_of(question)
+    said = design_answer(question)
     assert not question.decided and question.place() is None
     assert "is not decided along joints.vase.friction_coefficient = 0.12:0.3" in said
     assert "0 of 2 with 14 more failed at 0.12, 3 of 12 with 4 more failed at 0.3" in said
     assert "between 0.0 and 87.5 %" in said and "between 18.8 and 43.8 %" in said
     assert "needs" not in said and Stop.OFF_PATCH.value in said
     assert "give joints.vase.allowance_m a value larger" in said
-    assert not any("motions cannot tell" in note for note in notes_of(question))
+    assert not any("motions cannot tell" in note for note in design_notes(question))
 
 
 def test_size_that_failed_analyses_cannot_move_is_told():
     question = looked({1.0: (0, 39, 1), 2.0: (1, 39, 0), 3.0: (30, 8, 2), 4.0: (40, 0, 0)})
-    said = answer_of(question)
+    said = design_answer(question)
     assert question.decided and question.grid[question.place().kept] == 2.0
     assert "of at most 2," in said and "the answer holds whatever they would have been" in said
     assert "3 of 160 analyses failed" in said
@@ -78,14 +77,14 @@ def test_size_that_failed_analyses_cannot_move_is_told():
 
 def test_size_between_those_of_no_failed_one_and_of_all_is_told():
     question = looked({1.0: (0, 40, 0), 2.0: (3, 27, 10), 3.0: (30, 10, 0), 4.0: (40, 0, 0)})
-    said = answer_of(question)
+    said = design_answer(question)
     assert not question.decided and "needs at most a value between 1 and 2" in said
 
 
 @pytest.mark.parametrize("word, counts", [("kept", (0, 35, 5)), ("broken", (20, 15, 5))])
 def test_ends_that_failed_analyses_cannot_change_are_told(word, counts):
     question = looked({1.0: counts, 2.0: counts})
-    assert f"is {word} at both ends" in answer_of(question) and question.decided
+    assert f"is {word} at both ends" in design_answer(question) and question.decided
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -127,7 +126,7 @@ def screening(*counts):
             rows.append(dict(id=name, state=state, reason=LEFT, summary=summary))
     limits = [read_event("overturn", "")]
     ranked = screened(OBJECTS, SimpleNamespace(analyses=analyses), rows, limits)
-    return ranked, screening_answer(ranked, limits, rows), screening_table(ranked, limits)
+    return ranked, answer_of(ranked, limits, rows), screening_table(ranked, limits)
 
 
 def test_object_that_failed_may_be_the_most_endangered():

@@ -221,9 +221,9 @@ def _tell(question: Any, folder: Path) -> None:
     """Table, figure and sentence."""
     from fecolumn.foundation.atomic import write_csv, write_json
     from fecolumn.pictures.figures.design_figure import design_figure
-    from fecolumn.study.questions.design_words import answer_of, notes_of
+    from fecolumn.study.questions.design_words import design_answer, design_notes
 
-    found, rows, answer = question.place(), question.table(), answer_of(question)
+    found, rows, answer = question.place(), question.table(), design_answer(question)
     write_csv(folder / "design.csv", rows)
     ends: dict[str, Any] = {"size": None, "interval": [None, None]}
     if found:
@@ -251,6 +251,6 @@ def _tell(question: Any, folder: Path) -> None:
         folder / "design",
     )
     print(answer)
-    for note in notes_of(question):
+    for note in design_notes(question):
         print(f"fecolumn: warning: {note}", file=sys.stderr)
     print("\n".join(f"wrote {file}" for file in [folder / "design.csv", *files]))

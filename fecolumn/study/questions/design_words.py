@@ -14,7 +14,7 @@ from fecolumn.study.failures import why_failed
 from fecolumn.study.questions.design import DesignQuestion
 
 
-def answer_of(question: DesignQuestion) -> str:
+def design_answer(question: DesignQuestion) -> str:
     """One sentence with the size, its interval and unit, and what it rests on; where analyses
     failed, how many, why, and what to do.
     """
@@ -116,7 +116,7 @@ def _of_failed(question: DesignQuestion) -> str:
     )
 
 
-def notes_of(question: DesignQuestion) -> list[str]:
+def design_notes(question: DesignQuestion) -> list[str]:
     """What a reader has to know besides: motions too few, or motions that return."""
     told = []
     n = max((one.count.runs for one in question.looked.values()), default=0)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 # What is asked of the summary of a run
 Happened = Callable[[dict[str, Any]], bool]
 # Ends of the intervals of the median and of the dispersion
-Limits = tuple[tuple[float, float], tuple[float, float]]
+CurveEnds = tuple[tuple[float, float], tuple[float, float]]
 _FEWEST = 5  # runs
 _BINS = 6
 
@@ -237,7 +237,7 @@ def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
     names = list(next(iter(sets.values())).measures)
     curves: dict[str, Fragility] = {}
     surfaces: dict[str, LogitFragility] = {}
-    limits: dict[str, Limits] = {}
+    limits: dict[str, CurveEnds] = {}
     refused = {}
     for label, table in sets.items():
         im = np.column_stack(list(table.measures.values()))
@@ -274,7 +274,7 @@ def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
         print("  ".join(f"{value:>14}" for value in line))
 
 
-def _limits(table: IntensityTable, name: str, fit: Fragility) -> Limits:
+def _limits(table: IntensityTable, name: str, fit: Fragility) -> CurveEnds:
     """Ends of the intervals of a setting's median and dispersion, over none and all of its failed
     runs overturned.
 
@@ -302,7 +302,7 @@ def _one(
     name: str,
     sets: dict[str, IntensityTable],
     fits: dict[str, Fragility],
-    limits: dict[str, Limits],
+    limits: dict[str, CurveEnds],
     folder: Path,
 ) -> list[list[Any]]:
     """Table and figure over one measure; limits: of the intervals of each setting."""
