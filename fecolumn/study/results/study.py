@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import functools
 import html
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -127,16 +128,28 @@ class StudyResult:
 
     def ecdf(self, choice: dict[str, Any] | None = None) -> Ecdf:
         """Empirical distribution of the largest displacement of the top [m]; what was lost counts
-        as larger than all.
+        as larger than all. Warns where `choice` leaves analyses of several settings in it.
 
         Raises
         ------
         InputError
             as of `chosen`, or nothing of it is done.
         """
-        summaries = [row["summary"] for row in self.chosen(choice)]
+        rows = self.chosen(choice)
+        summaries = [row["summary"] for row in rows]
         if not summaries:
             raise InputError(self.folder, "", None, "none of these analyses is done")
+        varied = [
+            key
+            for key in setting_of(self.axes)
+            if not all(same_value(row["axes"][key], rows[0]["axes"][key]) for row in rows)
+        ]
+        if varied:
+            warnings.warn(
+                f"{self.folder}: one distribution of all values of {', '.join(varied)}: "
+                "choose a value of each for the distribution of one setting",
+                stacklevel=2,
+            )
         return ecdf(
             [summary["u_max_m"] for summary in summaries], [lost(summary) for summary in summaries]
         )
