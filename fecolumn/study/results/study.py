@@ -15,7 +15,7 @@ import numpy as np
 from fecolumn.engines.ending import lost
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.ecdf import Ecdf, ecdf
-from fecolumn.study.plan import setting_of
+from fecolumn.study.plan import record_of, setting_of
 from fecolumn.study.results.analysis import AnalysisResult
 from fecolumn.study.results.picture import Picture
 from fecolumn.study.sample import same_value
@@ -134,11 +134,14 @@ class StudyResult:
         InputError
             as of `chosen`, or nothing of it is done.
         """
-        summaries = [row["summary"] for row in self.chosen(choice)]
+        rows = self.chosen(choice)
+        summaries = [row["summary"] for row in rows]
         if not summaries:
             raise InputError(self.folder, "", None, "none of these analyses is done")
         return ecdf(
-            [summary["u_max_m"] for summary in summaries], [lost(summary) for summary in summaries]
+            [summary["u_max_m"] for summary in summaries],
+            [lost(summary) for summary in summaries],
+            records=[record_of(row["axes"]) for row in rows],
         )
 
     def analyses(self, choice: dict[str, Any] | None = None) -> list[AnalysisResult]:
