@@ -251,7 +251,7 @@ def _anderson_darling(pooled: _Pooled, a: NDArray[Any]) -> NDArray[Any]:
     pooled_middle = pooled.end - 0.5 * pooled.size
     weight = pooled.size / (pooled_middle * (total - pooled_middle) - total * pooled.size / 4)
     summed = np.asarray((total * middle - n * pooled_middle) ** 2 @ weight)
-    return (total - 1) / total**2 * np.ravel(1 / n + 1 / m) * summed
+    return np.asarray((total - 1) / total**2 * np.ravel(1 / n + 1 / m) * summed)
 
 
 def _cramer_von_mises(pooled: _Pooled, a: NDArray[Any]) -> NDArray[Any]:
