@@ -6,32 +6,37 @@ from __future__ import annotations
 
 import itertools
 import statistics
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from fecolumn.engines.ending import lost
-from fecolumn.statistics.ecdf import censored, proportion_interval
+from fecolumn.statistics.ecdf import censored, share_interval
 from fecolumn.statistics.equivalence import difference_shortfall, distance_bound, equality_shortfall
 from fecolumn.statistics.holm import holm
+from fecolumn.statistics.records import record_count
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.alpha import ALPHA_KEY, alpha_note
-from fecolumn.study.plan import Plan, member_of
+from fecolumn.study.plan import Plan, member_of, record_of
 from fecolumn.study.store import DONE
 from fecolumn.study.substeps import SettingTables, substeps_note
 
-# of fewer no p-value can fall below 0.05: there are 2^n ways to swap two settings within n motions,
-# two of them extreme
+# Records, as motions that share one are swapped together: of fewer no p-value can fall below 0.05,
+# as there are 2^n ways to swap two settings within n of them, two of them extreme
 _LEAST_MOTIONS = 5
 _MOST_PAIRS = 60  # beyond it only the first and the last level of each axis are compared: seconds
 _LEVEL = 0.05  # of significance, the usual one
+
+#: Record of each motion of a plan
+MotionRecords = dict[tuple[str, ...], str]
 
 
 @dataclass(frozen=True, slots=True)
 class SettingPair:
     """Two settings that differ in one axis: its key, their axis values and names, motions in both,
-    distance of their CDFs, its upper bound and its paired p.
+    distance of their CDFs, its upper bound, its paired p, and different records of the motions.
     """
 
     axis: str
@@ -41,16 +46,23 @@ class SettingPair:
     distance: float
     bound: float
     p: float
+    records: int
+
+    @property
+    def unit(self) -> str:
+        """What the statistics count."""
+        return "motions" if self.records == self.n else "records"
 
 
 def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
-    """A few sentences on a study as far as it is done; of fewer than five motions no more than that
+    """A few sentences on a study as far as it is done; of fewer than five records no more than that
     steps were made in parts.
 
-    How often the column overturns; whether the settings differ; where the motions are few for what
-    is said, how many it needs; what of an effect of alpha, or its lack, is built into the scheme;
-    how many parts of steps were made, where the step is varied. p-values are of the largest
-    distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
+    How often the column overturns; that runs share records, where they do; whether the settings
+    differ; where the motions are few for what is said, how many it needs; what of an effect of
+    alpha, or its lack, is built into the scheme; how many parts of steps were made, where the step
+    is varied. p-values are of the largest distance of two CDFs, settings swapped within motions,
+    corrected (Holm) for all pairs compared.
 
     Parameters
     ----------
@@ -61,10 +73,12 @@ def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
     """
     settings = settings_of(plan, rows)
     parts_made = substeps_note(plan.case, settings)
-    if not settings or max(len(runs) for _, runs in settings) < _LEAST_MOTIONS:
+    records = records_of(plan)
+    counts = [(len(runs), _count(runs, records)) for _, runs in settings]
+    if max((count for _, count in counts), default=0) < _LEAST_MOTIONS:
         return parts_made
-    pairs = pairs_of(settings)
-    parts = [_overturns(settings)]
+    pairs = pairs_of(settings, records)
+    parts = [_overturns(settings, records), _shared(*max(counts))]
     if pairs:
         parts += [_differences(pairs, settings), _shortfall(pairs)]
         if any(pair.axis == ALPHA_KEY for pair in pairs):
@@ -89,13 +103,34 @@ def settings_of(plan: Plan, rows: list[dict[str, Any]]) -> list[SettingTables]:
     return list(groups.values())
 
 
-def _overturns(settings: list[SettingTables]) -> str:
+def records_of(plan: Plan) -> MotionRecords:
+    """Record of each motion of a plan, by `plan.member_of`."""
+    return {member_of(analysis.values): record_of(analysis.values) for analysis in plan.analyses}
+
+
+def _count(motions: Iterable[tuple[str, ...]], records: MotionRecords) -> int:
+    """Number of different records of motions."""
+    return len({records[motion] for motion in motions})
+
+
+def _shared(runs: int, records: int) -> str:
+    """That the runs of the largest setting share records; "" where they do not."""
+    if runs == records:
+        return ""
+    return (
+        f"The {runs} runs are of {records} records: runs of one record are not independent, and "
+        "intervals and p-values count them together."
+    )
+
+
+def _overturns(settings: list[SettingTables], records: MotionRecords) -> str:
     """P(overturn) of the setting, or of those in which it is least and most."""
 
     def said(setting: SettingTables) -> str:
         values, runs = setting
-        k = sum(bool(run["overturned"]) for run in runs.values())
-        low, high = proportion_interval(k, len(runs))
+        fallen = [bool(run["overturned"]) for run in runs.values()]
+        k = sum(fallen)
+        low, high = share_interval(fallen, [records[motion] for motion in runs])
         where = f" at {_name(values)}" if len(settings) > 1 else ""
         return (
             f"{100 * k / len(runs):.1f} % [{100 * low:.1f}, {100 * high:.1f}]{where} ({k} "
@@ -119,9 +154,11 @@ def _overturns(settings: list[SettingTables]) -> str:
     )
 
 
-def pairs_of(settings: list[SettingTables], confidence: float = 0.95) -> list[SettingPair]:
-    """Settings that differ in one axis alone, over the motions done in both; confidence: of the
-    bound of their distance.
+def pairs_of(
+    settings: list[SettingTables], records: MotionRecords, confidence: float = 0.95
+) -> list[SettingPair]:
+    """Settings that differ in one axis alone, over the motions done in both; records: as of
+    `records_of`; confidence: of the bound of their distance.
     """
     lines: dict[tuple[Any, ...], list[Any]] = {}
     for values, runs in settings:
@@ -138,7 +175,9 @@ def pairs_of(settings: list[SettingTables], confidence: float = 0.95) -> list[Se
     found = []
     for axis, (first, runs_a), (second, runs_b) in chosen:
         common = [motion for motion in runs_a if motion in runs_b]
-        if len(common) < _LEAST_MOTIONS:
+        own = [records[motion] for motion in common]
+        count = record_count(own, len(own))
+        if count < _LEAST_MOTIONS:
             continue
         (u_a, over_a), (u_b, over_b) = (
             tuple(
@@ -149,15 +188,16 @@ def pairs_of(settings: list[SettingTables], confidence: float = 0.95) -> list[Se
         name_a, name_b = (
             _name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second)
         )
-        p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b)).p
+        p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b), records=own).p
         found.append(
             SettingPair(
                 axis,
                 (first, second),
                 (name_a, name_b),
                 len(common),
-                *distance_bound(u_a, over_a, u_b, over_b, confidence),
+                *distance_bound(u_a, over_a, u_b, over_b, confidence, own),
                 p,
+                count,
             )
         )
     return found
@@ -208,12 +248,15 @@ def _shortfall(pairs: list[SettingPair]) -> str:
     clear = [pair for pair, p in zip(pairs, corrected) if p < _LEVEL]
     same = [pair for pair, p in zip(pairs, corrected) if p >= _LEVEL]
     told = [
-        difference_shortfall(weakest.n, weakest.distance, len(pairs))
+        difference_shortfall(weakest.records, weakest.distance, len(pairs), weakest.unit)
         for weakest in sorted(clear, key=lambda pair: pair.distance)[:1]
     ]
     if same:
+        least = min(same, key=lambda pair: pair.records)
         told.append(
-            equality_shortfall(min(pair.n for pair in same), bound=max(pair.bound for pair in same))
+            equality_shortfall(
+                least.records, bound=max(pair.bound for pair in same), unit=least.unit
+            )
         )
     return " ".join(one for one in told if one)
 

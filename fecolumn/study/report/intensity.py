@@ -32,7 +32,7 @@ class Runs:
     motion
         (n,) name of the motion, whatever its scale.
     record
-        (n,) its file, whatever its scale and direction.
+        (n,) its file, whatever its scale and direction, see `plan.record_of`.
     u_max
         (n,) [m]; of no meaning where the column was lost.
     lost
@@ -105,14 +105,10 @@ class Intensities:
         u, lost = (
             np.concatenate(values) for values in zip(*(setting.peaks() for setting in settings))
         )
-        records = [
-            "|".join((table.source, table.source_y, table.source_z))
-            for table in (self._table(run)[0] for _, run in runs)
-        ]
         return Runs(
             np.array([self.peaks(run) for _, run in runs]),
             np.array([name for name, _ in runs]),
-            np.array(records),
+            np.array([record for setting in settings for record in setting.records_of()]),
             u,
             lost,
             np.concatenate([setting.column("overturned").astype(bool) for setting in settings]),

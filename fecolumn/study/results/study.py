@@ -16,7 +16,7 @@ import numpy as np
 from fecolumn.engines.ending import lost
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.ecdf import Ecdf, ecdf
-from fecolumn.study.plan import setting_of
+from fecolumn.study.plan import record_of, setting_of
 from fecolumn.study.results.analysis import AnalysisResult
 from fecolumn.study.results.picture import Picture
 from fecolumn.study.sample import same_value
@@ -151,7 +151,9 @@ class StudyResult:
                 stacklevel=2,
             )
         return ecdf(
-            [summary["u_max_m"] for summary in summaries], [lost(summary) for summary in summaries]
+            [summary["u_max_m"] for summary in summaries],
+            [lost(summary) for summary in summaries],
+            records=[record_of(row["axes"]) for row in rows],
         )
 
     def analyses(self, choice: dict[str, Any] | None = None) -> list[AnalysisResult]:
