@@ -201,3 +201,8 @@ def test_open_sizes_of_a_study_follow_each_of_its_columns(tmp_path):
 def test_a_finished_solid_cylinder_is_finished_again_without_a_change(diameter):
     case = made({"shape": "solid", "outer_diameter_m": diameter, "height_m": 1.0})
     assert finished(case, "own.toml") == case and case.column.wall_m == diameter / 2
+
+
+def test_sizes_left_out_are_never_beyond_their_own_bounds():
+    huge = made(dict(shape="solid", outer_diameter_m=50, height_m=180))
+    assert huge.mesh.base_size_m == 10.0 and huge.mesh.fine_size_m < huge.mesh.coarse_size_m < 10

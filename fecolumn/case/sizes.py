@@ -231,9 +231,12 @@ def _known(size: float | None) -> float:
 
 
 def _filled(section: _Filled, **values: float) -> _Filled:
-    """A section with values for the keys that it leaves open, rounded down to four digits."""
+    """A section with values for the keys that it leaves open, rounded down to four digits and no
+    larger than the keys may be.
+    """
+    most = {one.name: one.metadata.get("high") for one in dataclasses.fields(section)}
     found = {
-        key: value if isinstance(value, int) else _rounded(value)
+        key: value if isinstance(value, int) else _rounded(min(value, most[key] or math.inf))
         for key, value in values.items()
         if getattr(section, key) is None
     }

@@ -33,6 +33,10 @@ TOGETHER = (
 )
 
 
+class OpenFacesError(ValueError):
+    """Faces of which one has an edge that no other face has."""
+
+
 class Hulls(NamedTuple):
     """Convex bodies, each in its own frame, whose origin is its centre of mass.
 
@@ -82,7 +86,12 @@ def hull_of(points: Array, volume: float | None = None) -> Hulls:
     at_corner = on.sum(axis=0) >= 3
     corners = points[found.vertices[at_corner]]
     loops = [_loop(corners, row[at_corner], normal) for row, normal in zip(on, outward)]
-    return _assemble(corners, loops, 1.0 if volume is None else volume / found.volume)
+    share = 1.0 if volume is None else volume / found.volume
+    try:
+        return _assemble(corners, loops, share)
+    except OpenFacesError:
+        # planes of a slender body that are almost one: its triangles close in any case
+        return _assemble(points[found.vertices], _triangles(points, found), share)
 
 
 def no_hull() -> Hulls:
@@ -131,6 +140,18 @@ def _planes(points: Array, found: Any) -> tuple[Array, Array]:
     return np.array(planes), np.array(normals)
 
 
+def _triangles(points: Array, found: Any) -> list[Array]:
+    """The triangles of a ConvexHull of points (n, 3) as loops of rows among its vertices."""
+    row = np.zeros(len(points), np.int64)
+    row[found.vertices] = np.arange(len(found.vertices))
+    loops = []
+    for simplex, normal in zip(found.simplices, found.equations[:, :3]):
+        a, b, c = points[simplex]
+        outward = np.cross(b - a, c - a) @ normal > 0
+        loops.append(row[simplex if outward else simplex[::-1]])
+    return loops
+
+
 def _loop(corners: Array, on: Array, normal: Array) -> Array:
     """Rows of the corners (V, 3) on a face, of a mask (V,), counter-clockwise seen from outside."""
     rows = np.flatnonzero(on)
@@ -157,7 +178,7 @@ def _assemble(corners: Array, loops: list[Array], share: float) -> Hulls:
                 found.append([start, end])
                 sides.append([f, -1])
     if edges or loops and len(corners) - len(found) + len(loops) != 2:
-        raise ValueError("the faces of the hull do not close: its points are too inexact")
+        raise OpenFacesError("the faces of the hull do not close: its points are too inexact")
     normals, axes = np.zeros((len(loops), 3)), np.zeros((len(loops), 3, 3))
     middles = np.zeros((len(loops), 3))
     for f, loop in enumerate(loops):

@@ -39,7 +39,7 @@ def held(
     if comm.rank == 0:
         try:
             made = not folder.exists()
-            folder.mkdir(parents=True, exist_ok=True)
+            _make(folder)
             refusal = _of_another_case(known, case)
             if refusal is None:
                 lock = open_lock(folder / ".lock")
@@ -85,6 +85,14 @@ def held(
                 if made:
                     folder.rmdir()
             lock.close()
+
+
+def _make(folder: Path) -> None:
+    """Make a folder; a file system that holds no folders of users, such as /proc, refuses it."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except FileNotFoundError as error:
+        raise PermissionError(error.errno, error.strerror, str(folder)) from error
 
 
 def _of_another_case(known: Path, case: Case) -> tuple[str, str, str] | None:

@@ -287,7 +287,7 @@ def recording_of(motion: Motion, key: str, file: Path | str) -> Recording:
             raise UnusableRecord(f"holds {len(recording.values)} samples; at least 2 are needed")
     except UnusableRecord as error:
         hint = f"; must be {_SOURCES}" if str(error) == "no such file" else ""
-        raise InputError(file, f"motion.{key}", source, f"{error}{hint}") from None
+        raise InputError(file, f"motion.{key}", getattr(motion, key), f"{error}{hint}") from None
     return recording
 
 

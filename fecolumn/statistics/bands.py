@@ -43,7 +43,7 @@ def greenwood(
     return np.maximum(cdf - reach, 0.0), np.minimum(cdf + reach, 1.0)
 
 
-def wilson(k: ArrayLike, n: int, confidence: float = 0.95) -> tuple[NDArray[Any], NDArray[Any]]:
+def wilson(k: ArrayLike, n: float, confidence: float = 0.95) -> tuple[NDArray[Any], NDArray[Any]]:
     """Score interval of a probability after k of n runs, close to its level on average.
 
     Wilson (1927), Journal of the American Statistical Association 22.
@@ -53,7 +53,7 @@ def wilson(k: ArrayLike, n: int, confidence: float = 0.95) -> tuple[NDArray[Any]
     k
         (m,) counts in [0, n]: runs that overturned, or n F for a pointwise band of F.
     n
-        all runs, at least 1.
+        all runs, at least 1; not whole where it is `records.effective_runs`.
     confidence
         level, in (0, 1).
 
@@ -104,7 +104,7 @@ def normal_quantile(confidence: float) -> float:
     return NormalDist().inv_cdf((1 + confidence) / 2)
 
 
-def _counts(k: ArrayLike, n: int) -> NDArray[Any]:
+def _counts(k: ArrayLike, n: float) -> NDArray[Any]:
     k = np.asarray(k, float)
     if n < 1 or (k < 0).any() or (k > n).any():
         raise ValueError(f"k = {k}, n = {n}: counts must lie in [0, n], n at least 1")

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 
 from fecolumn.statistics.correlation import correlation
 from fecolumn.statistics.ecdf import censored, percentile
-from fecolumn.statistics.flips import contingency, flips, mcnemar
+from fecolumn.statistics.flips import contingency, flips, flips_p
+from fecolumn.statistics.records import Records, record_count
 from fecolumn.statistics.two_sample import (
-    RESAMPLES,
     anderson_darling,
     cramer_von_mises,
     kolmogorov_smirnov,
@@ -27,6 +27,8 @@ class Comparison:
     ----------
     n_a, n_b
         runs, overturned ones included.
+    records_a, records_b
+        different records of these; all p-values draw or swap whole records.
     ks, ks_p
         sup |F_a - F_b| and its p-value for independent samples. Of the same motions in both, p is
         too large (conservative), and paired_p is the one to judge by.
@@ -53,7 +55,7 @@ class Comparison:
         p-value of as many flips one way as the other; None of unpaired ensembles.
     p_lost_a, p_lost_b
         share of runs whose peak is not known, as they overturned or slid off; intervals:
-        `ecdf.proportion_interval`.
+        `ecdf.share_interval`.
     """
 
     n_a: int
@@ -74,6 +76,13 @@ class Comparison:
     mcnemar_p: float | None
     p_lost_a: float
     p_lost_b: float
+    records_a: int = 0
+    records_b: int = 0
+
+    @property
+    def unit(self) -> str:
+        """What the statistics count."""
+        return "motions" if self.records_a == self.n_a else "records"
 
 
 def compare(
@@ -85,7 +94,7 @@ def compare(
     paired: bool,
     cap_m: float | None = None,
     seed: int = 0,
-    resamples: int = RESAMPLES,
+    records: tuple[Records, Records] = (None, None),
 ) -> Comparison:
     """Compare ensemble a with ensemble b, the reference.
 
@@ -102,8 +111,9 @@ def compare(
         stood unless given.
     seed
         of the permutations.
-    resamples
-        permutations; the smallest p of all but the exact tests is 1 / (resamples + 1).
+    records
+        of the runs of a and of b, None where each run has its own; of paired ensembles those of a
+        are those of b.
 
     Raises
     ------
@@ -113,8 +123,9 @@ def compare(
     a, b = censored(u_a, overturned_a), censored(u_b, overturned_b)
     if paired and a.size != b.size:
         raise ValueError(f"{a.size} and {b.size} runs: paired ensembles must hold the same motions")
-    ks, ad = kolmogorov_smirnov(a, b), anderson_darling(a, b, resamples, seed)
-    cvm = cramer_von_mises(a, b, resamples, seed)
+    ks = kolmogorov_smirnov(a, b, records, seed=seed)
+    ad = anderson_darling(a, b, seed=seed, records=records)
+    cvm = cramer_von_mises(a, b, seed=seed, records=records)
     table = contingency(overturned_a, overturned_b) if paired else None
     median_a, median_b = (
         percentile(u_a, overturned_a, fraction=0.5),
@@ -130,15 +141,17 @@ def compare(
         ad.p,
         cvm.statistic,
         cvm.p,
-        paired_kolmogorov_smirnov(a, b, resamples, seed).p if paired else None,
+        paired_kolmogorov_smirnov(a, b, seed=seed, records=records[0]).p if paired else None,
         median_a,
         median_b,
         median_error(median_a, median_b),
         correlation(u_a, overturned_a, u_b, overturned_b, cap_m) if paired else None,
         None if table is None else flips(table),
-        None if table is None else mcnemar(table),
+        flips_p(overturned_a, overturned_b, records[0]) if paired else None,
         float((a == math.inf).mean()),
         float((b == math.inf).mean()),
+        record_count(records[0], a.size),
+        record_count(records[1], b.size),
     )
 
 

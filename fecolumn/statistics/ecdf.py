@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from fecolumn.foundation.deprecated import by_name, warn_of_older_name
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.bands import greenwood, wilson
+from fecolumn.statistics.records import Records, effective_runs, record_count
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +33,10 @@ class Ecdf:
         size of the sample, lost runs included: those that overturned or slid off.
     lost
         number of lost runs; F ends at 1 - lost / n.
+    records
+        number of different records of the runs, which the band counts; n where each has its own.
+    lost_interval
+        interval of the share of lost runs, as of `share_interval`.
     """
 
     x: NDArray[Any]
@@ -40,6 +45,8 @@ class Ecdf:
     upper: NDArray[Any]
     n: int
     lost: int
+    records: int = 0
+    lost_interval: tuple[float, float] = (0.0, 1.0)
 
     @property
     def low(self) -> NDArray[Any]:
@@ -64,14 +71,17 @@ def _check_share(where: str, name: str, value: float) -> None:
 
 
 @by_name("confidence")
-def ecdf(u_max: ArrayLike, lost: ArrayLike, *, confidence: float = 0.95) -> Ecdf:
+def ecdf(
+    u_max: ArrayLike, lost: ArrayLike, *, confidence: float = 0.95, records: Records = None
+) -> Ecdf:
     """Distribution of u_max, lost runs censored at the right.
 
     A lost run says only that its peak lies beyond every peak of a run that stood. Then
     Kaplan and Meier's estimate is the plain fraction k/n of the runs that stood below x, and
     Greenwood's variance is F (1 - F) / n (Greenwood 1926; Kaplan & Meier 1958, J. Am. Stat. Assoc.
     53; what MATLAB's `ecdf` draws). The band is F +- z sqrt(F (1 - F) / n), clipped to [0, 1]:
-    pointwise, and of no width where F is 0 or 1.
+    pointwise, and of no width where F is 0 or 1. Where runs share records, the n of the band is the
+    number of records: rather too wide than too narrow.
 
     Parameters
     ----------
@@ -82,6 +92,9 @@ def ecdf(u_max: ArrayLike, lost: ArrayLike, *, confidence: float = 0.95) -> Ecdf
         (n,) True where the column overturned or slid off.
     confidence
         level of the band, in (0, 1).
+    records
+        (n,) record of each run, by any name: runs of one ground motion that is turned, for example,
+        share one. None: each run has its own.
 
     Returns
     -------
@@ -98,7 +111,16 @@ def ecdf(u_max: ArrayLike, lost: ArrayLike, *, confidence: float = 0.95) -> Ecdf
     standing, n = _standing(u_max, lost)
     x, counts = np.unique(standing, return_counts=True)
     cdf = np.cumsum(counts) / n
-    return Ecdf(x, cdf, *greenwood(cdf, n, confidence), n, n - standing.size)
+    count = record_count(records, n)
+    return Ecdf(
+        x,
+        cdf,
+        *greenwood(cdf, count, confidence),
+        n,
+        n - standing.size,
+        count,
+        share_interval(lost, records, confidence=confidence),
+    )
 
 
 def percentile(u_max: ArrayLike, lost: ArrayLike, fraction: float) -> float:
@@ -165,6 +187,55 @@ def proportion_interval(
         return float(low[0]), float(high[0])
     interval = binomtest(int(k), int(n)).proportion_ci(confidence, method=method)
     return float(interval.low), float(interval.high)
+
+
+def share_interval(
+    happened: ArrayLike,
+    records: Records = None,
+    *,
+    confidence: float = 0.95,
+    method: str = "wilson",
+) -> tuple[float, float]:
+    """Confidence interval of a probability from n runs of which some may share records.
+
+    `proportion_interval` of as many independent runs as tell as much, see
+    `records.effective_runs`; where each run has a record of its own, of the n runs.
+
+    Parameters
+    ----------
+    happened
+        (n,) bool, such as whether each run overturned.
+    records
+        (n,) record of each run, None where each has its own.
+    confidence, method
+        as of `proportion_interval`; "exact" takes Clopper and Pearson's interval at numbers that
+        are not whole (Korn & Graubard 1998, Survey Methodology 24).
+
+    Raises
+    ------
+    InputError
+        as of `proportion_interval`.
+    ValueError
+        another number of records than runs.
+    """
+    from scipy.stats import beta
+
+    happened = np.asarray(happened, bool)
+    k, n = int(happened.sum()), happened.size
+    if record_count(records, n) == n:
+        return proportion_interval(k, n, confidence=confidence, method=method)
+    # its checks
+    proportion_interval(k, n, confidence=confidence, method=method)
+    runs = effective_runs(happened, records)
+    reached = runs * (k / n)
+    if method == "wilson":
+        low, high = wilson([reached], runs, confidence)
+        return float(low[0]), float(high[0])
+    tail = (1 - confidence) / 2
+    return (
+        float(beta.ppf(tail, reached, runs - reached + 1)) if k else 0.0,
+        float(beta.ppf(1 - tail, reached + 1, runs - reached)) if k < n else 1.0,
+    )
 
 
 def censored(u_max: ArrayLike, lost: ArrayLike) -> NDArray[Any]:

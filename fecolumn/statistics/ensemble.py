@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fecolumn.statistics.ecdf import percentile, proportion_interval
+from fecolumn.statistics.ecdf import percentile, share_interval
+from fecolumn.statistics.records import Records, record_count
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +24,8 @@ class EnsembleSummary:
     slid_off
         runs that slid off their base.
     p_overturn
-        overturned / n, with Wilson's and Clopper and Pearson's 95 % intervals.
+        overturned / n, with Wilson's and Clopper and Pearson's 95 % intervals, which count runs of
+        one record as `ecdf.share_interval` does.
     u16_m, u50_m, u84_m
         percentiles of u_max [m]; inf where that fraction of the runs does not stand. What slid off
         is beyond every run that stood, as what overturned is: nobody knows how far it would have
@@ -32,6 +34,8 @@ class EnsembleSummary:
         largest magnitude of the relative closure error of the energy ledger [-].
     s_per_step
         mean wall time of a step [s].
+    records
+        different records of the runs; n where each has its own.
     """
 
     n: int
@@ -45,6 +49,7 @@ class EnsembleSummary:
     energy_closure_worst: float
     s_per_step: float
     slid_off: int = 0
+    records: int = 0
 
 
 def summarize(
@@ -53,6 +58,7 @@ def summarize(
     energy_closure_rel: ArrayLike,
     s_per_step: ArrayLike,
     slid_off: ArrayLike = False,
+    records: Records = None,
 ) -> EnsembleSummary:
     """Row of an ensemble of n runs.
 
@@ -68,6 +74,8 @@ def summarize(
         (n,) [s] wall time of a step.
     slid_off
         (n,) True where the column slid off its base.
+    records
+        (n,) record of each run, None where each has its own.
     """
     overturned = np.asarray(overturned, bool)
     slid_off = np.broadcast_to(np.asarray(slid_off, bool), overturned.shape)
@@ -78,12 +86,13 @@ def summarize(
         n,
         k,
         k / n,
-        proportion_interval(k, n),
-        proportion_interval(k, n, method="exact"),
+        share_interval(overturned, records),
+        share_interval(overturned, records, method="exact"),
         u16,
         u50,
         u84,
         float(np.max(np.abs(energy_closure_rel))),
         float(np.asarray(s_per_step, float).mean()),
         int(slid_off.sum()),
+        record_count(records, n),
     )

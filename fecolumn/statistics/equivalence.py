@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.statistics.bands import normal_quantile
+from fecolumn.statistics.records import Records, by_record
 
 #: A difference of two CDFs that most would call small: "no difference" is claimed up to it.
 SMALL = 0.1
@@ -23,6 +24,7 @@ def distance_bound(
     u_b: ArrayLike,
     overturned_b: ArrayLike,
     confidence: float = 0.95,
+    records: Records = None,
 ) -> tuple[float, float]:
     """Largest distance of the two distributions, and the distance the data exclude at `confidence`.
 
@@ -30,7 +32,8 @@ def distance_bound(
     proportions, see `paired_error`. The bound is the largest over u of |F_a - F_b| + z s(u), z
     one-sided. The true largest difference sits at some u*, and there the bound of one proportion
     already holds, so none is needed for all u at once (intersection-union test, Berger 1982,
-    Technometrics 24).
+    Technometrics 24). Where motions share records, n is the number of records, each with the mean
+    difference of its motions.
 
     Parameters
     ----------
@@ -38,6 +41,8 @@ def distance_bound(
         (n,) [m] peaks of the same n motions; ignored where the run overturned.
     overturned_a, overturned_b
         (n,) True where the column overturned: beyond every u.
+    records
+        (n,) record of each motion, None where each has one of its own.
 
     Returns
     -------
@@ -56,7 +61,8 @@ def distance_bound(
     if not at.size:
         at = np.zeros(1)
     difference = (a[:, None] <= at).astype(float) - (b[:, None] <= at)
-    return float(np.abs(difference.mean(axis=0)).max()), upper_bound(difference, confidence)
+    distance = float(np.abs(difference.mean(axis=0)).max())
+    return distance, max(distance, upper_bound(by_record(difference, records), confidence))
 
 
 def upper_bound(difference: ArrayLike, confidence: float) -> float:
@@ -109,7 +115,9 @@ def motions_needed(distance: float, significance: float = 0.05) -> int:
     return math.ceil(round(math.log(2 / significance) / distance**2, 9))
 
 
-def difference_shortfall(n: int, distance: float, comparisons: int = 1) -> str:
+def difference_shortfall(
+    n: int, distance: float, comparisons: int = 1, unit: str = "motions"
+) -> str:
     """Warning that n motions are few to claim a difference; "" where they are enough.
 
     A claim is made where one of several comparisons differs: it is judged at 5 % over their number,
@@ -123,19 +131,23 @@ def difference_shortfall(n: int, distance: float, comparisons: int = 1) -> str:
         of the two CDFs, as found.
     comparisons
         pairs of settings that answer one question.
+    unit
+        what n counts, "records" where motions share them.
     """
     detectable = detectable_distance(n, _LEVEL / comparisons)
     if distance >= detectable:
         return ""
     among = f" among {comparisons} comparisons" if comparisons > 1 else ""
     return (
-        f"With {n} motions a KS distance below {detectable:.2f} cannot be told from 0{among} "
-        "but by the pairing of motions: the claim of a difference of "
+        f"With {n} {unit} a KS distance below {detectable:.2f} cannot be told from 0{among} "
+        f"but by the pairing of {unit}: the claim of a difference of "
         f"{distance:.2f} needs about N = {motions_needed(distance, _LEVEL / comparisons)}."
     )
 
 
-def equality_shortfall(n: int, margin: float = SMALL, bound: float = math.inf) -> str:
+def equality_shortfall(
+    n: int, margin: float = SMALL, bound: float = math.inf, unit: str = "motions"
+) -> str:
     """Warning that n motions are few to claim that there is no difference; "" where they are
     enough, or where they exclude it all the same.
 
@@ -147,11 +159,13 @@ def equality_shortfall(n: int, margin: float = SMALL, bound: float = math.inf) -
         distance of two CDFs up to which they are called equal.
     bound
         distance that the data exclude, see `distance_bound`.
+    unit
+        what n counts, "records" where motions share them.
     """
     if n >= motions_needed(margin) or bound <= margin:
         return ""
     return (
-        f"With {n} motions a KS distance below {detectable_distance(n):.2f} cannot be "
+        f"With {n} {unit} a KS distance below {detectable_distance(n):.2f} cannot be "
         f"told from 0: the claim of no difference beyond {margin:.2f} "
         f"needs about N = {motions_needed(margin)}."
     )

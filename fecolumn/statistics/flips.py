@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fecolumn.statistics.records import Records, record_numbers, record_sums
+
 
 def contingency(overturned_a: ArrayLike, overturned_b: ArrayLike) -> NDArray[Any]:
     """Motions by outcome, (2, 2) int: [[both stand, b alone overturns], [a alone overturns, both
@@ -49,3 +51,43 @@ def mcnemar(table: ArrayLike) -> float:
     table = np.asarray(table)
     n = flips(table)
     return float(binomtest(int(table[0, 1]), n, 0.5).pvalue) if n else 1.0
+
+
+def flips_p(overturned_a: ArrayLike, overturned_b: ArrayLike, records: Records = None) -> float:
+    """p-value of `mcnemar` where runs may share records.
+
+    The settings of all runs of a record are swapped together: with d_g more flips of record g one
+    way than the other, p is the share of the 2^G sums of +- d_g that are as far from 0 as the sum
+    of d_g (randomization test, Fisher 1935, The Design of Experiments). All of them count: their
+    distribution is the convolution of those of the records. Where each run has a record of its own
+    that is McNemar's exact test.
+
+    Parameters
+    ----------
+    overturned_a, overturned_b
+        (n,) each, the same motion at the same place.
+    records
+        (n,) record of each motion, None where each has one of its own.
+
+    Raises
+    ------
+    ValueError
+        as of `contingency`.
+    """
+    table = contingency(overturned_a, overturned_b)
+    a, b = np.asarray(overturned_a, bool), np.asarray(overturned_b, bool)
+    numbers = record_numbers(records, a.size)
+    if numbers is None:
+        return mcnemar(table)
+    return swapped_p(record_sums(a.astype(int) - b.astype(int), numbers))
+
+
+def swapped_p(net: NDArray[Any]) -> float:
+    """Share of the 2^G sums of +- net (G,), whole numbers, that are as far from 0 as their sum."""
+    most = int(np.abs(net).sum())
+    share = np.zeros(2 * most + 1)  # of the sums -most, ..., most
+    share[most] = 1.0
+    for step in np.abs(net[net != 0]):
+        share = 0.5 * (np.roll(share, step) + np.roll(share, -step))
+    sums = np.arange(-most, most + 1)
+    return float(min(1.0, share[np.abs(sums) >= abs(int(net.sum()))].sum()))

@@ -22,6 +22,7 @@ from scipy.special import log_ndtr
 
 from fecolumn.statistics.binary_regression import DegenerateData, maximize
 from fecolumn.statistics.fragility import Fragility
+from fecolumn.statistics.records import Records, record_numbers
 
 FRACTILES = (0.16, 0.5, 0.84)
 
@@ -131,7 +132,7 @@ def fractile_curves(
     return np.where(np.isnan(u).any(axis=0), np.nan, u[rank])
 
 
-def first_overturning(lower: ArrayLike, upper: ArrayLike) -> Fragility:
+def first_overturning(lower: ArrayLike, upper: ArrayLike, records: Records = None) -> Fragility:
     """Lognormal distribution of the intensity of first overturning, by maximum likelihood of what
     is known of each motion.
 
@@ -140,12 +141,16 @@ def first_overturning(lower: ArrayLike, upper: ArrayLike) -> Fragility:
     (Baker 2015, Earthq. Spectra 31, with the intervals kept). In the variables 1/beta and
     ln(median)/beta the likelihood is concave. Motions are independent, their scales are not
     counted. The covariance is the inverse of the observed information times n / (n - 1), and
-    intervals take Student's t.
+    intervals take Student's t. Each record counts once, however many motions are made of it: the m
+    motions of a record have the weight 1 / m each, and n is the number of records, as if the
+    motions of a record told nothing but what one of them does.
 
     Parameters
     ----------
     lower, upper
         (n,) intensities between which each motion first overturns; 0 and inf for not known.
+    records
+        (n,) record of each motion, None where each has one of its own.
 
     Raises
     ------
@@ -164,6 +169,11 @@ def first_overturning(lower: ArrayLike, upper: ArrayLike) -> Fragility:
     ):
         raise ValueError("lower and upper must be lists of one length with 0 <= lower < upper")
     n, fallen = lower.size, int(np.isfinite(upper).sum())
+    numbers = record_numbers(records, n)
+    weight = np.ones(n) if numbers is None else 1 / np.bincount(numbers)[numbers]
+    count = n if numbers is None else int(numbers.max()) + 1
+    if count < 2:
+        raise DegenerateData("all motions are of one record: no law of records can be told")
     if not fallen:
         raise DegenerateData(f"none of {n} motions overturns the column at any of its scales")
     if lower.max() <= upper.min():
@@ -183,15 +193,15 @@ def first_overturning(lower: ArrayLike, upper: ArrayLike) -> Fragility:
         )
         x_high, x_low = _rows(y_high), _rows(y_low)
         b_high, b_low = np.where(np.isfinite(high), high, 0), np.where(np.isfinite(low), low, 0)
-        gradient = x_high.T @ d_high - x_low.T @ d_low
-        cross = x_high.T @ ((d_high * d_low)[:, None] * x_low)
+        gradient = x_high.T @ (weight * d_high) - x_low.T @ (weight * d_low)
+        cross = x_high.T @ ((weight * d_high * d_low)[:, None] * x_low)
         information = (
-            x_high.T @ ((d_high * (b_high + d_high))[:, None] * x_high)
-            + x_low.T @ ((d_low * (d_low - b_low))[:, None] * x_low)
+            x_high.T @ ((weight * d_high * (b_high + d_high))[:, None] * x_high)
+            + x_low.T @ ((weight * d_low * (d_low - b_low))[:, None] * x_low)
             - cross
             - cross.T
         )
-        return float(log_p.sum()), gradient, information
+        return float((weight * log_p).sum()), gradient, information
 
     middle = np.where(
         np.isinf(y_high),
@@ -206,11 +216,11 @@ def first_overturning(lower: ArrayLike, upper: ArrayLike) -> Fragility:
     return Fragility(
         float(np.exp(q[1] / q[0])),
         float(1 / q[0]),
-        n / (n - 1) * to_shape @ covariance @ to_shape.T,
+        count / (count - 1) * to_shape @ covariance @ to_shape.T,
         loglik,
         n,
         fallen,
-        clusters=n,
+        clusters=count,
     )
 
 

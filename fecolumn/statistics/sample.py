@@ -33,6 +33,8 @@ class Sample:
         analyses of the choice that are not done.
     cut
         what is said of analyses that cut their motion short, see `ending.cut_short`.
+    records
+        (n,) record of each run's motion; empty where each has its own.
     """
 
     source: str
@@ -44,6 +46,7 @@ class Sample:
     slid_off: NDArray[Any]
     missing: int = 0
     cut: str = ""
+    records: tuple[str, ...] = ()
 
     def take(self, motions: Iterable[str]) -> Sample:
         """The runs of some motions, in their order."""
@@ -59,4 +62,5 @@ class Sample:
             self.slid_off[places],
             self.missing,
             self.cut,
+            tuple(self.records[place] for place in places) if self.records else (),
         )

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from fecolumn.statistics.bands import normal_quantile
 from fecolumn.statistics.equivalence import paired_error, upper_bound
+from fecolumn.statistics.records import Records, by_record
 
 _CONFIDENCE = 0.95
 
@@ -20,7 +21,7 @@ class Sensitivity:
     Attributes
     ----------
     n
-        motions.
+        motions, or records where motions share them.
     distance
         largest difference of the two mean distributions [-], with its 95 % interval, which holds
         it. The lower end is 0 where the data are what no effect at all may give.
@@ -48,6 +49,7 @@ def sensitivity(
     overturned_high: ArrayLike,
     resamples: int = 1000,
     seed: int = 0,
+    records: Records = None,
 ) -> Sensitivity:
     """Effect between two levels of a parameter.
 
@@ -59,7 +61,10 @@ def sensitivity(
     overturned_low, overturned_high
         (g, n) True where the column overturned.
     resamples
-        of the bootstrap and of the swaps; all settings of a motion are drawn or swapped together.
+        of the bootstrap and of the swaps; all settings of a motion, and all motions of a record,
+        are drawn or swapped together.
+    records
+        (n,) record of each motion, None where each has one of its own.
 
     A largest distance is biased upwards: noise adds to it wherever it is largest, and once more in
     samples drawn anew, whose distances therefore lie above that of the data. The interval is made
@@ -90,7 +95,9 @@ def sensitivity(
             for k in range(n)
         ]
     )
-    difference = (below[:n] - below[n:]) / low.shape[0]  # (n, points), of each motion
+    # (n, points), of each motion, or of each record
+    difference = by_record((below[:n] - below[n:]) / low.shape[0], records)
+    n = len(difference)
     rng = np.random.default_rng(seed)
     weights = rng.multinomial(n, np.full(n, 1 / n), resamples) / n
     drawn = weights @ difference

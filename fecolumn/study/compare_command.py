@@ -86,7 +86,16 @@ def main(args: argparse.Namespace) -> int:
     a, b = read_sample(args.a), read_sample(args.b)
     a, b, paired, notes = matched(a, b, args.unpaired)
     cap_m = args.cap_m or largest_peak((a.u_max, a.lost), (b.u_max, b.lost))
-    result = compare(a.u_max, a.lost, b.u_max, b.lost, paired=paired, cap_m=cap_m, seed=args.seed)
+    result = compare(
+        a.u_max,
+        a.lost,
+        b.u_max,
+        b.lost,
+        paired=paired,
+        cap_m=cap_m,
+        seed=args.seed,
+        records=(a.records or None, b.records or None),
+    )
     names = _names(a, b)
     print(f"A  {a.source}: {names[0]}\nB  {b.source}: {names[1]}  (reference)")
     print("\n".join(notes) + "\n")
@@ -167,6 +176,8 @@ def matched(a: Sample, b: Sample, unpaired: bool) -> tuple[Sample, Sample, bool,
     """Both samples motion by motion where they have motions in common: (a, b, paired, notes for the
     reader).
     """
+    from fecolumn.statistics.records import run_count
+
     notes = [
         f"{name}: {sample.missing} analyses of this choice are not done"
         for name, sample in (("A", a), ("B", b))
@@ -189,8 +200,8 @@ def matched(a: Sample, b: Sample, unpaired: bool) -> tuple[Sample, Sample, bool,
         True,
         [
             *notes,
-            f"{len(common)} motions in both, compared one by one"
-            + (f"; left out: {', '.join(alone)}" if alone else ""),
+            f"{run_count(len(common), a.take(common).records or None, 'motion')} in both, "
+            "compared one by one" + (f"; left out: {', '.join(alone)}" if alone else ""),
         ],
     )
 
@@ -205,11 +216,13 @@ def comparison_text(result: Comparison, a: Sample, b: Sample, cap_m: float) -> s
         return [name, value, _p(p), evidence(p)]
 
     slides = _slides(a, b)
+    shared = (result.records_a, result.records_b) != (result.n_a, result.n_b)
     of_each = [
         ["", "A", "B"],
         ["runs", str(result.n_a), str(result.n_b)],
-        [f"{P_OVERTURN} [95 % Wilson]", _share(a.lost & ~a.slid_off), _share(b.lost & ~b.slid_off)],
-        *([[f"{P_LOST} [95 % Wilson]", _share(a.lost), _share(b.lost)]] if slides else []),
+        *([["records", str(result.records_a), str(result.records_b)]] if shared else []),
+        [f"{P_OVERTURN} [95 % Wilson]", *(_share(one.lost & ~one.slid_off, one) for one in (a, b))],
+        *([[f"{P_LOST} [95 % Wilson]", *(_share(one.lost, one) for one in (a, b))]] * slides),
         [
             "median u_max [mm]",
             _millimetres(result.median_a_m, slides),
@@ -241,6 +254,8 @@ def comparison_text(result: Comparison, a: Sample, b: Sample, cap_m: float) -> s
             "motions in both their p is too large,"
             "\nand the one with settings swapped within motions is to be judged by."
         )
+    if shared:
+        text += "\nRuns of one record are drawn and swapped together: all p count records."
     return text
 
 
@@ -286,6 +301,7 @@ def _write(folder: Path, result: Comparison, a: Sample, b: Sample, paired: bool)
         correlation=result.correlation,
         path=folder / "comparison",
         slides=_slides(a, b),
+        records=(a.records or None, b.records or None),
     )
 
 
@@ -330,11 +346,11 @@ def _labels(a: Sample, b: Sample) -> tuple[str, str]:
     return (a.title, b.title) if a.title != b.title else (f"A, {a.title}", f"B, {b.title}")
 
 
-def _share(lost: NDArray[Any]) -> str:
-    from fecolumn.statistics.ecdf import proportion_interval
+def _share(lost: NDArray[Any], sample: Sample) -> str:
+    from fecolumn.statistics.ecdf import share_interval
 
     k, n = int(lost.sum()), lost.size
-    low, high = proportion_interval(k, n)
+    low, high = share_interval(lost, sample.records or None)
     return f"{100 * k / n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
 
 

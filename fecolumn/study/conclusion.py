@@ -5,34 +5,39 @@ its settings differ, and how sure that is.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from fecolumn.engines.ending import lost
-from fecolumn.statistics.ecdf import censored
+from fecolumn.statistics.ecdf import censored, share_interval
 from fecolumn.statistics.equivalence import difference_shortfall, distance_bound, equality_shortfall
 from fecolumn.statistics.failed_runs import RunCount
 from fecolumn.statistics.holm import holm
+from fecolumn.statistics.records import record_count
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.alpha import ALPHA_KEY, alpha_note
 from fecolumn.study.failures import FailedSetting, failed_settings, may_be_biased, why_failed
-from fecolumn.study.plan import Plan, member_of
+from fecolumn.study.plan import Plan, member_of, record_of
 from fecolumn.study.store import DONE
 from fecolumn.study.substeps import SettingTables, substeps_note
 
-# of fewer no p-value can fall below 0.05: there are 2^n ways to swap two settings within n motions,
-# two of them extreme
+# Records, as motions that share one are swapped together: of fewer no p-value can fall below 0.05,
+# as there are 2^n ways to swap two settings within n of them, two of them extreme
 _LEAST_MOTIONS = 5
 _MOST_PAIRS = 60  # beyond it only the first and the last level of each axis are compared: seconds
 _LEVEL = 0.05  # of significance, the usual one
+
+#: Record of each motion of a plan
+MotionRecords = dict[tuple[str, ...], str]
 
 
 @dataclass(frozen=True, slots=True)
 class SettingPair:
     """Two settings that differ in one axis: its key, their axis values and names, motions in both,
-    distance of their CDFs, its upper bound and its paired p.
+    distance of their CDFs, its upper bound, its paired p, and different records of the motions.
     """
 
     axis: str
@@ -42,17 +47,24 @@ class SettingPair:
     distance: float
     bound: float
     p: float
+    records: int
+
+    @property
+    def unit(self) -> str:
+        """What the statistics count."""
+        return "motions" if self.records == self.n else "records"
 
 
 def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
-    """A few sentences on a study as far as it is done; of fewer than five motions no more than that
+    """A few sentences on a study as far as it is done; of fewer than five records no more than that
     steps were made in parts, and what failed.
 
-    How often the column overturns; whether the settings differ; where the motions are few for what
-    is said, how many it needs; what of an effect of alpha, or its lack, is built into the scheme;
-    how many parts of steps were made, where the step is varied; how many analyses of each setting
-    failed, why, and what to do. p-values are of the largest
-    distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs compared.
+    How often the column overturns; that runs share records, where they do; whether the settings
+    differ; where the motions are few for what is said, how many it needs; what of an effect of
+    alpha, or its lack, is built into the scheme; how many parts of steps were made, where the step
+    is varied; how many analyses of each setting failed, why, and what to do. p-values are of the
+    largest distance of two CDFs, settings swapped within motions, corrected (Holm) for all pairs
+    compared.
 
     Parameters
     ----------
@@ -66,10 +78,12 @@ def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
     parts_made = " ".join(
         part for part in (substeps_note(plan.case, settings), _failures(failed)) if part
     )
-    if not settings or max(len(runs) for _, runs in settings) < _LEAST_MOTIONS:
+    records = records_of(plan)
+    counts = [(len(runs), _count(runs, records)) for _, runs in settings]
+    if max((count for _, count in counts), default=0) < _LEAST_MOTIONS:
         return parts_made
-    pairs = pairs_of(settings)
-    parts = [_overturns(settings, failed)]
+    pairs = pairs_of(settings, records)
+    parts = [_overturns(settings, records, failed), _shared(*max(counts))]
     if pairs:
         parts += [_differences(pairs), _shortfall(pairs)]
         if any(pair.axis == ALPHA_KEY for pair in pairs):
@@ -104,7 +118,29 @@ def _failures(failed: list[FailedSetting]) -> str:
     return f"{may_be_biased(told)} {why}".strip()
 
 
-def _overturns(settings: list[SettingTables], failed: list[FailedSetting]) -> str:
+def records_of(plan: Plan) -> MotionRecords:
+    """Record of each motion of a plan, by `plan.member_of`."""
+    return {member_of(analysis.values): record_of(analysis.values) for analysis in plan.analyses}
+
+
+def _count(motions: Iterable[tuple[str, ...]], records: MotionRecords) -> int:
+    """Number of different records of motions."""
+    return len({records[motion] for motion in motions})
+
+
+def _shared(runs: int, records: int) -> str:
+    """That the runs of the largest setting share records; "" where they do not."""
+    if runs == records:
+        return ""
+    return (
+        f"The {runs} runs are of {records} records: runs of one record are not independent, and "
+        "intervals and p-values count them together."
+    )
+
+
+def _overturns(
+    settings: list[SettingTables], records: MotionRecords, failed: list[FailedSetting]
+) -> str:
     """P(overturn) of the setting, or of those in which it is least and most."""
     not_known = {repr(one.values): len(one.rows) for one in failed}
 
@@ -114,9 +150,13 @@ def _overturns(settings: list[SettingTables], failed: list[FailedSetting]) -> st
         return RunCount(k, len(runs), not_known.get(repr(values), 0))
 
     def said(setting: SettingTables) -> str:
-        count = counted(setting)
-        low, high = count.interval
-        where = f" at {_name(setting[0])}" if len(settings) > 1 else ""
+        count, (values, runs) = counted(setting), setting
+        fallen = [bool(run["overturned"]) for run in runs.values()]
+        # each failed run is taken to have a record of its own
+        own = [*(records[motion] for motion in runs), *range(count.failed)]
+        low, _ = share_interval([*fallen, *[False] * count.failed], own)
+        _, high = share_interval([*fallen, *[True] * count.failed], own)
+        where = f" at {_name(values)}" if len(settings) > 1 else ""
         more = f", {count.failed} failed" if count.failed else ""
         return (
             f"{100 * count.share:.1f} % [{100 * low:.1f}, {100 * high:.1f}]{where} ({count.k} "
@@ -138,9 +178,11 @@ def _overturns(settings: list[SettingTables], failed: list[FailedSetting]) -> st
     return f"{p} lies between {said(ranked[0])} and {said(ranked[-1])}; {ends}"
 
 
-def pairs_of(settings: list[SettingTables], confidence: float = 0.95) -> list[SettingPair]:
-    """Settings that differ in one axis alone, over the motions done in both; confidence: of the
-    bound of their distance.
+def pairs_of(
+    settings: list[SettingTables], records: MotionRecords, confidence: float = 0.95
+) -> list[SettingPair]:
+    """Settings that differ in one axis alone, over the motions done in both; records: as of
+    `records_of`; confidence: of the bound of their distance.
     """
     lines: dict[tuple[Any, ...], list[Any]] = {}
     for values, runs in settings:
@@ -157,7 +199,9 @@ def pairs_of(settings: list[SettingTables], confidence: float = 0.95) -> list[Se
     found = []
     for axis, (first, runs_a), (second, runs_b) in chosen:
         common = [motion for motion in runs_a if motion in runs_b]
-        if len(common) < _LEAST_MOTIONS:
+        own = [records[motion] for motion in common]
+        count = record_count(own, len(own))
+        if count < _LEAST_MOTIONS:
             continue
         (u_a, over_a), (u_b, over_b) = (
             tuple(
@@ -168,15 +212,16 @@ def pairs_of(settings: list[SettingTables], confidence: float = 0.95) -> list[Se
         name_a, name_b = (
             _name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second)
         )
-        p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b)).p
+        p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b), records=own).p
         found.append(
             SettingPair(
                 axis,
                 (first, second),
                 (name_a, name_b),
                 len(common),
-                *distance_bound(u_a, over_a, u_b, over_b, confidence),
+                *distance_bound(u_a, over_a, u_b, over_b, confidence, own),
                 p,
+                count,
             )
         )
     return found
@@ -227,12 +272,15 @@ def _shortfall(pairs: list[SettingPair]) -> str:
     clear = [pair for pair, p in zip(pairs, corrected) if p < _LEVEL]
     same = [pair for pair, p in zip(pairs, corrected) if p >= _LEVEL]
     told = [
-        difference_shortfall(weakest.n, weakest.distance, len(pairs))
+        difference_shortfall(weakest.records, weakest.distance, len(pairs), weakest.unit)
         for weakest in sorted(clear, key=lambda pair: pair.distance)[:1]
     ]
     if same:
+        least = min(same, key=lambda pair: pair.records)
         told.append(
-            equality_shortfall(min(pair.n for pair in same), bound=max(pair.bound for pair in same))
+            equality_shortfall(
+                least.records, bound=max(pair.bound for pair in same), unit=least.unit
+            )
         )
     return " ".join(one for one in told if one)
 

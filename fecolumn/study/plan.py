@@ -48,6 +48,8 @@ ENSEMBLE_AXES = (
 DEFAULTS = {
     "output": {"history_every_s": 0.005, "states_every_s": 0.0},
 }
+# What names the record of a motion, whatever its direction, scale and time
+_RECORD_KEYS = ("source", "source_y", "source_z")
 _KEYS = tuple(field.name for field in dataclasses.fields(StudyKeys))
 # As many fit into memory and into a ledger
 _MOST = 1_000_000
@@ -68,6 +70,19 @@ def member_of(values: dict[str, Any]) -> tuple[str, ...]:
     text.
     """
     return tuple(repr(value) for key, value in values.items() if key in ENSEMBLE_AXES)
+
+
+def record_of(values: dict[str, Any]) -> str:
+    """Of an analysis' values by axis, its record: the files of its motion, whatever their
+    direction, scale and time. Analyses of one setting and one record are one cluster, see
+    `statistics.records`.
+    """
+    motion: dict[str, Any] = {}
+    for key, value in values.items():
+        if key == "motion":
+            motion |= value if isinstance(value, dict) else {"source": value}
+        motion[key.removeprefix("motion.")] = value
+    return "|".join(str(motion.get(key, "")) for key in _RECORD_KEYS)
 
 
 class PlannedAnalysis:

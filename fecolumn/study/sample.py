@@ -16,7 +16,7 @@ from fecolumn.engines.ending import cut_short, lost
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.experiment import read_maxima
 from fecolumn.statistics.sample import Sample
-from fecolumn.study.plan import ENSEMBLE_AXES
+from fecolumn.study.plan import ENSEMBLE_AXES, record_of
 from fecolumn.study.store import DONE, read_study
 
 
@@ -122,6 +122,7 @@ def _of_study(folder: str, choice: dict[str, Any]) -> Sample:
         off,
         len(rows) - len(done),
         cut_short(summaries),
+        tuple(record_of(row["axes"]) for row in done),
     )
 
 

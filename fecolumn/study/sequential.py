@@ -1,6 +1,8 @@
 """A study that goes on until its question is decided: more motions of its ensemble until each pair
 of settings is told apart, or told alike.
 
+Motions that are one record, turned, come together, and stages count records.
+
 A look at the results after each stage of motions may end it. Each look is one more chance to be
 wrong, so that the error allowed is divided among the looks that are planned (Bonferroni): whatever
 the course of the study, a false statement on a pair is as rare as that error. Each gets its share
@@ -19,18 +21,19 @@ from typing import Any
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.equivalence import SMALL
 from fecolumn.statistics.holm import holm
-from fecolumn.study.conclusion import SettingPair, pairs_of, settings_of
-from fecolumn.study.plan import Plan, member_of
+from fecolumn.statistics.records import run_count
+from fecolumn.study.conclusion import SettingPair, pairs_of, records_of, settings_of
+from fecolumn.study.plan import Plan, record_of
 
 DIFFER, ALIKE, STILL_OPEN = "differ", "alike", "open"
-#: Motions of the first stage; each stage has twice as many as the one before.
+#: Records of the first stage; each stage has twice as many as the one before.
 FIRST = 40
 
 
 @dataclass(frozen=True, slots=True)
 class Rule:
     """When a study is decided: two settings are alike where the data exclude a distance of their
-    CDFs beyond `margin`; `error`: allowed for each statement; `most`: motions in each setting at
+    CDFs beyond `margin`; `error`: allowed for each statement; `most`: records in each setting at
     most.
     """
 
@@ -79,25 +82,31 @@ class Verdict:
         return (
             f"{pair.names[0]} and {pair.names[1]}: {self.judged(rule)}; distance "
             f"{pair.distance:.3f}, at most {pair.bound:.3f}, p = {pair.p:.4f}, N = {pair.n}"
+            + (f" of {pair.records} records" if pair.records < pair.n else "")
         )
 
 
 def stages(plan: Plan, rule: Rule) -> list[int]:
-    """Numbers of motions after which the results are looked at.
+    """Numbers of records after which the results are looked at: of motions, where each is one.
 
     Raises
     ------
     InputError
-        the study has nothing to compare, or fewer motions than the first stage.
+        the study has nothing to compare, or fewer records than the first stage.
     """
-    motions = len({member_of(analysis.values) for analysis in plan.analyses})
+    of_motions = records_of(plan)
+    motions = len(set(of_motions.values()))
     if len({repr(analysis.combination) for analysis in plan.analyses}) < 2:
         raise InputError(
             plan.file, "axes", None, "has one setting alone: there is nothing to decide between"
         )
     if motions < FIRST:
         raise InputError(
-            plan.file, "axes", None, f"has {motions} motions; deciding begins with {FIRST}"
+            plan.file,
+            "axes",
+            None,
+            f"has {run_count(len(of_motions), list(of_motions.values()), 'motion')}; deciding "
+            f"begins with {FIRST}{' records' if motions < len(of_motions) else ''}",
         )
     last, found = min(motions, rule.most), [FIRST]
     while found[-1] < last:
@@ -106,10 +115,10 @@ def stages(plan: Plan, rule: Rule) -> list[int]:
 
 
 def stage_analyses(plan: Plan, motions: int, verdicts: list[Verdict]) -> set[str]:
-    """Ids of the analyses of the first so many motions, of the settings that are not decided yet;
+    """Ids of the analyses of the first so many records, of the settings that are not decided yet;
     of all before the first look.
     """
-    taken = dict.fromkeys(member_of(analysis.values) for analysis in plan.analyses)
+    taken = dict.fromkeys(record_of(analysis.values) for analysis in plan.analyses)
     chosen = set(itertools.islice(taken, motions))
     open_settings = {
         repr(values)
@@ -120,7 +129,7 @@ def stage_analyses(plan: Plan, motions: int, verdicts: list[Verdict]) -> set[str
     return {
         analysis.id
         for analysis in plan.analyses
-        if member_of(analysis.values) in chosen
+        if record_of(analysis.values) in chosen
         and (not verdicts or repr(analysis.combination) in open_settings)
     }
 
@@ -140,12 +149,12 @@ def judge(
     rows
         of the ledger.
     looks
-        motions of all stages, as of `stages`
+        records of all stages, as of `stages`
     motions
         those of this one.
     """
     level = rule.error * motions / sum(looks)
-    pairs = pairs_of(settings_of(plan, rows), confidence=1 - level)
+    pairs = pairs_of(settings_of(plan, rows), records_of(plan), confidence=1 - level)
     decided = {verdict.pair.names: verdict for verdict in before if verdict.word != STILL_OPEN}
     corrected = holm([pair.p for pair in pairs])
     found = []
@@ -158,8 +167,8 @@ def judge(
 def until_decided(
     plan: Plan, rule: Rule, work: Callable[[set[str]], list[dict[str, Any]]]
 ) -> Iterator[tuple[int, list[Verdict], list[dict[str, Any]]]]:
-    """Work off a study stage by stage: motions, verdicts and the ledger's rows after each. A stage
-    is judged by its own motions, whatever more is done: a study that was stopped ends as one that
+    """Work off a study stage by stage: records, verdicts and the ledger's rows after each. A stage
+    is judged by its own records, whatever more is done: a study that was stopped ends as one that
     was not.
 
     Parameters
@@ -187,4 +196,6 @@ def undecided(verdicts: list[Verdict]) -> int:
 def progress_text(motions: int, verdicts: list[Verdict]) -> str:
     """One line for a reader after a stage."""
     decided = len(verdicts) - undecided(verdicts)
-    return f"{motions} motions: {decided} of {len(verdicts)} pairs of settings decided"
+    shared = any(verdict.pair.records < verdict.pair.n for verdict in verdicts)
+    unit = "records" if shared else "motions"
+    return f"{motions} {unit}: {decided} of {len(verdicts)} pairs of settings decided"

@@ -12,9 +12,10 @@ from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
+from fecolumn.statistics.records import Records
 from fecolumn.study.device_peaks import BOND_COLUMNS, LINK_COLUMNS, peaks_of_bonds, peaks_of_links
 from fecolumn.study.failures import failed_settings
-from fecolumn.study.plan import Plan
+from fecolumn.study.plan import Plan, record_of
 from fecolumn.study.planned import PlannedStudy
 from fecolumn.study.store import DONE
 
@@ -36,6 +37,7 @@ _TABLE = (
     "u_max_50_m",
     "u_max_84_m",
     "energy_closure_worst",
+    "records",
     "failed",
 )
 _ANALYSES = (
@@ -75,14 +77,26 @@ def combinations(
     return [(values, done, len(planned)) for values, done, planned in groups.values()]
 
 
-def ensemble(summaries: list[dict[str, Any]]) -> EnsembleSummary:
-    """Row of one combination from the summaries of its analyses, at least one."""
+def records_done(plan: PlannedStudy, rows: list[dict[str, Any]]) -> list[list[str]]:
+    """Record of each of the summaries of `combinations`, a list for each ensemble."""
+    states = {row["id"]: row for row in rows}
+    groups: dict[tuple[Any, ...], list[str]] = {}
+    for analysis in plan.analyses:
+        found = groups.setdefault(tuple(map(repr, analysis.combination.values())), [])
+        if states[analysis.id]["state"] == DONE:
+            found.append(record_of(states[analysis.id]["axes"]))
+    return list(groups.values())
+
+
+def ensemble(summaries: list[dict[str, Any]], records: Records = None) -> EnsembleSummary:
+    """Row of one combination from the summaries of its analyses, at least one; their records."""
     return summarize(
         [summary["u_max_m"] for summary in summaries],
         [summary["overturned"] for summary in summaries],
         [summary["energy_closure_rel"] for summary in summaries],
         [summary["s_per_step"] for summary in summaries],
         [bool(summary.get("slid_off")) for summary in summaries],
+        records,
     )
 
 
@@ -91,12 +105,12 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
     structures with links links.csv, and with glued joints bonds.csv, too.
     """
     table, timing, links, bonds = [], [], [], []
-    failed = _failed(plan, rows)
-    for values, done, planned in combinations(plan, rows):
+    failed, records = _failed(plan, rows), records_done(plan, rows)
+    for (values, done, planned), own in zip(combinations(plan, rows), records, strict=True):
         lacking = failed.get(repr(values), 0)
         texts = [str(value) for value in values.values()]
         if done:
-            row = ensemble(done)
+            row = ensemble(done, own)
             shares = (row.p_overturn, *row.wilson, *row.exact)
             table.append(
                 [
@@ -108,6 +122,7 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
                     *(f"{p:.6f}" for p in shares),
                     *(f"{u:.6e}" for u in (row.u16_m, row.u50_m, row.u84_m)),
                     f"{row.energy_closure_worst:.3e}",
+                    row.records,
                     lacking,
                 ]
             )
@@ -162,9 +177,11 @@ def _analysis_row(row: dict[str, Any]) -> list[Any]:
 
 def table_text(plan: PlannedStudy, rows: list[dict[str, Any]]) -> str:
     """The table for a reader: a line for each combination, axes of one value left out; columns that
-    slid off their base, and analyses that failed, are counted where there are any.
+    slid off their base, analyses that failed, and records that several analyses share, are counted
+    where there are any.
     """
-    levels, failed = varied(plan), _failed(plan, rows)
+    levels, failed, records = varied(plan), _failed(plan, rows), records_done(plan, rows)
+    shared = any(len(set(own)) < len(own) for own in records)
     off = any(
         summary.get("slid_off") for _, done, _ in combinations(plan, rows) for summary in done
     )
@@ -172,6 +189,7 @@ def table_text(plan: PlannedStudy, rows: list[dict[str, Any]]) -> str:
         [
             *(key.split(".")[-1] for key in levels),
             "n",
+            *(["records"] if shared else []),
             *(["failed"] if failed else []),
             "overturned",
             *(["slid off"] if off else []),
@@ -183,17 +201,18 @@ def table_text(plan: PlannedStudy, rows: list[dict[str, Any]]) -> str:
             "s/step",
         ]
     ]
-    for values, done, planned in combinations(plan, rows):
+    for (values, done, planned), own in zip(combinations(plan, rows), records, strict=True):
         texts = [str(values[key]) for key in levels]
         lacking = [str(failed.get(repr(values), 0))] if failed else []
         if not done:
-            lines.append([*texts, f"0/{planned}", *lacking] + ["-"] * (7 + off))
+            lines.append([*texts, f"0/{planned}", *["-"] * shared, *lacking] + ["-"] * (7 + off))
             continue
-        row = ensemble(done)
+        row = ensemble(done, own)
         lines.append(
             [
                 *texts,
                 f"{row.n}/{planned}",
+                *([str(row.records)] if shared else []),
                 *lacking,
                 str(row.overturned),
                 *([str(row.slid_off)] if off else []),
@@ -220,14 +239,18 @@ def write_figure(plan: PlannedStudy, rows: list[dict[str, Any]], folder: Path | 
     panels: dict[str, list[Any]] = {}
     levels = varied(plan)
     line = line_axis(levels)
-    for values, done, _ in combinations(plan, rows):
+    records = records_done(plan, rows)
+    for (values, done, _), own in zip(combinations(plan, rows), records, strict=True):
         title = ", ".join(
             axis_text(key, value) for key, value in values.items() if key != line and key in levels
         )
         if done:
             label = axis_text(line, values[line]) if line else f"$n$ = {len(done)}"
             panels.setdefault(title, []).append(
-                (label, ecdf([s["u_max_m"] for s in done], [lost(s) for s in done]))
+                (
+                    label,
+                    ecdf([s["u_max_m"] for s in done], [lost(s) for s in done], records=own),
+                )
             )
     if not panels:
         return []

@@ -36,6 +36,31 @@ def test_faces_of_an_inexact_mesh_are_whole(digits):
     assert tuple(hull.first[1]) == (8, 6, 12)
 
 
+def test_hull_of_a_slender_column_with_a_finer_foot_closes():
+    """As of the default mesh of a pole of 0.1 x 4 m: faces are in one plane all but 1e-6 of it."""
+    rings = []
+    for height, sides, radius, turn in (
+        (0.0, 32, 0.05, 0.0),
+        (0.01, 32, 0.05018, 0.0),
+        (0.04, 16, 0.05018, 0.5),
+        (0.05, 16, 0.05065, 0.0),
+        (4.0, 16, 0.05065, 0.0),
+    ):
+        angle = 2 * np.pi * (np.arange(sides) + turn) / sides
+        rings.append(
+            np.column_stack(
+                [radius * np.cos(angle), radius * np.sin(angle), np.full(sides, height)]
+            )
+        )
+    points = np.vstack(rings)
+    hull = hull_of(points)
+    corners, faces, edges = hull.first[1]
+    assert corners - edges + faces == 2
+    heights = points @ hull.normals.T - hull.offsets
+    assert heights.max() < 1e-6 * 4.0
+    assert hull.thickness == pytest.approx([0.1], rel=0.01)
+
+
 def test_loops_edges_and_normals_belong_together():
     rng = np.random.default_rng(4)
     for points in (box(1, 2, 3), frustum(24, 0.5, 0.3, 1.0), prism(rng, 7, 0.5)):

@@ -24,8 +24,9 @@ def test_motion_by_name_is_that_of_the_recipe_at_test_scale():
 
 @pytest.mark.parametrize("number", ("0", "116", "first", ""))
 def test_number_the_ensemble_does_not_have_is_refused(number):
-    with pytest.raises(InputError, match="whole number from 1 to 115"):
+    with pytest.raises(InputError, match="whole number from 1 to 115") as told:
         read_motion(Motion(f"lick:{number}"), "case.toml")
+    assert told.value.value == f"lick:{number}"
 
 
 def test_all_motions_of_it_are_an_axis(tmp_path):

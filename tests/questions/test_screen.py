@@ -71,7 +71,7 @@ def test_units_of_the_header_are_turned_into_si(tmp_path):
     [
         "name;width_cm;depth_cm;height_cm;mass_kg;friction\nKrug, blau;12,5;11;42;2,1;0,25\n"
         ";;;;;\n",
-        "name\twidth_cm\tdepth_cm\theight_cm\tmass_kg\tfriction\n"
+        "Name\tWidth_cm\tdepth_cm\theight_cm\tmass_kg\tfriction\n"
         "Krug, blau\t12,5\t11\t42\t2,1\t0,25\n",
         '"name","width_cm","depth_cm","height_cm","mass_kg","friction"\n'
         '"Krug, blau","12,5","11","42","2,1","0,25"\n',
@@ -97,7 +97,7 @@ def test_a_list_is_read_as_spreadsheets_write_it(tmp_path, text):
         (HEADER + "a,1,1,1_0,1,0.3\n", "line 2, height_m = '1_0': must be a number"),
         (HEADER + "a,1,1,nan,1,0.3\n", "line 2, height_m = 'nan': must be a number"),
         (HEADER + "a,400,1,1,1,0.3\n", "at most 100 [m]"),
-        (HEADER + "a,1,1,1,1,30\n", "friction = '30': must be a number greater than 0 and at mo"),
+        (HEADER + "a,1,1,1,1,30\n", "friction = '30': must be a number of at least 0 and at mo"),
         (HEADER + "a,1,1,1,0.9,1\n", "line 2, mass_kg = '0.9': is 0.9 kg/m3 of its width, depth"),
         (HEADER + "a,1,1,1,3e4,1\n", "must lie in [1, 25000] kg/m3: is a unit another?"),
         (HEADER + "a,1,1,1,1,1\na,1,1,1,2,1\n", "line 3, name = 'a': stands twice"),
@@ -126,3 +126,8 @@ def test_options_that_cannot_be_used_are_refused_in_a_line(tmp_path, pulses, cap
     told = capsys.readouterr().err
     assert said in told and told.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+def test_an_object_without_friction_is_taken(tmp_path):
+    (tmp_path / "list.csv").write_text(HEADER + "a,1,1,1,2000,0\n")
+    assert read_objects(tmp_path / "list.csv")[0].friction == 0.0

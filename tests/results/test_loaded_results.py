@@ -3,6 +3,7 @@
 import math
 import shutil
 import sys
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -176,7 +177,11 @@ def test_analysis_without_history_says_so(tmp_path):
 
 def test_study_gives_rows_distributions_and_figure(study):
     assert study.done == 11 and len(study.rows) == 12 and study.axes[ALPHA] == [0.0, -0.2]
-    whole, one = study.ecdf(), study.ecdf({ALPHA: -0.2})
+    with pytest.warns(UserWarning, match=f"one distribution of all values of {ALPHA}"):
+        whole = study.ecdf()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        one = study.ecdf({ALPHA: -0.2})
     assert whole.n == 11 and one.n in (5, 6)
     assert study.plot.cdf().png.startswith(b"\x89PNG")
     assert "11 of 12 analyses done" in study._repr_html_()

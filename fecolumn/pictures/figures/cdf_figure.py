@@ -21,7 +21,7 @@ from fecolumn.pictures.figures.style import (
     save,
     styled,
 )
-from fecolumn.statistics.ecdf import Ecdf, proportion_interval
+from fecolumn.statistics.ecdf import Ecdf
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -202,5 +202,5 @@ def _nothing() -> Patch:
 
 def overturn_text(distribution: Ecdf) -> str:
     """Share of the runs that were lost and its interval, such as "43.5 % [34.8, 52.6]"."""
-    low, high = proportion_interval(distribution.lost, distribution.n)
+    low, high = distribution.lost_interval
     return f"{100 * distribution.lost / distribution.n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"

@@ -22,10 +22,13 @@ from fecolumn.pictures.figures.style import (
     styled,
 )
 from fecolumn.statistics.bands import dkw, dkw_distance
-from fecolumn.statistics.ecdf import censored, ecdf, proportion_interval
+from fecolumn.statistics.ecdf import censored, ecdf
+from fecolumn.statistics.records import Records
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from fecolumn.statistics.ecdf import Ecdf
 
 
 _STRIP = 0.09  # beyond the axes' ends, where overturned runs are drawn; as a share of the axis
@@ -40,6 +43,7 @@ def compare_figure(
     correlation: float | None,
     path: Path | str,
     slides: bool = False,
+    records: tuple[Records, Records] = (None, None),
 ) -> list[Path]:
     """Write the figure as PNG and PDF.
 
@@ -62,13 +66,16 @@ def compare_figure(
         file name without suffix.
     slides
         whether some slid off their base, so that the figure says "lost" for "overturned".
+    records
+        of the runs of a and of b, None where each run has its own.
     """
     limit_mm = 1e3 * axis_end(peak for sample in (a, b) for peak in ecdf(*sample).x)
     with styled():
         figure = new_figure(PAGE_WIDTH_IN if paired else PAGE_WIDTH_IN / 2, 3.75)
         figure.get_layout_engine().set(w_pad=0.06)
         grid = figure.subplots(1, 2 if paired else 1, squeeze=False)[0]
-        _distributions(grid[0], a, b, labels, limit_mm, "lost" if slides else "overturned")
+        curves = (ecdf(*a, records=records[0]), ecdf(*b, records=records[1]))
+        _distributions(grid[0], curves, labels, limit_mm, "lost" if slides else "overturned")
         if paired:
             _pairs(grid[1], censored(*a), censored(*b), labels, limit_mm, correlation, slides)
         return save(figure, path)
@@ -76,18 +83,16 @@ def compare_figure(
 
 def _distributions(
     axes: Axes,
-    a: tuple[NDArray[Any], NDArray[Any]],
-    b: tuple[NDArray[Any], NDArray[Any]],
+    curves: tuple[Ecdf, Ecdf],
     labels: tuple[str, str],
     limit_mm: float,
     word: str,
 ) -> None:
-    for sample, label, colour, dashes in (
-        (b, labels[1], VERMILION, "--"),
-        (a, labels[0], BLUE, "-"),
+    for curve, label, colour, dashes in (
+        (curves[1], labels[1], VERMILION, "--"),
+        (curves[0], labels[0], BLUE, "-"),
     ):
-        curve = ecdf(*sample)
-        low, high = proportion_interval(curve.lost, curve.n)
+        low, high = curve.lost_interval
         x = np.concatenate([[0.0], 1e3 * curve.x, [limit_mm]])
         axes.fill_between(
             x,
@@ -109,11 +114,11 @@ def _distributions(
             label=f"{label}: $n$ = {curve.n}, {word} {100 * curve.lost / curve.n:.1f} % "
             f"[{100 * low:.1f}, {100 * high:.1f}]",
         )
-        if sample is b and curve.x.size:
-            lower, upper = dkw(curve.cdf, curve.n)
+        if curve is curves[1] and curve.x.size:
+            lower, upper = dkw(curve.cdf, curve.records)
             for edge, first, note in (
                 (lower, 0.0, "simultaneous 95 % band of the reference"),
-                (upper, dkw_distance(curve.n), None),
+                (upper, dkw_distance(curve.records), None),
             ):
                 axes.step(
                     x,

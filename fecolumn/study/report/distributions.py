@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.cdf_figure import BARS, SHADED, SHADES, CdfPanel, cdf_figure
-from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
+from fecolumn.statistics.ecdf import percentile
+from fecolumn.statistics.records import run_count
 from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.convergence_figure import convergence_blocks
 from fecolumn.study.report.document import (
@@ -22,7 +23,6 @@ from fecolumn.study.report.families import families, shortfalls
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import (
     axis_name,
-    count,
     interval,
     millimetres,
     percent,
@@ -137,7 +137,7 @@ def _panels(sweep: Sweep, axis: str | None) -> list[CdfPanel]:
         labels = setting_labels(sweep)
         return [
             CdfPanel(
-                "", tuple((labels[id(one)], ecdf(*one.peaks())) for one in chosen), sweep.p_lost
+                "", tuple((labels[id(one)], one.distribution()) for one in chosen), sweep.p_lost
             )
         ]
     groups: dict[str, list[Setting]] = {}
@@ -156,7 +156,7 @@ def _panels(sweep: Sweep, axis: str | None) -> list[CdfPanel]:
     panels = [
         CdfPanel(
             title,
-            tuple((axis_text(axis, one.values[axis]), ecdf(*one.peaks())) for one in group),
+            tuple((axis_text(axis, one.values[axis]), one.distribution()) for one in group),
             sweep.p_lost,
         )
         for title, group in groups.items()
@@ -172,7 +172,7 @@ def _left_out(sweep: Sweep, panels: list[CdfPanel]) -> str:
 def _opening(sweep: Sweep, figure: str) -> str:
     u, over = sweep.reference.peaks()
     fallen = sweep.reference.column("overturned")
-    low, high = proportion_interval(int(fallen.sum()), fallen.size)
+    low, high = sweep.reference.overturning()
     median = percentile(u, over, fraction=0.5)
     half = (
         " mm"
@@ -183,7 +183,7 @@ def _opening(sweep: Sweep, figure: str) -> str:
         f"[[{figure}]] shows the distribution of the largest displacement of "
         f"{sweep.subject.top}, u_max, in every setting. "
         f"{sentence(sweep.at(sweep.reference.values))} half of the "
-        f"{count(over.size, 'motion')} stay below "
+        f"{run_count(over.size, sweep.reference.records_of(), 'motion')} stay below "
         f"{millimetres(median)}{half}, and "
         f"{int(fallen.sum())} overturn: P(overturn) = {percent(fallen.mean())}, 95 % "
         f"interval {interval(low, high, percent)}."

@@ -30,9 +30,9 @@ def _needed(own: list[ComparedPair]) -> tuple[float, int]:
     """
     clear = [pair.distance for pair in own if pair.p_holm < 0.05]
     level = 0.05 / len(own)
-    return detectable_distance(min(pair.comparison.n_a for pair in own), level), motions_needed(
-        min(clear), level
-    ) if clear else motions_needed(SMALL)
+    return detectable_distance(
+        min(pair.comparison.records_a for pair in own), level
+    ), motions_needed(min(clear), level) if clear else motions_needed(SMALL)
 
 
 def shortfalls(pairs: list[ComparedPair]) -> list[Paragraph]:
@@ -40,12 +40,15 @@ def shortfalls(pairs: list[ComparedPair]) -> list[Paragraph]:
     found = []
     for family, own in _by_family(pairs).items():
         axis, clear = family.partition(", ")[0], [pair for pair in own if pair.p_holm < 0.05]
+        unit = own[0].comparison.unit
         weakest = min(clear, key=lambda pair: pair.distance, default=None)
         said = (
-            difference_shortfall(weakest.comparison.n_a, weakest.distance, len(own))
+            difference_shortfall(weakest.comparison.records_a, weakest.distance, len(own), unit)
             if weakest
             else equality_shortfall(
-                min(pair.comparison.n_a for pair in own), bound=max(pair.bound for pair in own)
+                min(pair.comparison.records_a for pair in own),
+                bound=max(pair.bound for pair in own),
+                unit=unit,
             )
         )
         if said:

@@ -163,7 +163,7 @@ def _of_study(
             {name: np.array([one[name] for one in found]) for name in wanted},
             fallen,
             records if len(set(records)) < len(records) else None,
-            _failed(lacking.get(repr(values), []), records, wanted, motions, measures),
+            _failed(lacking.get(repr(values), []), records, wanted, measures),
         )
     return sets
 
@@ -172,7 +172,6 @@ def _failed(
     rows: list[dict[str, Any]],
     records: Any,
     wanted: tuple[str, ...],
-    motions: Intensities,
     measures: Callable[[dict[str, Any]], dict[str, float]],
 ) -> FailedRuns | None:
     """Intensities of the analyses of a setting that failed, beside records of those that are done;
@@ -182,6 +181,7 @@ def _failed(
 
     from fecolumn.statistics.intensity_table import FailedRuns
     from fecolumn.study.failures import why_failed
+    from fecolumn.study.plan import record_of
     from fecolumn.study.report.intensity import NOT_FOUND
 
     if not rows:
@@ -189,7 +189,7 @@ def _failed(
     runs, why = [{"case_id": row["id"]} for row in rows], why_failed(rows)
     try:
         found = [measures(run) for run in runs]
-        of_all = np.append(records, [motions.record(run) for run in runs])
+        of_all = np.append(records, [record_of(row["axes"]) for row in rows])
     except NOT_FOUND:  # it failed before its case was written
         return FailedRuns(None, records, len(rows), why)
     known = {name: np.array([one[name] for one in found]) for name in wanted}

@@ -16,6 +16,7 @@ from fecolumn.pictures.figures.incremental_figure import incremental_figure
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.statistics.fragility import DegenerateData, Fragility
 from fecolumn.statistics.incremental import IncrementalCurve, first_overturning, incremental_curves
+from fecolumn.statistics.records import run_count
 from fecolumn.study.report.document import PageBlock, PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.fragility import LABEL, curve_axis
 from fecolumn.study.report.gallery import Gallery
@@ -29,12 +30,13 @@ _LEAST_SCALES, _LEAST_MOTIONS, _FOLD = 3, 3, 20
 
 @dataclass(frozen=True, slots=True)
 class ScaledSetting:
-    """A setting but for the scale: its values, the curves of its motions, and the law of the first
-    overturning (None where there is none).
+    """A setting but for the scale: its values, the curves of its motions, their records, and the
+    law of the first overturning (None where there is none).
     """
 
     values: dict[str, Any]
     curves: list[IncrementalCurve]
+    records: list[str]
     fit: Fragility | None
 
 
@@ -56,11 +58,12 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Pag
         return None
     at = sweep.at(here.values)
     blocks: list[PageBlock] = []
+    once = "motion" if len(set(here.records)) == len(here.curves) else "record"
     again = sum(curve.stands_again for curve in here.curves)
     fallen = sum(np.isfinite(curve.first[1]) for curve in here.curves)
     levels = max(len(curve.im) for curve in here.curves)
     text = (
-        f"[[ida]]: each of {count(len(here.curves), 'motion')} scaled to "
+        f"[[ida]]: each of {run_count(len(here.curves), here.records, 'motion')} scaled to "
         f"{count(levels, 'level')} (Vamvatsikos and Cornell 2002), {at}. "
         f"{fallen} overturn the {sweep.subject.noun} at one of their scales"
         f"{', or let it slide off, which counts as overturned here' if sweep.slides else ''}. "
@@ -71,7 +74,7 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Pag
             f"{_speed(here.fit.median)} m/s "
             f"{interval(*here.fit.median_interval(), _speed)}, "
             f"with a logarithmic standard deviation of {fixed(here.fit.beta)} "
-            f"{interval(*here.fit.beta_interval())}. Each motion counts once, by the "
+            f"{interval(*here.fit.beta_interval())}. Each {once} counts once, by the "
             "intensities between which it "
             f"first overturns the {sweep.subject.noun}; those that never do count as "
             "beyond their largest. "
@@ -112,16 +115,19 @@ def _scaled(
 ) -> ScaledSetting | None:
     runs = intensities.of_runs(settings)
     curves = incremental_curves(runs.motion, runs.measures[:, 0], runs.u_max, runs.lost)
+    own = dict(zip(runs.motion.tolist(), runs.record.tolist()))
+    records = [own[curve.motion] for curve in curves]
     if (
-        len(curves) < _LEAST_MOTIONS
+        len(set(records)) < _LEAST_MOTIONS
         or np.median([len(curve.im) for curve in curves]) < _LEAST_SCALES
     ):
         return None
     try:
-        fit = first_overturning(*np.transpose([curve.first for curve in curves]))
+        lower, upper = np.transpose([curve.first for curve in curves])
+        fit = first_overturning(lower, upper, records)
     except DegenerateData:
         fit = None
-    return ScaledSetting(values, curves, fit)
+    return ScaledSetting(values, curves, records, fit)
 
 
 def _critical(sweep: Sweep) -> float | None:
@@ -195,9 +201,11 @@ def _panels(
 
 def _table(sweep: Sweep, found: list[ScaledSetting]) -> PageTable:
     axes = [axis for axis in sweep.varied if axis != SCALE]
+    shared = any(len(set(one.records)) < len(one.curves) for one in found)
     columns = (
         *axis_columns(axes),
         PageColumn("motions", "motions"),
+        *((PageColumn("records", "records"),) if shared else ()),
         PageColumn("runs", "runs"),
         PageColumn("overturned", "motions that overturn"),
         PageColumn("stands_again", "that let stand again"),
@@ -222,6 +230,7 @@ def _table(sweep: Sweep, found: list[ScaledSetting]) -> PageTable:
             (
                 *(one.values[axis] for axis in axes),
                 len(one.curves),
+                *((len(set(one.records)),) if shared else ()),
                 sum(len(curve.im) for curve in one.curves),
                 sum(bool(np.isfinite(curve.first[1])) for curve in one.curves),
                 sum(curve.stands_again for curve in one.curves),

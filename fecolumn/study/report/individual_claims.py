@@ -92,7 +92,7 @@ class LineTrend:
 def line_trends(sweep: Sweep, axis: str) -> list[LineTrend]:
     """Trend along each line of an axis."""
     lines = sweep.lines(axis)
-    trends = [trend(*line.peaks()) for line in lines]
+    trends = [trend(*line.peaks(), records=line.records()) for line in lines]
     corrected = holm([found.p for found in trends])
     return [
         LineTrend(line, found, float(p), _fine_trend(line))
@@ -107,8 +107,9 @@ def individual_claims(sweep: Sweep, axes: Iterable[str]) -> list[Claim]:
 
 def _fine_trend(line: Line) -> Trend | None:
     fine = [s for s in line.settings if s.values.get(DT_KEY, 1.0) <= FINE_DT_S]
+    chosen = Line(line.axis, line.others, tuple(fine))
     return (
-        trend(*Line(line.axis, line.others, tuple(fine)).peaks())
+        trend(*chosen.peaks(), records=chosen.records())
         if line.axis == DT_KEY and 1 < len(fine) < len(line.settings)
         else None
     )

@@ -32,7 +32,7 @@ class Runs:
     motion
         (n,) name of the motion, whatever its scale.
     record
-        (n,) its file, whatever its scale and direction.
+        (n,) its file, whatever its scale and direction, see `plan.record_of`.
     u_max
         (n,) [m]; of no meaning where the column was lost.
     lost
@@ -108,21 +108,11 @@ class Intensities:
         return Runs(
             np.array([self.peaks(run) for _, run in runs]),
             np.array([name for name, _ in runs]),
-            np.array([self.record(run) for _, run in runs]),
+            np.array([record for setting in settings for record in setting.records_of()]),
             u,
             lost,
             np.concatenate([setting.column("overturned").astype(bool) for setting in settings]),
         )
-
-    def record(self, run: dict[str, Any]) -> str:
-        """File of the motion of an analysis, whatever its scale and direction.
-
-        Raises
-        ------
-        One of NOT_FOUND: its case is not to be found.
-        """
-        table = self._table(run)[0]
-        return "|".join((table.source, table.source_y, table.source_z))
 
     def _table(self, run: dict[str, Any]) -> tuple[Motion, Path]:
         folder = self._folder / "analyses" / run["case_id"]

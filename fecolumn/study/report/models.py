@@ -18,7 +18,7 @@ from fecolumn.case.sections import MODEL_ENGINES
 from fecolumn.motions.ensemble_file import file_and_number
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
-from fecolumn.statistics.ecdf import censored, ecdf, percentile, proportion_interval
+from fecolumn.statistics.ecdf import censored, percentile
 from fecolumn.statistics.equivalence import distance_bound
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.report.document import PageBlock, PageColumn, PageSection, PageTable, Paragraph
@@ -110,7 +110,7 @@ def models(sweep: Sweep, gallery: Gallery) -> PageSection | None:
                 ]
             ),
             tuple(
-                (_label(line, one, len(motions)), ecdf(*one.peaks(motions)))
+                (_label(line, one, len(motions)), one.distribution(motions))
                 for one in line.settings
                 if (motions := _of(line.common(one), some))
             ),
@@ -274,14 +274,17 @@ def _rows(
         )
         beside: list[float | None] = [None] * (5 + any_fewer)
         if setting is not line.reference:
-            test = paired_kolmogorov_smirnov(censored(u, lost), censored(base, base_lost))
+            records = setting.records_of(motions)
+            test = paired_kolmogorov_smirnov(
+                censored(u, lost), censored(base, base_lost), records=records
+            )
             medians = [percentile(*one, fraction=0.5) for one in ((u, lost), (base, base_lost))]
             e50 = abs(medians[0] - medians[1]) / medians[1] if np.isfinite(medians).all() else None
             beside = [
                 e50,
                 float(test.statistic),
                 float(test.p),
-                distance_bound(u, lost, base, base_lost)[1],
+                distance_bound(u, lost, base, base_lost, records=records)[1],
                 float((lost == base_lost).mean()),
             ] + [int(base_fallen.sum())] * any_fewer
         yield (
@@ -291,7 +294,7 @@ def _rows(
             len(motions),
             int(fallen.sum()),
             float(fallen.mean()),
-            *proportion_interval(int(fallen.sum()), len(motions)),
+            *setting.overturning(motions),
             percentile(u, lost, fraction=0.5),
             *beside,
             _cost(setting, motions),

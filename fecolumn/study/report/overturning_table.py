@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from fecolumn.pictures.figures.interval_figure import IntervalRow, Scale, interval_figure
-from fecolumn.statistics.ecdf import percentile, proportion_interval
+from fecolumn.statistics.ecdf import percentile
 from fecolumn.study.report.claim import CALIBRATION_TARGET
 from fecolumn.study.report.document import PageBlock, PageColumn, PageTable
 from fecolumn.study.report.gallery import Gallery
@@ -24,6 +24,7 @@ def overturning_blocks(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
     """The figure, where a few settings are known, and the table; figures go to the gallery."""
     rows, estimates, labels = [], [], setting_labels(sweep)
     off = any(run.get("slid_off") for setting in sweep.settings for run in setting.runs.values())
+    shared = len(set(sweep.records)) < len(sweep.records)
     for number, setting in enumerate(sweep.settings, 1):
         levels = (number, *(setting.values[axis] for axis in sweep.varied))
         if not setting.runs:
@@ -32,6 +33,7 @@ def overturning_blocks(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
                     *levels,
                     setting.planned,
                     0,
+                    *([0] if shared else []),
                     *([None] if off else []),
                     None,
                     None,
@@ -47,13 +49,14 @@ def overturning_blocks(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
             continue
         u, over = setting.peaks()
         k, n = int(setting.column("overturned").sum()), over.size
-        wilson, exact = proportion_interval(k, n), proportion_interval(k, n, method="exact")
+        wilson, exact = setting.overturning(), setting.overturning(method="exact")
         slid = [int(over.sum()) - k] if off else []
         rows.append(
             (
                 *levels,
                 setting.planned,
                 n,
+                *([len(set(setting.records_of()))] if shared else []),
                 k,
                 *slid,
                 k / n,
@@ -72,6 +75,7 @@ def overturning_blocks(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
             *axis_columns(sweep.varied),
             PageColumn("planned", "planned"),
             PageColumn("n", "run"),
+            *((PageColumn("records", "records"),) if shared else ()),
             PageColumn("overturned", "over\N{SOFT HYPHEN}turned", _whole),
             *((PageColumn("slid_off", "slid off", _whole),) if off else ()),
             PageColumn(
@@ -89,6 +93,7 @@ def overturning_blocks(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
         "P(overturn) of every setting with 95 % intervals (Wilson; exact: Clopper and "
         "Pearson), and percentiles of u_max; “overturn” "
         "where that share of the runs does not stand."
+        + (" Intervals count records, as runs of one are not independent." if shared else "")
         + (
             " Columns that slid off their base are lost, too: distributions and percentiles, here "
             "and in what follows, take them with those that overturned; P(overturn) does not."

@@ -11,7 +11,7 @@ from pathlib import Path
 from fecolumn.foundation.atomic import write_bytes
 from fecolumn.foundation.folder import written
 from fecolumn.foundation.schema import InputError
-from fecolumn.statistics.ecdf import proportion_interval
+from fecolumn.statistics.records import run_count
 from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.all_motions import all_motions
 from fecolumn.study.report.audit import audit, failed_note
@@ -165,7 +165,7 @@ def _byline(sweep: Sweep) -> str:
         f"fecolumn, {datetime.date.today():%-d %B %Y}. "
         f"{count(sweep.analyses, 'analysis')}: {count(len(sweep.settings), 'setting')} "
         "× "
-        f"{count(len(sweep.motions), 'motion')}"
+        f"{run_count(len(sweep.motions), sweep.records, 'motion')}"
     )
 
 
@@ -178,7 +178,7 @@ def _abstract(sweep: Sweep, sections: list[PageSection]) -> str:
     shares = {id(setting): setting.column("overturned").mean() for setting in sweep.done}
     low, high = min(shares.values()), max(shares.values())
     parts = [
-        f"{count(len(sweep.motions), 'ground motion')} "
+        f"{run_count(len(sweep.motions), sweep.records, 'ground motion')} "
         f"{'was' if len(sweep.motions) == 1 else 'were'} run through "
         f"{sweep.subject.article}"
         + (
@@ -200,7 +200,7 @@ def _abstract(sweep: Sweep, sections: list[PageSection]) -> str:
     if sweep.cut:
         parts.append(f"{sweep.cut}.")
     over = sweep.reference.column("overturned")
-    bounds = proportion_interval(int(over.sum()), over.size)
+    bounds = sweep.reference.overturning()
     if len(sweep.done) > 1:
         parts.append(
             f"P(overturn) lies between {percent(low)} and {percent(high)}; "

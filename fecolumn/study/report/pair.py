@@ -75,9 +75,19 @@ def read_pairs(sweep: Sweep) -> list[ComparedPair]:
         whole = Line(line.axis, line.others, (line.settings[low], line.settings[high]))
         if len(whole.motions()) < _LEAST_MOTIONS:
             continue
-        u, over = whole.peaks()
-        result = compare(u[0], over[0], u[1], over[1], paired=True, cap_m=sweep.limit_m)
-        found.append((whole, result, *distance_bound(u[0], over[0], u[1], over[1])))
+        (u, over), records = whole.peaks(), whole.records()
+        result = compare(
+            u[0],
+            over[0],
+            u[1],
+            over[1],
+            paired=True,
+            cap_m=sweep.limit_m,
+            records=(records, records),
+        )
+        found.append(
+            (whole, result, *distance_bound(u[0], over[0], u[1], over[1], records=records))
+        )
     families = [_family(line) for line, *_ in found]
     corrected: dict[int, float] = {}
     for family in dict.fromkeys(families):

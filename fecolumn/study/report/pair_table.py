@@ -15,6 +15,7 @@ _FOLD = 20
 def pair_table(sweep: Sweep, pairs: list[ComparedPair]) -> PageTable:
     """The table: distances, p and motions that are lost in one of two settings alone."""
     rows = []
+    shared = any(pair.comparison.records_a < pair.comparison.n_a for pair in pairs)
     for pair in pairs:
         it = pair.comparison
         rows.append(
@@ -24,6 +25,7 @@ def pair_table(sweep: Sweep, pairs: list[ComparedPair]) -> PageTable:
                 pair.high,
                 {key: value for key, value in pair.others.items() if key in sweep.varied},
                 it.n_a,
+                *((it.records_a,) if shared else ()),
                 it.ks,
                 it.ks_p,
                 it.ks_evidence,
@@ -42,6 +44,7 @@ def pair_table(sweep: Sweep, pairs: list[ComparedPair]) -> PageTable:
         PageColumn("axis a b", "a against b", _levels, text=True),
         PageColumn("at", "at", setting_words, text=True),
         PageColumn("n", "n"),
+        *((PageColumn("records", "records"),) if shared else ()),
         PageColumn("ks", "D", fixed),
         PageColumn("ks_p", "p", p_value),
         PageColumn("ks_evidence", "evidence", text=True),
@@ -65,7 +68,8 @@ def pair_table(sweep: Sweep, pairs: list[ComparedPair]) -> PageTable:
         "Anderson-Darling and Cramér-von Mises as independent samples; error of the median e₅₀ (a "
         "against b); correlation R with lost runs (overturned or slid off) at the "
         "limit; motions lost in one "
-        "setting alone (flips) with McNemar's p.",
+        "setting alone (flips) with McNemar's p."
+        + (" Runs of one record are swapped together: p counts records." if shared else ""),
         folded=len(rows) > _FOLD,
     )
 

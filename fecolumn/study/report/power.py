@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.statistics.equivalence import SMALL, detectable_distance, motions_needed
+from fecolumn.statistics.records import record_count, run_count
 from fecolumn.study.report.document import Paragraph
 from fecolumn.study.report.notation import count, fixed, percent
 from fecolumn.study.report.sweep import Sweep, common_motions
@@ -22,14 +22,12 @@ def power(sweep: Sweep, wanted: float = SMALL, why: str = "") -> Paragraph:
     why
         what needs it, as words after a number of motions.
     """
-    n, needed = (
-        len(common_motions(sweep.done)) or min(len(setting.runs) for setting in sweep.done),
-        motions_needed(wanted),
-    )
-    overturned = int(sweep.reference.column("overturned").sum())
-    low, high = proportion_interval(overturned, len(sweep.reference.runs))
+    common, needed = common_motions(sweep.done), motions_needed(wanted)
+    least = min(sweep.done, key=lambda setting: len(setting.runs))
+    records = least.records_of(common or None)
+    n, (low, high) = record_count(records, len(records)), sweep.reference.overturning()
     text = (
-        f"{count(n, 'motion')}: a difference of two CDFs below "
+        f"{run_count(len(records), records, 'motion')}: a difference of two CDFs below "
         f"{fixed(detectable_distance(n))} cannot be seen (Kolmogorov-Smirnov, 5 %; the "
         "same motions in both "
         f"settings show somewhat less); {fixed(wanted)} would need about "

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from fecolumn.statistics.records import record_count
 from fecolumn.statistics.sensitivity import Sensitivity, sensitivity
 from fecolumn.study.report.sweep import ENGINE_KEY, Setting, Sweep, common_motions, common_peaks
 
@@ -75,7 +76,10 @@ def _effect(
     axis: str, low: object, high: object, at_low: list[Setting], at_high: list[Setting]
 ) -> Rank | None:
     motions = common_motions(at_low + at_high) if at_low else []
-    if len(motions) < _LEAST_MOTIONS:
+    records = at_low[0].records_of(motions) if at_low else []
+    if record_count(records, len(records)) < _LEAST_MOTIONS:
         return None
-    effect = sensitivity(*common_peaks(at_low, motions), *common_peaks(at_high, motions))
+    effect = sensitivity(
+        *common_peaks(at_low, motions), *common_peaks(at_high, motions), records=records
+    )
     return Rank(axis, low, high, len(at_low), effect)

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from fecolumn.engines.ending import P_LOST, P_OVERTURN, cut_short
 from fecolumn.foundation.files import read_json
-from fecolumn.statistics.ecdf import largest_peak
+from fecolumn.statistics.ecdf import Ecdf, ecdf, largest_peak, share_interval
 from fecolumn.study.alpha import ALPHA_KEY, alpha_note
-from fecolumn.study.plan import ENSEMBLE_AXES
+from fecolumn.study.plan import ENSEMBLE_AXES, record_of
 from fecolumn.study.report.notation import ALL_ANALYSES, setting_text
 from fecolumn.study.report.subject import Subject, subject_of
 from fecolumn.study.store import DONE, FAILED, read_study
@@ -37,12 +37,33 @@ class Setting:
         analyses.
     runs
         summary of each analysis that is done, by motion.
+    records
+        record of each motion, see `plan.record_of`; a motion that is not in it has its own.
     """
 
     values: dict[str, Any]
     planned: int
     failed: int
     runs: dict[str, dict[str, Any]]
+    records: dict[str, str] = field(default_factory=dict)
+
+    def records_of(self, motions: Sequence[str] | None = None) -> list[str]:
+        """Record of each run, one a motion."""
+        return [
+            self.records.get(motion, motion)
+            for motion in (self.runs if motions is None else motions)
+        ]
+
+    def distribution(self, motions: Sequence[str] | None = None) -> Ecdf:
+        """Of u_max [m]."""
+        return ecdf(*self.peaks(motions), records=self.records_of(motions))
+
+    def overturning(
+        self, motions: Sequence[str] | None = None, method: str = "wilson"
+    ) -> tuple[float, float]:
+        """95 % interval of P(overturn)."""
+        fallen = self.column("overturned", motions).astype(bool)
+        return share_interval(fallen, self.records_of(motions), method=method)
 
     def column(self, name: str, motions: Sequence[str] | None = None) -> NDArray[Any]:
         """A number of the summaries, one a motion (nan where it is not stated)."""
@@ -74,6 +95,10 @@ class Line:
     def motions(self) -> list[str]:
         """Motions done in every setting."""
         return common_motions(self.settings)
+
+    def records(self) -> list[str]:
+        """Record of each of them."""
+        return self.settings[0].records_of(self.motions())
 
     def peaks(self) -> tuple[NDArray[Any], NDArray[Any]]:
         """u_max [m] and overturned, (levels, n) of the common motions."""
@@ -129,6 +154,12 @@ class Sweep:
     def motions(self) -> list[str]:
         """Names of all motions, each once, in the order of the settings."""
         return list(dict.fromkeys(motion for setting in self.settings for motion in setting.runs))
+
+    @cached_property
+    def records(self) -> list[str]:
+        """Record of each of them."""
+        known = {motion: record for one in self.settings for motion, record in one.records.items()}
+        return [known.get(motion, motion) for motion in self.motions]
 
     @cached_property
     def cut(self) -> str:
@@ -287,13 +318,15 @@ def _largest_peak(settings: Iterable[Setting]) -> float:
 
 
 def _setting(rows: list[dict[str, Any]]) -> Setting:
-    runs = {
-        repr([value for key, value in row["axes"].items() if key in ENSEMBLE_AXES]): row["summary"]
+    done = {
+        repr([value for key, value in row["axes"].items() if key in ENSEMBLE_AXES]): row
         for row in rows
         if row["state"] == DONE and row["summary"]
     }
+    runs = {motion: row["summary"] for motion, row in done.items()}
+    records = {motion: record_of(row["axes"]) for motion, row in done.items()}
     values = {key: value for key, value in rows[0]["axes"].items() if key not in ENSEMBLE_AXES}
-    return Setting(values, len(rows), sum(row["state"] == FAILED for row in rows), runs)
+    return Setting(values, len(rows), sum(row["state"] == FAILED for row in rows), runs, records)
 
 
 def _ordered(levels: list[Any]) -> list[Any]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import functools
 import html
+import warnings
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ import numpy as np
 from fecolumn.engines.ending import lost
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.ecdf import Ecdf, ecdf
-from fecolumn.study.plan import setting_of
+from fecolumn.study.plan import record_of, setting_of
 from fecolumn.study.results.analysis import AnalysisResult
 from fecolumn.study.results.picture import Picture
 from fecolumn.study.sample import same_value
@@ -127,18 +128,32 @@ class StudyResult:
 
     def ecdf(self, choice: dict[str, Any] | None = None) -> Ecdf:
         """Empirical distribution of the largest displacement of the top [m]; what was lost counts
-        as larger than all.
+        as larger than all. Warns where `choice` leaves analyses of several settings in it.
 
         Raises
         ------
         InputError
             as of `chosen`, or nothing of it is done.
         """
-        summaries = [row["summary"] for row in self.chosen(choice)]
+        rows = self.chosen(choice)
+        summaries = [row["summary"] for row in rows]
         if not summaries:
             raise InputError(self.folder, "", None, "none of these analyses is done")
+        varied = [
+            key
+            for key in setting_of(self.axes)
+            if not all(same_value(row["axes"][key], rows[0]["axes"][key]) for row in rows)
+        ]
+        if varied:
+            warnings.warn(
+                f"{self.folder}: one distribution of all values of {', '.join(varied)}: "
+                "choose a value of each for the distribution of one setting",
+                stacklevel=2,
+            )
         return ecdf(
-            [summary["u_max_m"] for summary in summaries], [lost(summary) for summary in summaries]
+            [summary["u_max_m"] for summary in summaries],
+            [lost(summary) for summary in summaries],
+            records=[record_of(row["axes"]) for row in rows],
         )
 
     def analyses(self, choice: dict[str, Any] | None = None) -> list[AnalysisResult]:
