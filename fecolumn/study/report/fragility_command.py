@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fecolumn.statistics.fragility import Fragility, LogitFragility
     from fecolumn.statistics.intensity_table import FailedRuns, IntensityTable
-    from fecolumn.study.report.intensity import Intensities
 
 # What is asked of the summary of a run
 Happened = Callable[[dict[str, Any]], bool]
