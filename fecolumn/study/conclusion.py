@@ -248,7 +248,8 @@ def _differences(pairs: list[SettingPair]) -> str:
         )
         loosest = max(pairs, key=lambda other: other.bound)
         return (
-            f"By their CDFs of u_max {many} {apart} ({judged}); with {loosest.n} motions "
+            f"By their CDFs of u_max {many} {apart} ({judged}); with {loosest.records} "
+            f"{loosest.unit} "
             f"a distance up to {loosest.bound:.2f} cannot be excluded."
         )
     if len(pairs) == 1:

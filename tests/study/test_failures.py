@@ -6,7 +6,7 @@ import pytest
 from study_files import write_study
 
 from fecolumn.engines.dynamics.cuts import Stop
-from fecolumn.study.conclusion import conclusion, pairs_of, settings_of
+from fecolumn.study.conclusion import conclusion, pairs_of, records_of, settings_of
 from fecolumn.study.failures import commonest_reason, may_be_biased, what_to_do, why_failed
 from fecolumn.study.plan import read_plan
 from fecolumn.study.table import table_text, write_tables
@@ -106,7 +106,7 @@ def test_bound_of_a_distance_is_told_with_the_motions_of_its_pair(biased):
     for row in rows:  # 5 motions in common, although one setting has twelve
         if row["axes"]["integration.dt_s"] == 0.001:
             row |= dict(state="done", summary=row["summary"] or done)
-    (pair,) = pairs_of(settings_of(plan, rows))
+    (pair,) = pairs_of(settings_of(plan, rows), records_of(plan))
     assert pair.n == 5
     said = conclusion(plan, rows)
     assert f"with 5 motions a distance up to {pair.bound:.2f} cannot be excluded" in said
