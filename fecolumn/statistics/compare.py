@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from fecolumn.statistics.correlation import correlation
 from fecolumn.statistics.ecdf import censored, percentile
 from fecolumn.statistics.flips import contingency, flips, flips_p
-from fecolumn.statistics.records import Records, record_count
+from fecolumn.statistics.records import Records, counted_unit, record_count
 from fecolumn.statistics.two_sample import (
     anderson_darling,
     cramer_von_mises,
@@ -82,7 +82,7 @@ class Comparison:
     @property
     def unit(self) -> str:
         """What the statistics count."""
-        return "motions" if self.records_a == self.n_a else "records"
+        return counted_unit(self.n_a, self.records_a)
 
 
 def compare(

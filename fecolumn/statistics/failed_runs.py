@@ -9,9 +9,11 @@ missing outcomes: Manski 1989, The Journal of Human Resources 24).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fecolumn.statistics.ecdf import proportion_interval
+from fecolumn.statistics.ecdf import share_interval
+from fecolumn.statistics.records import Records
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,12 +43,8 @@ class RunCount:
 
     @property
     def interval(self) -> tuple[float, float]:
-        """95 % interval (Wilson) of the probability: its lower end with no failed run as an event,
-        its upper end with all of them.
-        """
-        low, _ = proportion_interval(self.k, self.runs)
-        _, high = proportion_interval(self.k + self.failed, self.runs)
-        return low, high
+        """95 % interval (Wilson) of the probability, as of `interval_of_all`."""
+        return interval_of_all([True] * self.k + [False] * (self.n - self.k), self.failed)
 
     @property
     def text(self) -> str:
@@ -56,3 +54,25 @@ class RunCount:
             return f"{100 * self.share:.1f} % [{low}, {high}]"
         least, most = (f"{100 * end:.1f}" for end in self.bounds)
         return f"between {least} and {most} % [{low}, {high}]"
+
+
+def interval_of_all(
+    happened: Sequence[bool], failed: int, records: Records = None
+) -> tuple[float, float]:
+    """95 % interval (Wilson) of a probability: its lower end with no failed run as an event, its
+    upper end with all of them.
+
+    Parameters
+    ----------
+    happened
+        (n,) of the runs that are done.
+    failed
+        number of those that failed; n + failed is at least 1.
+    records
+        (n,) record of each run that is done, None where each has its own, as every failed one is
+        taken to have.
+    """
+    of_all = None if records is None else [*records, *range(failed)]
+    low, _ = share_interval([*happened, *[False] * failed], of_all)
+    _, high = share_interval([*happened, *[True] * failed], of_all)
+    return low, high

@@ -50,6 +50,11 @@ def run_count(n: int, records: Records, what: str = "run") -> str:
     return text if of == n else f"{text} of {of} record{'' if of == 1 else 's'}"
 
 
+def counted_unit(n: int, count: int) -> str:
+    """What statistics of n motions of so many different records count, in words."""
+    return "motions" if count == n else "records"
+
+
 def by_record(values: ArrayLike, records: Records) -> NDArray[Any]:
     """Values of G records from those of their n runs, (G, ...): their sums times G / n.
 

@@ -34,7 +34,7 @@ class Sample:
     cut
         what is said of analyses that cut their motion short, see `ending.cut_short`.
     records
-        (n,) record of each run's motion; empty where each has its own.
+        (n,) record of each run's motion; None where each has its own.
     """
 
     source: str
@@ -46,7 +46,7 @@ class Sample:
     slid_off: NDArray[Any]
     missing: int = 0
     cut: str = ""
-    records: tuple[str, ...] = ()
+    records: tuple[str, ...] | None = None
 
     def take(self, motions: Iterable[str]) -> Sample:
         """The runs of some motions, in their order."""
@@ -62,5 +62,5 @@ class Sample:
             self.slid_off[places],
             self.missing,
             self.cut,
-            tuple(self.records[place] for place in places) if self.records else (),
+            tuple(self.records[place] for place in places) if self.records else None,
         )

@@ -281,7 +281,8 @@ def _show(
 ) -> int:
     """Tables and figure, or for a share only its count; 1 when some failed."""
     from fecolumn.engines.ending import cut_short
-    from fecolumn.study.failures import failed_of, what_to_do
+    from fecolumn.study.failures import what_to_do
+    from fecolumn.study.setting_rows import failed_of
     from fecolumn.study.store import DONE
 
     done = f"{sum(row['state'] == DONE for row in rows)} of {len(rows)} analyses done"

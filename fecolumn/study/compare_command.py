@@ -94,7 +94,7 @@ def main(args: argparse.Namespace) -> int:
         paired=paired,
         cap_m=cap_m,
         seed=args.seed,
-        records=(a.records or None, b.records or None),
+        records=(a.records, b.records),
     )
     names = _names(a, b)
     print(f"A  {a.source}: {names[0]}\nB  {b.source}: {names[1]}  (reference)")
@@ -200,7 +200,7 @@ def matched(a: Sample, b: Sample, unpaired: bool) -> tuple[Sample, Sample, bool,
         True,
         [
             *notes,
-            f"{run_count(len(common), a.take(common).records or None, 'motion')} in both, "
+            f"{run_count(len(common), a.take(common).records, 'motion')} in both, "
             "compared one by one" + (f"; left out: {', '.join(alone)}" if alone else ""),
         ],
     )
@@ -301,7 +301,7 @@ def _write(folder: Path, result: Comparison, a: Sample, b: Sample, paired: bool)
         correlation=result.correlation,
         path=folder / "comparison",
         slides=_slides(a, b),
-        records=(a.records or None, b.records or None),
+        records=(a.records, b.records),
     )
 
 
@@ -350,7 +350,7 @@ def _share(lost: NDArray[Any], sample: Sample) -> str:
     from fecolumn.statistics.ecdf import share_interval
 
     k, n = int(lost.sum()), lost.size
-    low, high = share_interval(lost, sample.records or None)
+    low, high = share_interval(lost, sample.records)
     return f"{100 * k / n:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
 
 

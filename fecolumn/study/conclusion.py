@@ -5,22 +5,22 @@ its settings differ, and how sure that is.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from fecolumn.engines.ending import lost
-from fecolumn.statistics.ecdf import censored, share_interval
+from fecolumn.statistics.ecdf import censored
 from fecolumn.statistics.equivalence import difference_shortfall, distance_bound, equality_shortfall
-from fecolumn.statistics.failed_runs import RunCount
+from fecolumn.statistics.failed_runs import RunCount, interval_of_all
 from fecolumn.statistics.holm import holm
-from fecolumn.statistics.records import record_count
+from fecolumn.statistics.records import counted_unit, record_count
 from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
 from fecolumn.study.alpha import ALPHA_KEY, alpha_note
-from fecolumn.study.failures import FailedSetting, failed_settings, may_be_biased, why_failed
+from fecolumn.study.failures import may_be_biased, why_failed
 from fecolumn.study.plan import Plan, member_of, record_of
+from fecolumn.study.setting_rows import SettingRows, rows_by_setting
 from fecolumn.study.store import DONE
 from fecolumn.study.substeps import SettingTables, substeps_note
 
@@ -52,7 +52,7 @@ class SettingPair:
     @property
     def unit(self) -> str:
         """What the statistics count."""
-        return "motions" if self.records == self.n else "records"
+        return counted_unit(self.n, self.records)
 
 
 def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
@@ -74,12 +74,15 @@ def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
         its ledger, as `complete_study` returns it.
     """
     settings = settings_of(plan, rows)
-    failed = failed_settings(plan, rows)
+    failed = [one for one in rows_by_setting(plan, rows) if one.failed]
     parts_made = " ".join(
         part for part in (substeps_note(plan.case, settings), _failures(failed)) if part
     )
     records = records_of(plan)
-    counts = [(len(runs), _count(runs, records)) for _, runs in settings]
+    counts = [
+        (len(runs), record_count([records[motion] for motion in runs], len(runs)))
+        for _, runs in settings
+    ]
     if max((count for _, count in counts), default=0) < _LEAST_MOTIONS:
         return parts_made
     pairs = pairs_of(settings, records)
@@ -108,24 +111,19 @@ def settings_of(plan: Plan, rows: list[dict[str, Any]]) -> list[SettingTables]:
     return list(groups.values())
 
 
-def _failures(failed: list[FailedSetting]) -> str:
+def _failures(failed: list[SettingRows]) -> str:
     """How many analyses of each setting failed, why, and what to do; "" where none did."""
     told = [
-        (f"at {_name(one.values)}" if one.values else "", len(one.rows), one.planned)
+        (f"at {_name(one.values)}" if one.values else "", len(one.failed), len(one.rows))
         for one in failed
     ]
-    why = why_failed([row for one in failed for row in one.rows])
+    why = why_failed([row for one in failed for row in one.failed])
     return f"{may_be_biased(told)} {why}".strip()
 
 
 def records_of(plan: Plan) -> MotionRecords:
     """Record of each motion of a plan, by `plan.member_of`."""
     return {member_of(analysis.values): record_of(analysis.values) for analysis in plan.analyses}
-
-
-def _count(motions: Iterable[tuple[str, ...]], records: MotionRecords) -> int:
-    """Number of different records of motions."""
-    return len({records[motion] for motion in motions})
 
 
 def _shared(runs: int, records: int) -> str:
@@ -139,10 +137,10 @@ def _shared(runs: int, records: int) -> str:
 
 
 def _overturns(
-    settings: list[SettingTables], records: MotionRecords, failed: list[FailedSetting]
+    settings: list[SettingTables], records: MotionRecords, failed: list[SettingRows]
 ) -> str:
     """P(overturn) of the setting, or of those in which it is least and most."""
-    not_known = {repr(one.values): len(one.rows) for one in failed}
+    not_known = {repr(one.values): len(one.failed) for one in failed}
 
     def counted(setting: SettingTables) -> RunCount:
         values, runs = setting
@@ -152,10 +150,8 @@ def _overturns(
     def said(setting: SettingTables) -> str:
         count, (values, runs) = counted(setting), setting
         fallen = [bool(run["overturned"]) for run in runs.values()]
-        # each failed run is taken to have a record of its own
-        own = [*(records[motion] for motion in runs), *range(count.failed)]
-        low, _ = share_interval([*fallen, *[False] * count.failed], own)
-        _, high = share_interval([*fallen, *[True] * count.failed], own)
+        own = [records[motion] for motion in runs]
+        low, high = interval_of_all(fallen, count.failed, own)
         where = f" at {_name(values)}" if len(settings) > 1 else ""
         more = f", {count.failed} failed" if count.failed else ""
         return (

@@ -1,16 +1,13 @@
-"""Analyses that failed: how many at each setting, why, and what to do about it."""
+"""Analyses that failed: why, what to do about it, and what a reader has to know of the others."""
 
 from __future__ import annotations
 
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from fecolumn.engines.dynamics.cuts import Stop
-from fecolumn.study.planned import PlannedStudy
-from fecolumn.study.store import FAILED
 
 #: What runs analyses again whose failure may have been one of the machine.
 RETRY = "add --retry-failed to run what failed again"
@@ -20,32 +17,6 @@ _KEY = re.compile(r"joints\.(\S+?)\.allowance_m")
 _TIME = re.compile(r"^t = \S+ s: ")
 _LISTED = 6  # settings
 _OF_CASE = ("AnalysisFailed: ", "InputError: ")  # nothing of the machine
-
-
-@dataclass(frozen=True, slots=True)
-class FailedSetting:
-    """Axis values of a setting, its analyses, and the rows of the ledger of those that failed."""
-
-    values: dict[str, Any]
-    planned: int
-    rows: list[dict[str, Any]]
-
-
-def failed_of(rows: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Rows of the ledger of analyses that failed."""
-    return [row for row in rows if row["state"] == FAILED]
-
-
-def failed_settings(plan: PlannedStudy, rows: Sequence[dict[str, Any]]) -> list[FailedSetting]:
-    """Settings of a study of which analyses failed, in the order of its file."""
-    states = {row["id"]: row for row in rows}
-    groups: dict[tuple[Any, ...], tuple[dict[str, Any], list[dict[str, Any]]]] = {}
-    for analysis in plan.analyses:
-        key = tuple(map(repr, analysis.combination.values()))
-        _, there = groups.setdefault(key, (analysis.combination, []))
-        there.append(states.get(analysis.id, {"state": ""}))
-    found = [FailedSetting(values, len(all_), failed_of(all_)) for values, all_ in groups.values()]
-    return [setting for setting in found if setting.rows]
 
 
 def may_be_biased(failed: Sequence[tuple[str, int, int]]) -> str:
@@ -97,8 +68,7 @@ def what_to_do(rows: Sequence[dict[str, Any]]) -> str:
 
 def commonest_reason(rows: Sequence[dict[str, Any]]) -> str:
     """The commonest reason of analyses that failed, without its instant and its details."""
-    counts = Counter(_plain(row.get("reason") or "no reason recorded") for row in rows)
-    return counts.most_common(1)[0][0]
+    return _commonest(rows)[0]
 
 
 def why_failed(rows: Sequence[dict[str, Any]]) -> str:
@@ -108,10 +78,15 @@ def why_failed(rows: Sequence[dict[str, Any]]) -> str:
     """
     if not rows:
         return ""
-    reason = commonest_reason(rows)
-    many = sum(_plain(row.get("reason") or "no reason recorded") == reason for row in rows)
+    reason, many = _commonest(rows)
     mostly = "" if many == len(rows) else f" ({many} of them)"
     return f"Reason of the failures{mostly}: {reason}. What to do: {what_to_do(rows)}."
+
+
+def _commonest(rows: Sequence[dict[str, Any]]) -> tuple[str, int]:
+    """The commonest reason, and how many analyses have it."""
+    counts = Counter(_plain(row.get("reason") or "no reason recorded") for row in rows)
+    return counts.most_common(1)[0]
 
 
 def _plain(reason: str) -> str:

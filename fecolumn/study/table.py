@@ -14,10 +14,9 @@ from fecolumn.statistics.ecdf import ecdf
 from fecolumn.statistics.ensemble import EnsembleSummary, summarize
 from fecolumn.statistics.records import Records
 from fecolumn.study.device_peaks import BOND_COLUMNS, LINK_COLUMNS, peaks_of_bonds, peaks_of_links
-from fecolumn.study.failures import failed_settings
-from fecolumn.study.plan import Plan, record_of
+from fecolumn.study.plan import Plan
 from fecolumn.study.planned import PlannedStudy
-from fecolumn.study.store import DONE
+from fecolumn.study.setting_rows import SettingRows, rows_by_setting
 
 # The axis told apart by lines where it is varied, all others by panels; where it is not, the axis
 # of most levels that a panel can show
@@ -52,42 +51,6 @@ _ANALYSES = (
 )
 
 
-def combinations(
-    plan: PlannedStudy, rows: list[dict[str, Any]]
-) -> list[tuple[dict[str, Any], list[dict[str, Any]], int]]:
-    """The ensembles of a study in the order of its file: axis values, summaries of what is done,
-    number planned.
-
-    Parameters
-    ----------
-    plan
-        the study.
-    rows
-        its ledger, as `complete_study` returns it.
-    """
-    states = {row["id"]: row for row in rows}
-    groups: dict[tuple[Any, ...], tuple[dict[str, Any], list[Any], list[Any]]] = {}
-    for analysis in plan.analyses:
-        values, done, planned = groups.setdefault(
-            tuple(map(repr, analysis.combination.values())), (analysis.combination, [], [])
-        )
-        planned.append(analysis.id)
-        if states[analysis.id]["state"] == DONE:
-            done.append(states[analysis.id]["summary"])
-    return [(values, done, len(planned)) for values, done, planned in groups.values()]
-
-
-def records_done(plan: PlannedStudy, rows: list[dict[str, Any]]) -> list[list[str]]:
-    """Record of each of the summaries of `combinations`, a list for each ensemble."""
-    states = {row["id"]: row for row in rows}
-    groups: dict[tuple[Any, ...], list[str]] = {}
-    for analysis in plan.analyses:
-        found = groups.setdefault(tuple(map(repr, analysis.combination.values())), [])
-        if states[analysis.id]["state"] == DONE:
-            found.append(record_of(states[analysis.id]["axes"]))
-    return list(groups.values())
-
-
 def ensemble(summaries: list[dict[str, Any]], records: Records = None) -> EnsembleSummary:
     """Row of one combination from the summaries of its analyses, at least one; their records."""
     return summarize(
@@ -105,12 +68,11 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
     structures with links links.csv, and with glued joints bonds.csv, too.
     """
     table, timing, links, bonds = [], [], [], []
-    failed, records = _failed(plan, rows), records_done(plan, rows)
-    for (values, done, planned), own in zip(combinations(plan, rows), records, strict=True):
-        lacking = failed.get(repr(values), 0)
-        texts = [str(value) for value in values.values()]
+    for setting in rows_by_setting(plan, rows):
+        planned, failed, done = len(setting.rows), len(setting.failed), setting.summaries
+        texts = [str(value) for value in setting.values.values()]
         if done:
-            row = ensemble(done, own)
+            row = ensemble(done, setting.records)
             shares = (row.p_overturn, *row.wilson, *row.exact)
             table.append(
                 [
@@ -123,7 +85,7 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
                     *(f"{u:.6e}" for u in (row.u16_m, row.u50_m, row.u84_m)),
                     f"{row.energy_closure_worst:.3e}",
                     row.records,
-                    lacking,
+                    failed,
                 ]
             )
             timing.append(
@@ -132,7 +94,7 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
             links += [[*texts, *_told(row)] for row in peaks_of_links(done)]
             bonds += [[*texts, *_told(row)] for row in peaks_of_bonds(done)]
         else:
-            table.append([*texts, planned, 0, *[""] * (len(_TABLE) - 3), lacking])
+            table.append([*texts, planned, 0, *[""] * (len(_TABLE) - 3), failed])
     axes = list(plan.analyses[0].combination)
     write_csv(Path(folder) / "table.csv", [[*axes, *_TABLE], *table])
     write_csv(Path(folder) / "timing.csv", [[*axes, "n", "s_per_step", "wall_s"], *timing])
@@ -146,9 +108,9 @@ def write_tables(plan: Plan, rows: list[dict[str, Any]], folder: Path | str) -> 
     )
 
 
-def _failed(plan: PlannedStudy, rows: list[dict[str, Any]]) -> dict[str, int]:
-    """Number of failed analyses by the axis values of a setting, as text."""
-    return {repr(one.values): len(one.rows) for one in failed_settings(plan, rows)}
+def _slid_off(settings: list[SettingRows]) -> bool:
+    """Whether anything slid off its base."""
+    return any(summary.get("slid_off") for one in settings for summary in one.summaries)
 
 
 def _told(row: list[Any]) -> list[Any]:
@@ -180,11 +142,10 @@ def table_text(plan: PlannedStudy, rows: list[dict[str, Any]]) -> str:
     slid off their base, analyses that failed, and records that several analyses share, are counted
     where there are any.
     """
-    levels, failed, records = varied(plan), _failed(plan, rows), records_done(plan, rows)
-    shared = any(len(set(own)) < len(own) for own in records)
-    off = any(
-        summary.get("slid_off") for _, done, _ in combinations(plan, rows) for summary in done
-    )
+    levels, settings = varied(plan), rows_by_setting(plan, rows)
+    shared = any(len(set(one.records)) < len(one.records) for one in settings)
+    failed = any(one.failed for one in settings)
+    off = _slid_off(settings)
     lines = [
         [
             *(key.split(".")[-1] for key in levels),
@@ -201,13 +162,14 @@ def table_text(plan: PlannedStudy, rows: list[dict[str, Any]]) -> str:
             "s/step",
         ]
     ]
-    for (values, done, planned), own in zip(combinations(plan, rows), records, strict=True):
-        texts = [str(values[key]) for key in levels]
-        lacking = [str(failed.get(repr(values), 0))] if failed else []
+    for setting in settings:
+        planned, done = len(setting.rows), setting.summaries
+        texts = [str(setting.values[key]) for key in levels]
+        lacking = [str(len(setting.failed))] if failed else []
         if not done:
             lines.append([*texts, f"0/{planned}", *["-"] * shared, *lacking] + ["-"] * (7 + off))
             continue
-        row = ensemble(done, own)
+        row = ensemble(done, setting.records)
         lines.append(
             [
                 *texts,
@@ -239,8 +201,9 @@ def write_figure(plan: PlannedStudy, rows: list[dict[str, Any]], folder: Path | 
     panels: dict[str, list[Any]] = {}
     levels = varied(plan)
     line = line_axis(levels)
-    records = records_done(plan, rows)
-    for (values, done, _), own in zip(combinations(plan, rows), records, strict=True):
+    settings = rows_by_setting(plan, rows)
+    for setting in settings:
+        values, done = setting.values, setting.summaries
         title = ", ".join(
             axis_text(key, value) for key, value in values.items() if key != line and key in levels
         )
@@ -249,14 +212,16 @@ def write_figure(plan: PlannedStudy, rows: list[dict[str, Any]], folder: Path | 
             panels.setdefault(title, []).append(
                 (
                     label,
-                    ecdf([s["u_max_m"] for s in done], [lost(s) for s in done], records=own),
+                    ecdf(
+                        [s["u_max_m"] for s in done],
+                        [lost(s) for s in done],
+                        records=setting.records,
+                    ),
                 )
             )
     if not panels:
         return []
-    off = any(
-        summary.get("slid_off") for _, done, _ in combinations(plan, rows) for summary in done
-    )
+    off = _slid_off(settings)
     return cdf_figure(
         [
             CdfPanel(title or plan.title, tuple(lines), P_LOST if off else P_OVERTURN)

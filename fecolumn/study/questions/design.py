@@ -22,10 +22,10 @@ from fecolumn.statistics.crossing import (
     grade,
 )
 from fecolumn.statistics.failed_runs import RunCount
-from fecolumn.study.failures import failed_of
 from fecolumn.study.outcome import DONE
 from fecolumn.study.plan import Plan, PlannedAnalysis, member_of
 from fecolumn.study.questions.limit import ShareLimit
+from fecolumn.study.setting_rows import failed_of
 
 
 def grid_of(low: float, high: float, kind: type, steps: int) -> list[float | int]:

@@ -165,8 +165,9 @@ class _NoneDone(RuntimeError):
 
 def _look(question: Any, args: argparse.Namespace, pool: Any) -> None:
     """Look at values until bisection wants no more."""
-    from fecolumn.study.failures import failed_of, what_to_do
+    from fecolumn.study.failures import what_to_do
     from fecolumn.study.run import complete_study
+    from fecolumn.study.setting_rows import failed_of
 
     # of two values the middle one is the last
     places = list(dict.fromkeys([0, len(question.grid) // 2, len(question.grid) - 1]))

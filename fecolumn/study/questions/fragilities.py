@@ -45,7 +45,8 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
     from fecolumn.foundation.schema import InputError
     from fecolumn.statistics.fragility import DegenerateData, bootstrap, lognormal
     from fecolumn.study.questions.limit import read_event
-    from fecolumn.study.report.fragility_command import runs_by_setting, warn_of_failed
+    from fecolumn.study.report.failed_fragility import warn_of_failed
+    from fecolumn.study.report.fragility_command import runs_by_setting
 
     if not Path(source).is_dir() and (found := _stated(source, measure)):
         return found
@@ -104,17 +105,13 @@ def _bounds(table: IntensityTable, measure: str) -> tuple[Any, ...]:
     DegenerateData
         some of what they might have been bounds no curve.
     """
-    from fecolumn.statistics.fragility import DegenerateData, bootstrap, lognormal
-    from fecolumn.study.report.fragility_command import refused_for_failed
+    from fecolumn.statistics.fragility import bootstrap, lognormal
+    from fecolumn.study.report.failed_fragility import over_failed
 
-    found = []
-    for other in table.bounds():
-        try:
-            drawn = bootstrap(other.measures[measure], other.overturned, lognormal, other.records)
-        except DegenerateData as error:
-            raise DegenerateData(refused_for_failed(table, error)) from None
-        found.append(drawn.parameters)
-    return tuple(found)
+    def draw(im: Any, beyond: Any, records: Any) -> Any:
+        return bootstrap(im, beyond, lognormal, records).parameters
+
+    return tuple(over_failed(table, measure, draw))
 
 
 def _stated(source: str, measure: str) -> dict[str, KnownFragility]:

@@ -97,9 +97,9 @@ def main(args: argparse.Namespace) -> int:
 def _tell(objects: Any, plan: Any, rows: Any, limits: Any, folder: Path) -> int:
     """Table, figure, page and sentence; 1 where analyses failed."""
     from fecolumn.foundation.atomic import write_bytes, write_csv
-    from fecolumn.study.failures import failed_of
     from fecolumn.study.questions.screening import answer_of, screened, screening_table
     from fecolumn.study.report.html import page_html
+    from fecolumn.study.setting_rows import failed_of
 
     ranked = screened(objects, plan, rows, limits)
     failed = failed_of(rows)

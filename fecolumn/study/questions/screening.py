@@ -9,11 +9,11 @@ from typing import Any
 from fecolumn.engines.ending import lost
 from fecolumn.statistics.ecdf import percentile
 from fecolumn.statistics.failed_runs import RunCount
-from fecolumn.study.failures import failed_of, failed_settings, why_failed
+from fecolumn.study.failures import why_failed
 from fecolumn.study.plan import Plan
 from fecolumn.study.questions.limit import LimitEvent
 from fecolumn.study.questions.objects import ListedObject
-from fecolumn.study.table import combinations
+from fecolumn.study.setting_rows import failed_of, rows_by_setting
 
 _NAMED = 5  # objects in a sentence
 
@@ -66,14 +66,11 @@ def screened(
         its ledger.
     """
     different = list(dict.fromkeys(one.values for one in objects))
-    failed = {repr(one.values): len(one.rows) for one in failed_settings(plan, rows)}
-    runs = {
-        values: (done, failed.get(repr(setting), 0))
-        for values, (setting, done, _) in zip(different, combinations(plan, rows), strict=True)
-    }
+    settings = dict(zip(different, rows_by_setting(plan, rows), strict=True))
     found = []
     for one in objects:
-        done, lacking = runs[one.values]
+        setting = settings[one.values]
+        done, lacking = setting.summaries, len(setting.failed)
         if not done and not lacking:
             continue
         counts = tuple(sum(limit.happened(run) for run in done) for limit in limits)

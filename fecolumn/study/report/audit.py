@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
-from fecolumn.study.failures import failed_of, may_be_biased, why_failed
+from fecolumn.study.failures import may_be_biased, why_failed
 from fecolumn.study.mixture import codes, listed
 from fecolumn.study.report.document import (
     Figure,
@@ -22,6 +22,7 @@ from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import axis_name, count, fixed, number
 from fecolumn.study.report.setting_columns import axis_columns
 from fecolumn.study.report.sweep import Setting, Sweep
+from fecolumn.study.setting_rows import failed_of
 from fecolumn.study.store import DONE, FAILED
 
 _CURVES, _FOLD = 7, 40

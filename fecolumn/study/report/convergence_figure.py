@@ -8,7 +8,7 @@ import numpy as np
 
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.statistics.convergence import cdf_convergence
-from fecolumn.statistics.records import record_count
+from fecolumn.statistics.records import counted_unit, record_count
 from fecolumn.study.report.document import PageBlock
 from fecolumn.study.report.gallery import Gallery
 from fecolumn.study.report.notation import fixed
@@ -25,7 +25,7 @@ def convergence_blocks(sweep: Sweep, gallery: Gallery) -> list[PageBlock]:
     total = record_count(records, u.size)
     if total < 10:
         return []
-    unit = "motions" if total == u.size else "records"
+    unit = counted_unit(u.size, total)
     sizes = np.unique(np.round(np.geomspace(3, total, 24)).astype(int))
     found = cdf_convergence(u, over, sizes, records=records)
     curves = [

@@ -5,14 +5,13 @@ or of a user's own runs.
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from fecolumn.statistics.fragility import Fragility, LogitFragility
-    from fecolumn.statistics.intensity_table import FailedRuns, IntensityTable
+    from fecolumn.statistics.intensity_table import IntensityTable
 
 # What is asked of the summary of a run
 Happened = Callable[[dict[str, Any]], bool]
@@ -118,10 +117,11 @@ def _of_study(
     from fecolumn.foundation.schema import InputError
     from fecolumn.motions.intensity import intensity_measures
     from fecolumn.statistics.intensity_table import IntensityTable
-    from fecolumn.study.failures import failed_of
-    from fecolumn.study.plan import ENSEMBLE_AXES
+    from fecolumn.study.plan import setting_of
+    from fecolumn.study.report.failed_fragility import failed_runs
     from fecolumn.study.report.intensity import NOT_FOUND, SCALE, Intensities, across_scales
     from fecolumn.study.report.sweep import read_sweep
+    from fecolumn.study.setting_rows import failed_of
 
     sweep, motions = read_sweep(folder), Intensities(Path(folder))
     known: dict[tuple[float, bytes], dict[str, float]] = {}
@@ -137,11 +137,7 @@ def _of_study(
 
     lacking: dict[str, list[dict[str, Any]]] = {}
     for row in failed_of(sweep.rows):
-        own = {
-            key: value
-            for key, value in row["axes"].items()
-            if key not in ENSEMBLE_AXES and key != SCALE
-        }
+        own = {key: value for key, value in setting_of(row["axes"]).items() if key != SCALE}
         lacking.setdefault(repr(own), []).append(row)
     sets = {}
     for values, settings in across_scales(sweep.done):
@@ -162,68 +158,9 @@ def _of_study(
             {name: np.array([one[name] for one in found]) for name in wanted},
             fallen,
             records if len(set(records)) < len(records) else None,
-            _failed(lacking.get(repr(values), []), records, wanted, measures),
+            failed_runs(lacking.get(repr(values), []), records, wanted, measures),
         )
     return sets
-
-
-def _failed(
-    rows: list[dict[str, Any]],
-    records: Any,
-    wanted: tuple[str, ...],
-    measures: Callable[[dict[str, Any]], dict[str, float]],
-) -> FailedRuns | None:
-    """Intensities of the analyses of a setting that failed, beside records of those that are done;
-    rows: of the ledger; measures: function of a run.
-    """
-    import numpy as np
-
-    from fecolumn.statistics.intensity_table import FailedRuns
-    from fecolumn.study.failures import why_failed
-    from fecolumn.study.plan import record_of
-    from fecolumn.study.report.intensity import NOT_FOUND
-
-    if not rows:
-        return None
-    runs, why = [{"case_id": row["id"]} for row in rows], why_failed(rows)
-    try:
-        found = [measures(run) for run in runs]
-        of_all = np.append(records, [record_of(row["axes"]) for row in rows])
-    except NOT_FOUND:  # it failed before its case was written
-        return FailedRuns(None, records, len(rows), why)
-    known = {name: np.array([one[name] for one in found]) for name in wanted}
-    return FailedRuns(known, of_all, len(rows), why)
-
-
-def warn_of_failed(label: str, table: IntensityTable, bounded: bool) -> None:
-    """Tell how many analyses of a setting failed, and whether the intervals of its answer reach
-    over what they might have been; nothing where none failed.
-    """
-    if not (failed := table.failed):
-        return
-    held = (
-        "the intervals reach from none of them beyond the limit to all"
-        if bounded and failed.measures is not None
-        else "what is told is of the others alone, and may be biased, as analyses may fail by "
-        "their response"
-    )
-    print(
-        f"fecolumn: warning: {label + ': ' if label else ''}{failed.count} of "
-        f"{failed.count + table.overturned.size} analyses failed: {held}. {failed.why}",
-        file=sys.stderr,
-    )
-
-
-def refused_for_failed(table: IntensityTable, error: Exception) -> str:
-    """Why a setting has no fragility whose interval reaches over what its failed analyses might
-    have been.
-    """
-    failed = table.failed
-    count, why = (failed.count, failed.why) if failed else (0, "")
-    return (
-        f"{count} of {count + table.overturned.size} analyses failed, and with none, or all, of "
-        f"them beyond the limit: {error}. {why}"
-    ).strip()
 
 
 def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
@@ -232,6 +169,7 @@ def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
     from fecolumn.foundation.atomic import write_csv
     from fecolumn.foundation.schema import InputError
     from fecolumn.statistics.fragility import DegenerateData, logit, lognormal
+    from fecolumn.study.report.failed_fragility import warn_of_failed
 
     names = list(next(iter(sets.values())).measures)
     curves: dict[str, Fragility] = {}
@@ -282,15 +220,11 @@ def _limits(table: IntensityTable, name: str, fit: Fragility) -> CurveEnds:
     DegenerateData
         some of what they might have been bounds no curve.
     """
-    from fecolumn.statistics.fragility import DegenerateData, lognormal
+    from fecolumn.statistics.fragility import lognormal
+    from fecolumn.study.report.failed_fragility import over_failed
 
-    fits = [fit]
-    for other in table.bounds():
-        try:
-            fits.append(lognormal(other.measures[name], other.overturned, other.records))
-        except DegenerateData as error:
-            raise DegenerateData(refused_for_failed(table, error)) from None
-    medians, betas = zip(*((one.median_interval(), one.beta_interval()) for one in fits))
+    found = [fit, *over_failed(table, name, lognormal)]
+    medians, betas = zip(*((one.median_interval(), one.beta_interval()) for one in found))
     return (
         (min(low for low, _ in medians), max(high for _, high in medians)),
         (min(low for low, _ in betas), max(high for _, high in betas)),

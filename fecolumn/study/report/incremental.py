@@ -16,7 +16,7 @@ from fecolumn.pictures.figures.incremental_figure import incremental_figure
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.statistics.fragility import DegenerateData, Fragility
 from fecolumn.statistics.incremental import IncrementalCurve, first_overturning, incremental_curves
-from fecolumn.statistics.records import run_count
+from fecolumn.statistics.records import counted_unit, run_count
 from fecolumn.study.report.document import PageBlock, PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.fragility import LABEL, curve_axis
 from fecolumn.study.report.gallery import Gallery
@@ -58,7 +58,7 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Pag
         return None
     at = sweep.at(here.values)
     blocks: list[PageBlock] = []
-    once = "motion" if len(set(here.records)) == len(here.curves) else "record"
+    once = counted_unit(len(here.curves), len(set(here.records))).removesuffix("s")
     again = sum(curve.stands_again for curve in here.curves)
     fallen = sum(np.isfinite(curve.first[1]) for curve in here.curves)
     levels = max(len(curve.im) for curve in here.curves)
