@@ -3,14 +3,17 @@ or as they come.
 
 Runs of one motion scaled to several levels are not independent: their number overstates what is
 known. `groups` tells the motion of each run; the curve stays, and its intervals know of the motions
-(`fit_binary`). `bootstrap` with `groups` draws whole motions. See `statistics.incremental` for the
-intensity at which each motion first overturns the column.
+(`fit_binary`). See `statistics.incremental` for the intensity at which each motion first overturns
+the column.
+
+Intervals are those of the line a + b ln(im) that is the argument of Phi, with a slope b >= 0, as
+its coefficients are nearly normal and the median, -a/b in logarithms, is not. Where the slope is
+not told from 0 the median is not bounded, and its interval ends at 0 or inf.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,16 +25,18 @@ from fecolumn.statistics.bands import normal_quantile
 from fecolumn.statistics.binary_regression import DegenerateData, fit_binary
 
 __all__ = [
-    "Bootstrap",
     "DegenerateData",
     "Fragility",
     "LogitFragility",
     "Probability",
-    "bootstrap",
     "lognormal",
     "logit",
     "log_columns",
+    "median_of",
 ]
+
+# Logarithm that exp turns into a number: doubles end at exp(709.8)
+_LARGEST_LOG = 700.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,17 +86,49 @@ class Fragility:
         """(median, beta)."""
         return np.array([self.median, self.beta])
 
+    def quantile(self, confidence: float) -> float:
+        """Half width of an interval over the standard error."""
+        return _quantile(self.clusters, confidence)
+
     def median_interval(self, confidence: float = 0.95) -> tuple[float, float]:
-        """Interval of the median, normal in its logarithm."""
-        reach = math.exp(_quantile(self.clusters, confidence) * math.sqrt(self.covariance[0, 0]))
-        return self.median / reach, self.median * reach
+        """Interval of the median: intensities at which the band of `probability` holds 1/2.
+
+        Fieller (1954), Journal of the Royal Statistical Society B 16, of the ratio -a/b, with the
+        part of b >= 0: from 0 or to inf where the slope is not told from 0.
+        """
+        (v, c), (_, w) = self.quantile(confidence) ** 2 * self.covariance / self.beta**2
+        square = c * c + (1 - w) * v
+        if square <= 0:
+            return 0.0, math.inf
+        # z^2 <= v + 2 c z + w z^2, of z = ln(end / median) / beta
+        root, reach = math.sqrt(square), self.beta * v
+        low = self.median * _exp(-reach / (root + c)) if root + c > 0 else 0.0
+        high = self.median * _exp(reach / (root - c)) if root - c > 0 else math.inf
+        return low, high
 
     def beta_interval(self, confidence: float = 0.95) -> tuple[float, float]:
-        """Interval of beta, normal in its logarithm, so never below 0."""
-        reach = math.exp(
-            _quantile(self.clusters, confidence) * math.sqrt(self.covariance[1, 1]) / self.beta
+        """Interval of beta, that of the slope 1/beta turned over; inf where that reaches 0."""
+        share = self.quantile(confidence) * math.sqrt(self.covariance[1, 1]) / self.beta
+        return self.beta / (1 + share), self.beta / (1 - share) if share < 1 else math.inf
+
+    def region(self, confidence: float = 0.95, number: int = 361) -> NDArray[Any]:
+        """Coefficients (number, 2) of a + b ln(im), the argument of Phi, around the ellipse whose
+        least and largest value of any one quantity are the ends of that quantity's interval, as far
+        as b >= 0.
+
+        Venzon & Moolgavkar (1988), Applied Statistics 37, with ln L as its parabola.
+        """
+        m, slope = math.log(self.median), 1 / self.beta
+        to_line = np.array([[-slope, m * slope**2], [0.0, -(slope**2)]])
+        (aa, ab), (_, bb) = to_line @ self.covariance @ to_line.T
+        reach = self.quantile(confidence) * math.sqrt(bb)
+        turn = math.acos(-slope / reach) if slope < reach else math.pi
+        angle = np.linspace(-turn, turn, number)
+        b = np.maximum(slope + reach * np.cos(angle), 0.0)
+        own = math.sqrt(max(aa * bb - ab * ab, 0.0))  # of a, besides what goes with b
+        return np.column_stack(
+            [-m * slope + reach / bb * (ab * np.cos(angle) + own * np.sin(angle)), b]
         )
-        return self.beta / reach, self.beta * reach
 
     def probability(self, im: ArrayLike, confidence: float = 0.95) -> Probability:
         """P(overturn) at intensities im (any shape), its band by the delta method on the scale of
@@ -99,7 +136,7 @@ class Fragility:
         """
         eta = np.log(np.asarray(im, float) / self.median) / self.beta
         gradient = np.stack([-np.ones_like(eta), -eta], axis=-1) / self.beta
-        reach = _quantile(self.clusters, confidence) * _deviation(gradient, self.covariance)
+        reach = self.quantile(confidence) * _deviation(gradient, self.covariance)
         return Probability(ndtr(eta), ndtr(eta - reach), ndtr(eta + reach))
 
 
@@ -152,25 +189,25 @@ def _quantile(clusters: int | None, confidence: float) -> float:
     return float(stdtrit(clusters - 1, (1 + confidence) / 2))
 
 
-@dataclass(frozen=True, slots=True)
-class Bootstrap:
-    """Parameters refitted to runs drawn anew.
+def median_of(a: float, b: float) -> float:
+    """Median exp(-a/b) of Phi(a + b ln im).
 
-    Attributes
-    ----------
-    parameters
-        (r, p) of the samples that could be fitted.
-    lower, upper
-        (p,) percentile interval.
-    refused
-        samples that had no maximum; many of them mean that the data hardly bound the curve, and
-        that the interval is too narrow.
+    Raises
+    ------
+    DegenerateData
+        no number holds it, so flat is the line.
     """
+    if abs(a) > _LARGEST_LOG * b:
+        raise DegenerateData(
+            "overturning hardly depends on the intensity measure: half would overturn at no "
+            "intensity that a number can tell"
+        )
+    return math.exp(-a / b)
 
-    parameters: NDArray[Any]
-    lower: NDArray[Any]
-    upper: NDArray[Any]
-    refused: int
+
+def _exp(x: float) -> float:
+    """exp, inf beyond the largest number."""
+    return math.exp(x) if x < _LARGEST_LOG else math.inf
 
 
 def lognormal(im: ArrayLike, overturned: ArrayLike, groups: ArrayLike | None = None) -> Fragility:
@@ -211,7 +248,7 @@ def lognormal(im: ArrayLike, overturned: ArrayLike, groups: ArrayLike | None = N
         )
     to_shape = np.array([[-1 / b, a / b**2], [0.0, -1 / b**2]])
     return Fragility(
-        math.exp(-a / b),
+        median_of(a, b),
         1 / b,
         to_shape @ covariance @ to_shape.T,
         float(fit.llf),
@@ -251,64 +288,6 @@ def logit(im: ArrayLike, overturned: ArrayLike, groups: ArrayLike | None = None)
         clusters,
         fit,
     )
-
-
-def bootstrap(
-    im: ArrayLike,
-    overturned: ArrayLike,
-    fit: Callable[[ArrayLike, ArrayLike], Fragility | LogitFragility] = lognormal,
-    groups: ArrayLike | None = None,
-    confidence: float = 0.95,
-    resamples: int = 500,
-    seed: int = 0,
-) -> Bootstrap:
-    """Percentile intervals of the parameters by drawing runs, or whole groups of them, with
-    replacement.
-
-    Parameters
-    ----------
-    im, overturned
-        as of `fit`.
-    fit
-        `lognormal` or `logit`.
-    groups
-        (n,) motion of each run, where motions come at several scales; None draws single runs.
-    confidence
-        level, in (0, 1).
-    resamples
-        samples drawn.
-    seed
-        of the generator.
-
-    Raises
-    ------
-    DegenerateData
-        fewer than half of the samples can be fitted.
-    """
-    im, overturned = np.asarray(im, float), np.asarray(overturned, bool)
-    labels = (
-        np.arange(overturned.size)
-        if groups is None
-        else np.unique(np.asarray(groups), return_inverse=True)[1]
-    )
-    members = [np.flatnonzero(labels == label) for label in range(labels.max() + 1)]
-    rng, fitted = np.random.default_rng(seed), []
-    for _ in range(resamples):
-        rows = np.concatenate(
-            [members[label] for label in rng.integers(0, len(members), len(members))]
-        )
-        try:
-            fitted.append(fit(im[rows], overturned[rows]).parameters)
-        except DegenerateData:
-            pass
-    if 2 * len(fitted) < resamples:
-        raise DegenerateData(
-            f"{resamples - len(fitted)} of {resamples} samples drawn anew have no "
-            "maximum: the data do not bound the curve"
-        )
-    tail, parameters = (1 - confidence) / 2, np.array(fitted)
-    lower, upper = np.quantile(parameters, (tail, 1 - tail), axis=0)
-    return Bootstrap(parameters, lower, upper, resamples - len(fitted))
 
 
 def log_columns(im: ArrayLike, k: int | None = None) -> NDArray[Any]:

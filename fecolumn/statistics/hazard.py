@@ -116,8 +116,16 @@ def annual_frequency(curve: HazardCurve, probabilities: Probabilities) -> Annual
 
 def lognormal_probabilities(medians: ArrayLike, betas: ArrayLike) -> Probabilities:
     """P of lognormal fragilities of r medians and dispersions."""
-    median, beta = (np.atleast_1d(np.asarray(one, float))[:, None] for one in (medians, betas))
-    return lambda im: np.asarray(ndtr(np.log(np.asarray(im) / median) / beta))
+    median, beta = (np.atleast_1d(np.asarray(one, float)) for one in (medians, betas))
+    return probit_probabilities(
+        np.column_stack([-np.log(median), np.ones_like(beta)]) / beta[:, None]
+    )
+
+
+def probit_probabilities(lines: ArrayLike) -> Probabilities:
+    """P = Phi(a + b ln im) of r lines (a, b), lines (r, 2)."""
+    a, b = (one[:, None] for one in np.asarray(lines, float).T)
+    return lambda im: np.asarray(ndtr(a + b * np.log(np.asarray(im))))
 
 
 def probability_in_years(frequency: ArrayLike, years: float) -> NDArray[Any]:
@@ -125,14 +133,18 @@ def probability_in_years(frequency: ArrayLike, years: float) -> NDArray[Any]:
     return np.asarray(-np.expm1(-np.asarray(frequency, float) * years))
 
 
-def drawn_parameters(
-    median: tuple[float, float, float], beta: tuple[float, float, float], number: int = 2000
+def stated_region(
+    median: tuple[float, float, float], beta: tuple[float, float, float], number: int = 361
 ) -> NDArray[Any]:
-    """Medians and dispersions (number, 2) drawn from a fragility's stated 95 % intervals (value,
-    low, high), lognormal and independent of one another, with a seed of its own.
+    """As `Fragility.region`, of a fragility of which value, low and high of median and dispersion
+    are stated: lines (number, 2), ln median and 1/beta taken as independent of one another.
     """
-    from fecolumn.statistics.bands import normal_quantile
-
-    draws = np.random.default_rng(0).standard_normal((number, 2))
-    spread = [math.log(high / low) / (2 * normal_quantile(0.95)) for _, low, high in (median, beta)]
-    return np.asarray(np.array([median[0], beta[0]]) * np.exp(draws * spread))
+    angle = np.linspace(-math.pi, math.pi, number)
+    m, b = (
+        value + np.where(part > 0, high - value, value - low) * part
+        for (value, low, high), part in (
+            ([math.log(one) for one in median], np.cos(angle)),
+            ((1 / beta[0], 1 / beta[2], 1 / beta[1]), np.sin(angle)),
+        )
+    )
+    return np.column_stack([-m * b, b])

@@ -13,6 +13,7 @@ an intensity.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import log_ndtr
 
 from fecolumn.statistics.binary_regression import DegenerateData, maximize
-from fecolumn.statistics.fragility import Fragility
+from fecolumn.statistics.fragility import Fragility, median_of
 from fecolumn.statistics.records import Records, record_numbers
 
 FRACTILES = (0.16, 0.5, 0.84)
@@ -82,6 +83,28 @@ class IncrementalCurve:
         )
 
 
+@dataclass(frozen=True, slots=True)
+class FirstOverturning(Fragility):
+    """Lognormal distribution of the intensity of first overturning.
+
+    What is known of each motion lies about its own intensity, so that median and dispersion are
+    those of a sample, and normal in their logarithms.
+    """
+
+    def median_interval(self, confidence: float = 0.95) -> tuple[float, float]:
+        """Student's interval of the mean logarithm."""
+        return self._around(self.median, math.sqrt(self.covariance[0, 0]), confidence)
+
+    def beta_interval(self, confidence: float = 0.95) -> tuple[float, float]:
+        """Interval of beta, normal in its logarithm."""
+        return self._around(self.beta, math.sqrt(self.covariance[1, 1]) / self.beta, confidence)
+
+    def _around(self, value: float, error: float, confidence: float) -> tuple[float, float]:
+        with np.errstate(over="ignore"):
+            reach = float(np.exp(self.quantile(confidence) * error))
+        return value / reach, value * reach
+
+
 def incremental_curves(
     motion: ArrayLike, im: ArrayLike, u_max: ArrayLike, overturned: ArrayLike
 ) -> list[IncrementalCurve]:
@@ -132,7 +155,9 @@ def fractile_curves(
     return np.where(np.isnan(u).any(axis=0), np.nan, u[rank])
 
 
-def first_overturning(lower: ArrayLike, upper: ArrayLike, records: Records = None) -> Fragility:
+def first_overturning(
+    lower: ArrayLike, upper: ArrayLike, records: Records = None
+) -> FirstOverturning:
     """Lognormal distribution of the intensity of first overturning, by maximum likelihood of what
     is known of each motion.
 
@@ -213,8 +238,8 @@ def first_overturning(lower: ArrayLike, upper: ArrayLike, records: Records = Non
         likelihood, np.array([1.0, middle.mean()]) / beta, inside=lambda q: bool(q[0] > 0)
     )
     to_shape = np.array([[-q[1] / q[0] ** 2, 1 / q[0]], [-1 / q[0] ** 2, 0.0]])
-    return Fragility(
-        float(np.exp(q[1] / q[0])),
+    return FirstOverturning(
+        median_of(-q[1], q[0]),
         float(1 / q[0]),
         count / (count - 1) * to_shape @ covariance @ to_shape.T,
         loglik,

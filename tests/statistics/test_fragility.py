@@ -11,7 +11,7 @@ from scipy.special import expit
 from scipy.stats import norm
 
 from fecolumn.statistics.displacement_fragility import displacement
-from fecolumn.statistics.fragility import DegenerateData, bootstrap, logit, lognormal
+from fecolumn.statistics.fragility import DegenerateData, Fragility, logit, lognormal
 
 MEDIAN, BETA = 1.3, 0.4
 
@@ -117,19 +117,6 @@ def test_logit_of_two_measures_recovers_both_and_tells_the_useless_one():
     assert np.mean(np.array(useless) > 3.84) > 0.99  # chi-square, one degree of freedom, 95 %
 
 
-def test_bootstrap_agrees_with_the_hessian_for_independent_runs():
-    im, overturned = stripes(np.random.default_rng(4), 80)
-    fit, drawn = lognormal(im, overturned), bootstrap(im, overturned, resamples=400, seed=1)
-    assert drawn.refused == 0
-    np.testing.assert_allclose(
-        drawn.upper - drawn.lower,
-        [np.subtract(*fit.median_interval()[::-1]), np.subtract(*fit.beta_interval()[::-1])],
-        rtol=0.2,
-    )
-    one, other = (bootstrap(im, overturned, logit, resamples=20, seed=5).parameters for _ in "ab")
-    np.testing.assert_array_equal(one, other)
-
-
 def test_runs_of_one_motion_at_several_scales_know_less_than_their_number_says():
     """40 motions, each with a capacity of its own, at eight scales: 320 runs, 40 pieces of
     knowledge.
@@ -139,12 +126,120 @@ def test_runs_of_one_motion_at_several_scales_know_less_than_their_number_says()
     im = np.tile(np.linspace(0.4, 2.6, 8), 40)
     motion = np.repeat(np.arange(40), 8)
     overturned = im > capacity[motion]
-    runs, motions = (
-        bootstrap(im, overturned, groups=groups, resamples=300, seed=1) for groups in (None, motion)
-    )
+    width = {}
+    for name, groups in (("runs", None), ("motions", motion)):
+        low, high = lognormal(im, overturned, groups).median_interval()
+        width[name] = math.log(high / low) / 2
     # mean of 40 capacities: ln median to +- 1.96 * 0.4 / sqrt(40) = 0.124
-    assert np.log(motions.upper[0] / motions.lower[0]) / 2 == pytest.approx(0.124, rel=0.35)
-    assert np.log(runs.upper[0] / runs.lower[0]) < 0.7 * np.log(motions.upper[0] / motions.lower[0])
+    assert width["motions"] == pytest.approx(0.124, rel=0.35)
+    assert width["runs"] < 0.7 * width["motions"]
+
+
+def refitted(im, overturned, groups, rng, samples=400):
+    """Parameters (samples, 2) of lognormal() on whole groups drawn with replacement."""
+    members, found = [np.flatnonzero(groups == one) for one in np.unique(groups)], []
+    for _ in range(samples):
+        rows = np.concatenate([members[k] for k in rng.integers(0, len(members), len(members))])
+        found.append(lognormal(im[rows], overturned[rows]).parameters)
+    return np.array(found)
+
+
+def test_intervals_are_those_of_samples_drawn_anew():
+    im, overturned = stripes(np.random.default_rng(4), 80)
+    fit = lognormal(im, overturned)
+    drawn = refitted(im, overturned, np.arange(im.size), np.random.default_rng(1))
+    np.testing.assert_allclose(
+        np.quantile(drawn, (0.025, 0.975), axis=0).T,
+        [fit.median_interval(), fit.beta_interval()],
+        rtol=0.03,
+    )
+
+
+def curve_of(median, beta, slope_error, correlation=0.0, height_error=1.0, clusters=None):
+    """Fragility with standard errors of a and b of a + b ln(im) as they are given."""
+    a, b = -math.log(median) / beta, 1 / beta
+    covariance = np.array(
+        [
+            [height_error**2, correlation * height_error * slope_error],
+            [correlation * height_error * slope_error, slope_error**2],
+        ]
+    )
+    to_shape = np.array([[-1 / b, a / b**2], [0.0, -1 / b**2]])
+    shape = to_shape @ covariance @ to_shape.T
+    return Fragility(median, beta, shape, 0.0, 50, 20, clusters), np.array([a, b]), covariance
+
+
+CURVES = [
+    (1.3, 0.4, 0.5, -0.6, 0.3, None),
+    (1.3, 0.4, 1.2, 0.9, 1.0, None),
+    (0.02, 0.4, 1.5, 0.2, 2.0, 12),  # slope not told from 0, and the height hardly
+    (30.0, 0.8, 0.7, 0.0, 0.2, None),  # not told from 0, far above what was run
+    (0.03, 0.8, 0.7, 0.0, 0.2, None),
+    (1.0, 0.5, 1.2, 0.3, 3.0, None),
+]
+
+
+@pytest.mark.parametrize("data", CURVES)
+def test_ends_of_the_median_are_where_the_band_crosses_one_half(data):
+    fit = curve_of(*data)[0]
+    low, high = fit.median_interval()
+    assert low < fit.median < high
+    for end, side in ((low, "upper"), (high, "lower")):
+        if 0 < end < math.inf:
+            assert getattr(fit.probability([end]), side)[0] == pytest.approx(0.5, abs=1e-9)
+    inside = np.exp(np.linspace(math.log(max(low, 1e-60)), math.log(min(high, 1e60)), 999))[1:-1]
+    band = fit.probability(inside)
+    assert (band.lower <= 0.5).all() and (band.upper >= 0.5).all()
+
+
+@pytest.mark.parametrize("data", CURVES)
+def test_region_is_the_part_of_the_ellipse_that_does_not_fall(data):
+    fit, best, covariance = curve_of(*data)
+    quantile = 1.959964 if data[-1] is None else 2.200985  # Student's t of 11
+    off = fit.region() - best
+    distance = np.einsum("ni,ij,nj->n", off, np.linalg.inv(covariance), off)
+    np.testing.assert_allclose(distance, quantile**2, rtol=1e-5)
+    slopes = fit.region()[:, 1]
+    least = best[1] - quantile * data[2]
+    assert slopes.max() == pytest.approx(best[1] + quantile * data[2], rel=1e-4)
+    assert slopes.min() == pytest.approx(max(least, 0.0), abs=1e-3)
+    low, high = fit.beta_interval()
+    assert low == pytest.approx(1 / slopes.max(), rel=1e-3)
+    assert (high == math.inf) == (least <= 0)
+
+
+def test_medians_that_are_not_bounded_have_intervals_and_no_overflow():
+    """Of a slope that is hardly known: exp of the error of the logarithm is beyond any number."""
+    for slope_error in (1.0, 1e2, 1e4):
+        fit, *_ = curve_of(5.0, 50.0, slope_error, clusters=2)
+        low, high = fit.median_interval()
+        assert 0 <= low < 5.0 < high <= math.inf
+        assert np.isfinite(fit.region()).all()
+
+
+def test_line_too_flat_for_a_median_is_refused():
+    """Of 4,000 runs at each of two intensities, 1,000 and 1,001 overturn."""
+    overturned = np.tile(np.arange(4000), 2) < np.repeat([1000, 1001], 4000)
+    low, high = lognormal(np.repeat([1.0, 1.01], 4000), overturned).median_interval()
+    assert 1 < low < high == math.inf
+    with pytest.raises(DegenerateData, match="hardly depends on the intensity"):
+        lognormal(np.repeat([1.0, 10.0], 4000), overturned)
+
+
+@pytest.mark.parametrize("n, median, beta", [(40, 0.4, 0.4), (115, 1.0, 0.4), (115, 1.5, 0.5)])
+def test_intervals_of_few_runs_hold_the_truth_as_often_as_they_say(n, median, beta):
+    """A normal interval of the logarithm of the median held it in 92, 92 and 87 of 100."""
+    rng, held = np.random.default_rng(7), []
+    while len(held) < 500:
+        im = rng.lognormal(math.log(0.4), 0.6, n)
+        try:
+            fit = lognormal(im, rng.normal(size=n) < np.log(im / median) / beta)
+        except DegenerateData:
+            continue
+        ends = fit.median_interval(), fit.beta_interval()
+        held.append([low < one < high for (low, high), one in zip(ends, (median, beta))])
+    error = 3 * math.sqrt(0.05 * 0.95 / 500)
+    assert (np.mean(held, axis=0) >= 0.95 - error).all()
 
 
 @pytest.mark.parametrize("fit", [lognormal, logit])

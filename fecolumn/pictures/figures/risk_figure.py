@@ -8,7 +8,12 @@ from typing import Any
 import numpy as np
 
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
-from fecolumn.statistics.hazard import AnnualFrequency, HazardCurve, lognormal_probabilities
+from fecolumn.statistics.hazard import (
+    AnnualFrequency,
+    HazardCurve,
+    lognormal_probabilities,
+    probit_probabilities,
+)
 
 
 def risk_figure(
@@ -19,7 +24,7 @@ def risk_figure(
     Parameters
     ----------
     fragility
-        has median, beta, and (r, 2) of them `drawn`.
+        has median, beta, and `regions` of lines (r, 2), as `KnownFragility`.
     names
         the limit state in words, and the label of the intensity.
     path
@@ -28,8 +33,8 @@ def risk_figure(
     limit, label = names
     grid = np.exp(np.linspace(np.log(curve.im[0]), np.log(curve.im[-1]), 200))
     p = lognormal_probabilities(fragility.median, fragility.beta)(grid)[0]
-    drawn = lognormal_probabilities(*np.asarray(fragility.drawn).T)(grid)
-    band = tuple(np.quantile(drawn, (0.025, 0.975), axis=0))
+    around = np.concatenate([probit_probabilities(lines)(grid) for lines in fragility.regions])
+    band = around.min(axis=0), around.max(axis=0)
     share = found.parts[0] / max(found.value[0], 1e-300)
 
     def bars(axes: Any) -> None:

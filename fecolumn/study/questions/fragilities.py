@@ -1,16 +1,16 @@
-"""Fragilities for `fecolumn risk`: of runs, with a bootstrap, or as they are stated in a table."""
+"""Fragilities for `fecolumn risk`: of runs, or as they are stated in a table."""
 
 from __future__ import annotations
 
 import math
 import re
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from fecolumn.statistics.intensity_table import IntensityTable
+    from numpy.typing import NDArray
+
 
 # Columns of the interval of the median: now, and in earlier versions
 _ENDS_OF_MEDIAN = (("median_low", "median_high"), ("low", "high"))
@@ -18,19 +18,19 @@ _ENDS_OF_MEDIAN = (("median_low", "median_high"), ("low", "high"))
 
 @dataclass(frozen=True, slots=True)
 class KnownFragility:
-    """A lognormal fragility: its median and dispersion, r of them (r, 2) that say how well they are
-    known, and the least and the largest intensity of its runs, None where they are not known.
+    """A lognormal fragility: its median and dispersion, how well they are known, `regions` (r, 2)
+    as of `Fragility.region`, and the least and the largest intensity of its runs, None where they
+    are not known.
 
-    Where runs failed, `failed` is their number, and `bounds` has the same (r, 2) with none and with
+    Where runs failed, `failed` is their number, and there are two more regions, with none and with
     all of them beyond the limit.
     """
 
     median: float
     beta: float
-    drawn: Any
+    regions: tuple[NDArray[Any], ...]
     runs: tuple[float, float] | None = None
     failed: int = 0
-    bounds: tuple[Any, ...] = ()
 
 
 def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFragility]:
@@ -43,9 +43,9 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
         the source cannot be used, or bounds no fragility.
     """
     from fecolumn.foundation.schema import InputError
-    from fecolumn.statistics.fragility import DegenerateData, bootstrap, lognormal
+    from fecolumn.statistics.fragility import DegenerateData, lognormal
     from fecolumn.study.questions.limit import read_event
-    from fecolumn.study.report.failed_fragility import warn_of_failed
+    from fecolumn.study.report.failed_fragility import over_failed, warn_of_failed
     from fecolumn.study.report.fragility_command import runs_by_setting
 
     if not Path(source).is_dir() and (found := _stated(source, measure)):
@@ -57,8 +57,7 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
         im = table.measures[measure]
         try:
             fit = lognormal(im, table.overturned, table.records)
-            drawn = bootstrap(im, table.overturned, lognormal, table.records)
-            bounds = _bounds(table, measure)
+            bounds = [one.region() for one in over_failed(table, measure, lognormal)]
         except DegenerateData as error:
             told = str(error)
             if event.quantity != "overturn":
@@ -70,19 +69,11 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
         fitted[label] = KnownFragility(
             fit.median,
             fit.beta,
-            drawn.parameters,
+            (fit.region(), *bounds),
             (float(im.min()), float(im.max())),
             table.failed.count if table.failed else 0,
-            bounds,
         )
         warn_of_failed(label, table, bounded=True)
-        if drawn.refused > 0.05 * (drawn.refused + len(drawn.parameters)):
-            print(
-                f"fecolumn: warning: {label + ': ' if label else ''}{drawn.refused} of "
-                f"{drawn.refused + len(drawn.parameters)} samples of the bootstrap bound no "
-                "fragility: the interval is too narrow; more runs are needed",
-                file=sys.stderr,
-            )
     for label, reason in refused.items():
         print(f"{label + ': ' if label else ''}no fragility: {reason}")
     if not fitted:
@@ -96,29 +87,11 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
     return fitted
 
 
-def _bounds(table: IntensityTable, measure: str) -> tuple[Any, ...]:
-    """Parameters (r, 2) drawn with none and with all of the failed runs beyond the limit; none
-    where no run failed.
-
-    Raises
-    ------
-    DegenerateData
-        some of what they might have been bounds no curve.
-    """
-    from fecolumn.statistics.fragility import bootstrap, lognormal
-    from fecolumn.study.report.failed_fragility import over_failed
-
-    def draw(im: Any, beyond: Any, records: Any) -> Any:
-        return bootstrap(im, beyond, lognormal, records).parameters
-
-    return tuple(over_failed(table, measure, draw))
-
-
 def _stated(source: str, measure: str) -> dict[str, KnownFragility]:
     """Fragilities of a file that `fecolumn fragility` wrote; none of another table."""
     from fecolumn.foundation.schema import InputError
     from fecolumn.statistics.csv_table import check_row, read_csv
-    from fecolumn.statistics.hazard import drawn_parameters
+    from fecolumn.statistics.hazard import stated_region
 
     header, rows = read_csv(Path(source), "runs, or what fecolumn fragility writes")
     ends = next((ends for ends in _ENDS_OF_MEDIAN if set(ends) <= set(header)), None)
@@ -147,7 +120,11 @@ def _stated(source: str, measure: str) -> dict[str, KnownFragility]:
                 values.append(math.nan)
             if not 0 < values[-1] < math.inf:
                 raise InputError(
-                    source, f"line {number}, {name}", cells[name], "must be a number above 0"
+                    source,
+                    f"line {number}, {name}",
+                    cells[name],
+                    "must be a number above 0; where an interval is not bounded give the study's "
+                    "folder, or the table of runs",
                 )
         for (value, low, high), name in ((values[:3], medians[0]), (values[3:], "beta")):
             if not low <= value <= high:
@@ -157,7 +134,7 @@ def _stated(source: str, measure: str) -> dict[str, KnownFragility]:
         median, beta = (values[0], values[1], values[2]), (values[3], values[4], values[5])
         name = cells.get("setting", "")
         found["" if name == "all" else name] = KnownFragility(
-            median[0], beta[0], drawn_parameters(median, beta)
+            median[0], beta[0], (stated_region(median, beta),)
         )
     return found
 

@@ -14,7 +14,6 @@ from fecolumn.foundation.older_option import OlderOption
 
 _COMMAND = "fecolumn risk"
 _LITTLE = 0.01  # share of the frequency that may lie outside of the hazard curve in silence
-_ENDS = 0.025, 0.975  # quantiles at which an interval ends
 _MUCH = 0.1  # the same, outside of the intensities of the runs
 
 
@@ -93,6 +92,7 @@ def _write(sets: dict[str, Any], curve: Any, args: Any, folder: Path) -> None:
         annual_frequency,
         lognormal_probabilities,
         probability_in_years,
+        probit_probabilities,
     )
     from fecolumn.study.report.fragility_command import words
 
@@ -110,11 +110,10 @@ def _write(sets: dict[str, Any], curve: Any, args: Any, folder: Path) -> None:
     for number, (label, one) in enumerate(sets.items(), 1):
         best = annual_frequency(curve, lognormal_probabilities(one.median, one.beta))
         value = float(best.value[0])
-        quantiles = [
-            np.quantile(annual_frequency(curve, lognormal_probabilities(*drawn.T)).value, _ENDS)
-            for drawn in (one.drawn, *one.bounds)  # none, and all of the failed beyond the limit
-        ]
-        low, high = np.min(quantiles), np.max(quantiles)
+        around = np.concatenate(
+            [annual_frequency(curve, probit_probabilities(lines)).value for lines in one.regions]
+        )
+        low, high = min(value, around.min()), max(value, around.max())
         p = [float(x) for x in probability_in_years([value, low, high], args.years)]
         share = best.parts[0] / value if value > 0 else best.parts[0]
         name = label or "all"

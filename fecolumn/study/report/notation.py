@@ -55,7 +55,7 @@ def fixed(value: float | None, decimals: int = 2) -> str:
     none.
     """
     if value is None or not math.isfinite(value):
-        return DASH
+        return number(value)
     # + 0.0: what rounds to nothing has no sign
     return f"{round(value, decimals) + 0.0:.{decimals}f}".replace("-", MINUS)
 
