@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import re
 import shlex
@@ -60,8 +61,13 @@ def sections(page: str) -> dict[str, list[Block]]:
 
 
 def folder_given() -> Path:
-    """The folder of the command line, or a new one."""
-    folder = Path(sys.argv[1] if len(sys.argv) > 1 else tempfile.mkdtemp()).resolve()
+    """The folder of the command line, or a new one; --help is answered."""
+    parser = argparse.ArgumentParser(
+        description=sys.modules["__main__"].__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("folder", nargs="?", metavar="DIR")
+    folder = Path(parser.parse_args().folder or tempfile.mkdtemp()).resolve()
     folder.mkdir(parents=True, exist_ok=True)
     return folder
 
