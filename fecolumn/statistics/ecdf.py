@@ -158,9 +158,9 @@ def proportion_interval(
     Parameters
     ----------
     k
-        runs that were lost.
+        number of runs that were lost, a whole number: not their share.
     n
-        all runs, at least 1.
+        number of all runs, a whole number of at least 1.
     confidence
         level, in (0, 1).
     method
@@ -170,12 +170,16 @@ def proportion_interval(
     Raises
     ------
     InputError
-        n below 1, k not in [0, n], a confidence out of range, or another method.
+        n below 1, k not in [0, n], one of them not whole, a confidence out of range, or another
+        method.
     """
     from scipy.stats import binomtest
 
     where = "proportion_interval"
     _check_share(where, "confidence", confidence)
+    for name, value in (("n", n), ("k", k)):
+        if not _whole(value):
+            raise InputError(where, name, value, "must be a whole number: runs, not their share")
     if n < 1:
         raise InputError(where, "n", n, "must be at least 1")
     if not 0 <= k <= n:
@@ -277,3 +281,11 @@ def _standing(u_max: ArrayLike, lost: ArrayLike) -> tuple[NDArray[Any], int]:
             "of a run that stood is not finite; a failed run is neither standing nor lost",
         )
     return standing, u_max.size
+
+
+def _whole(value: Any) -> bool:
+    """Whether a count is a whole number of any kind; truth values are none."""
+    kinds = (int, float, np.integer, np.floating)
+    if not isinstance(value, kinds) or isinstance(value, bool):
+        return False
+    return bool(np.isfinite(value)) and value == np.floor(value)

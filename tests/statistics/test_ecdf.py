@@ -1,4 +1,5 @@
 import math
+import re
 
 import numpy as np
 import pytest
@@ -106,6 +107,28 @@ def test_exact_interval_is_made_of_beta_quantiles():
     assert proportion_interval(0, 10, method="exact") == pytest.approx(
         (0, 1 - 0.025**0.1), abs=1e-9
     )
+
+
+@pytest.mark.parametrize(
+    "k, n, said",
+    [
+        (0.3, 40, "k = 0.3: must be a whole number: runs, not their share"),
+        (math.nan, 40, "k = nan: must be a whole"),
+        ("3", 40, "k = '3': must be a whole"),
+        (True, 40, "k = True: must be a whole"),
+        (3, 40.5, "n = 40.5: must be a whole"),
+        (3, math.inf, "n = inf: must be a whole"),
+        (41, 40, "k = 41: must be in [0, 40]"),
+    ],
+)
+def test_counts_that_are_none_are_refused(k, n, said):
+    with pytest.raises(InputError, match=re.escape(said)):
+        proportion_interval(k, n)
+
+
+def test_counts_may_come_as_numpy_has_them():
+    counts = np.array([True, False, True]).sum(), np.float64(3)
+    assert proportion_interval(*counts) == proportion_interval(2, 3)
 
 
 def test_normal_quantile():
