@@ -30,13 +30,17 @@ def file_lines(recording: Recording, dt: float, units: str = "") -> list[str]:
     """Lines on a file: format, samples, components, unit; where it states none, that which the user
     says in `units`.
     """
-    axes = ", ".join(f"a{axis}" for axis in recording.axes if axis)
-    told = f" ({axes})" if axes else "; its axis is that of the key it stands under"
+    values = recording.values.reshape(len(recording.values), -1)
+    moves = [bool(column.any()) for column in values.T]
+    named = list(zip((f"a{axis}" for axis in recording.axes if axis), moves))
+    axes = ", ".join(name for name, moving in named if moving)
+    still = "".join(f"; {name} is 0 throughout" for name, moving in named if not moving)
+    told = f" ({axes}){still}" if named else "; its axis is that of the key it stands under"
     kind = recording.format or "record of an ensemble"
     step = f"dt {dt:g} s, {(len(recording.values) - 1) * dt:g} s long" if dt else "dt not stated"
     lines = [
         f"{recording.name}: {kind}, {len(recording.values)} samples, {step}",
-        f"components: {len(recording.axes)}{told}",
+        f"components: {sum(moves)}{told}",
         f"unit: {recording.units or (f'{units}, as --units says' if units else 'not stated')}",
     ]
     if recording.source and recording.source != recording.name:

@@ -4,55 +4,30 @@ its settings differ, and how sure that is.
 
 from __future__ import annotations
 
-import itertools
-from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
-from fecolumn.engines.ending import lost
-from fecolumn.statistics.ecdf import censored
-from fecolumn.statistics.equivalence import difference_shortfall, distance_bound, equality_shortfall
+from fecolumn.statistics.equivalence import difference_shortfall, equality_shortfall
 from fecolumn.statistics.failed_runs import RunCount, interval_of_all
 from fecolumn.statistics.holm import holm
-from fecolumn.statistics.records import counted_unit, record_count
-from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
+from fecolumn.statistics.records import record_count
 from fecolumn.study.alpha import ALPHA_KEY, alpha_note
 from fecolumn.study.failures import may_be_biased, why_failed
 from fecolumn.study.plan import Plan, member_of, record_of
+from fecolumn.study.setting_pairs import (
+    LEAST_RECORDS,
+    MOST_PAIRS,
+    MotionRecords,
+    SettingPair,
+    pair_count,
+    pairs_of,
+    setting_name,
+)
 from fecolumn.study.setting_rows import SettingRows, rows_by_setting
 from fecolumn.study.store import DONE
 from fecolumn.study.substeps import SettingTables, substeps_note
 
-# Records, as motions that share one are swapped together: of fewer no p-value can fall below 0.05,
-# as there are 2^n ways to swap two settings within n of them, two of them extreme
-_LEAST_MOTIONS = 5
-_MOST_PAIRS = 60  # beyond it only the first and the last level of each axis are compared: seconds
+_FEW = 5  # records below which nothing is said of P(overturn)
 _LEVEL = 0.05  # of significance, the usual one
-
-#: Record of each motion of a plan
-MotionRecords = dict[tuple[str, ...], str]
-
-
-@dataclass(frozen=True, slots=True)
-class SettingPair:
-    """Two settings that differ in one axis: its key, their axis values and names, motions in both,
-    distance of their CDFs, its upper bound, its paired p, and different records of the motions.
-    """
-
-    axis: str
-    settings: tuple[dict[str, Any], dict[str, Any]]
-    names: tuple[str, str]
-    n: int
-    distance: float
-    bound: float
-    p: float
-    records: int
-
-    @property
-    def unit(self) -> str:
-        """What the statistics count."""
-        return counted_unit(self.n, self.records)
 
 
 def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
@@ -83,12 +58,12 @@ def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
         (len(runs), record_count([records[motion] for motion in runs], len(runs)))
         for _, runs in settings
     ]
-    if max((count for _, count in counts), default=0) < _LEAST_MOTIONS:
+    if max((count for _, count in counts), default=0) < _FEW:
         return parts_made
     pairs = pairs_of(settings, records)
     parts = [_overturns(settings, records, failed), _shared(*max(counts))]
     if pairs:
-        parts += [_differences(pairs), _shortfall(pairs)]
+        parts += [_differences(pairs), _not_compared(settings, pairs), _shortfall(pairs)]
         if any(pair.axis == ALPHA_KEY for pair in pairs):
             parts.append(alpha_note(plan.case, plan.axes))
     return " ".join(part for part in (*parts, parts_made) if part)
@@ -114,7 +89,7 @@ def settings_of(plan: Plan, rows: list[dict[str, Any]]) -> list[SettingTables]:
 def _failures(failed: list[SettingRows]) -> str:
     """How many analyses of each setting failed, why, and what to do; "" where none did."""
     told = [
-        (f"at {_name(one.values)}" if one.values else "", len(one.failed), len(one.rows))
+        (f"at {setting_name(one.values)}" if one.values else "", len(one.failed), len(one.rows))
         for one in failed
     ]
     why = why_failed([row for one in failed for row in one.failed])
@@ -152,7 +127,7 @@ def _overturns(
         fallen = [bool(run["overturned"]) for run in runs.values()]
         own = [records[motion] for motion in runs]
         low, high = interval_of_all(fallen, count.failed, own)
-        where = f" at {_name(values)}" if len(settings) > 1 else ""
+        where = f" at {setting_name(values)}" if len(settings) > 1 else ""
         more = f", {count.failed} failed" if count.failed else ""
         return (
             f"{100 * count.share:.1f} % [{100 * low:.1f}, {100 * high:.1f}]{where} ({count.k} "
@@ -172,59 +147,6 @@ def _overturns(
     if share(ranked[0]) == share(ranked[-1]):
         return f"{p} is the same at every setting, such as {said(ranked[0])}; {ends}"
     return f"{p} lies between {said(ranked[0])} and {said(ranked[-1])}; {ends}"
-
-
-def pairs_of(
-    settings: list[SettingTables], records: MotionRecords, confidence: float = 0.95
-) -> list[SettingPair]:
-    """Settings that differ in one axis alone, over the motions done in both; records: as of
-    `records_of`; confidence: of the bound of their distance.
-    """
-    lines: dict[tuple[Any, ...], list[Any]] = {}
-    for values, runs in settings:
-        for axis in values:
-            lines.setdefault(
-                (axis, *(repr(item) for item in values.items() if item[0] != axis)), []
-            ).append((values, runs))
-    lines = {key: line for key, line in lines.items() if len(line) > 1}
-    chosen = [
-        (key[0], *two) for key, line in lines.items() for two in itertools.combinations(line, 2)
-    ]
-    if len(chosen) > _MOST_PAIRS:
-        chosen = [(key[0], line[0], line[-1]) for key, line in lines.items()][:_MOST_PAIRS]
-    found = []
-    for axis, (first, runs_a), (second, runs_b) in chosen:
-        common = [motion for motion in runs_a if motion in runs_b]
-        own = [records[motion] for motion in common]
-        count = record_count(own, len(own))
-        if count < _LEAST_MOTIONS:
-            continue
-        (u_a, over_a), (u_b, over_b) = (
-            tuple(
-                np.array([measure(runs[motion]) for motion in common]) for measure in (_peak, lost)
-            )
-            for runs in (runs_a, runs_b)
-        )
-        name_a, name_b = (
-            _name({axis: values[axis]} if len(lines) == 1 else values) for values in (first, second)
-        )
-        p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b), records=own).p
-        found.append(
-            SettingPair(
-                axis,
-                (first, second),
-                (name_a, name_b),
-                len(common),
-                *distance_bound(u_a, over_a, u_b, over_b, confidence, own),
-                p,
-                count,
-            )
-        )
-    return found
-
-
-def _peak(summary: dict[str, Any]) -> float:
-    return float(summary["u_max_m"])
 
 
 def _differences(pairs: list[SettingPair]) -> str:
@@ -261,6 +183,19 @@ def _differences(pairs: list[SettingPair]) -> str:
     )
 
 
+def _not_compared(settings: list[SettingTables], pairs: list[SettingPair]) -> str:
+    """That not all pairs were compared; "" where they were."""
+    count = pair_count(settings)
+    if count <= len(pairs):
+        return ""
+    which = (
+        "those of the first and the last level, axes in turn"
+        if count > MOST_PAIRS
+        else f"the others have fewer than {LEAST_RECORDS} motions in both"
+    )
+    return f"{len(pairs)} of {count} pairs of settings were compared: {which}."
+
+
 def _shortfall(pairs: list[SettingPair]) -> str:
     """Warnings where motions are too few for what is said: of the weakest difference that is
     claimed, and of the equality of the rest.
@@ -280,8 +215,3 @@ def _shortfall(pairs: list[SettingPair]) -> str:
             )
         )
     return " ".join(one for one in told if one)
-
-
-def _name(values: dict[str, Any]) -> str:
-    """Values of axes, such as "dt_s = 0.02, alpha_hht = 0"."""
-    return ", ".join(f"{key.rpartition('.')[2]} = {value}" for key, value in values.items())

@@ -22,8 +22,9 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.equivalence import SMALL
 from fecolumn.statistics.holm import holm
 from fecolumn.statistics.records import run_count
-from fecolumn.study.conclusion import SettingPair, pairs_of, records_of, settings_of
+from fecolumn.study.conclusion import records_of, settings_of
 from fecolumn.study.plan import Plan, record_of
+from fecolumn.study.setting_pairs import SettingPair, pairs_of, setting_lines
 
 DIFFER, ALIKE, STILL_OPEN = "differ", "alike", "open"
 #: Records of the first stage; each stage has twice as many as the one before.
@@ -96,9 +97,18 @@ def stages(plan: Plan, rule: Rule) -> list[int]:
     """
     of_motions = records_of(plan)
     motions = len(set(of_motions.values()))
-    if len({repr(analysis.combination) for analysis in plan.analyses}) < 2:
+    planned = {repr(one.combination): one.combination for one in plan.analyses}
+    if len(planned) < 2:
         raise InputError(
             plan.file, "axes", None, "has one setting alone: there is nothing to decide between"
+        )
+    if not setting_lines([(values, {}) for values in planned.values()]):
+        raise InputError(
+            plan.file,
+            "axes",
+            None,
+            "has no two settings that differ in one axis, or one [[zip]], alone: there is nothing "
+            "to decide between",
         )
     if motions < FIRST:
         raise InputError(

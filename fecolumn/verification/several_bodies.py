@@ -1,5 +1,5 @@
 """Rigid bodies that stand on moving ones, most of them giving at their contact points: stacks and
-rocking frames against closed forms (manual: theory, section 7).
+rocking frames against closed forms (manual: theory, section 9).
 """
 
 from __future__ import annotations

@@ -1,6 +1,7 @@
 """fecolumn screen: what a list becomes, its ranking, and lists that cannot be used."""
 
 import csv
+import json
 
 import numpy as np
 import pytest
@@ -131,3 +132,24 @@ def test_options_that_cannot_be_used_are_refused_in_a_line(tmp_path, pulses, cap
 def test_an_object_without_friction_is_taken(tmp_path):
     (tmp_path / "list.csv").write_text(HEADER + "a,1,1,1,2000,0\n")
     assert read_objects(tmp_path / "list.csv")[0].friction == 0.0
+
+
+def test_time_of_the_motions_is_scaled_as_the_key_does(tmp_path, pulses):
+    """A pulse twice as long overturns what the short one does not."""
+    found = {}
+    for factor in ("1", "4"):
+        folder = tmp_path / factor
+        folder.mkdir()
+        options = ["--engine", "housner", "--event", "overturn", "--time-scale", factor]
+        text = HEADER + "slender,0.2,0.2,1.6,100,0.7\n"
+        assert screen(folder, text, pulses, *options) == 0
+        (row,) = rows(folder / "out" / "screen.csv")
+        found[factor] = int(row["reached"])
+        case = next((folder / "out").glob("analyses/*/case.json")).read_text()
+        assert json.loads(case)["motion"].get("time_scale", 1.0) == float(factor)
+    assert found["4"] > found["1"]
+
+
+def test_a_factor_on_time_out_of_range_is_refused(tmp_path, pulses, capsys):
+    assert screen(tmp_path, LIST, pulses, "--time-scale", "0") == 2
+    assert "--time-scale = 0.0: must lie in [0.001, 1000]" in capsys.readouterr().err

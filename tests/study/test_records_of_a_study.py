@@ -11,12 +11,13 @@ import pytest
 from fecolumn.cli import main
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.ecdf import proportion_interval
-from fecolumn.study.conclusion import conclusion, pairs_of, records_of, settings_of
+from fecolumn.study.conclusion import conclusion, records_of, settings_of
 from fecolumn.study.plan import read_plan, record_of
 from fecolumn.study.report.sweep import read_sweep
 from fecolumn.study.results.study import StudyResult
 from fecolumn.study.sample import read_sample
 from fecolumn.study.sequential import Rule, judge, progress_text, stage_analyses, stages
+from fecolumn.study.setting_pairs import pairs_of
 from fecolumn.study.store import read_study
 from fecolumn.study.table import table_text, write_tables
 

@@ -9,6 +9,7 @@ MANUAL_FOLDER = Path(__file__).parent
 # in the order of reading
 TOPICS = (
     "quick-start",
+    "terms",
     "cases",
     "keys",
     "motions",

@@ -41,7 +41,18 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--limit", dest="event", action=OlderOption, newer="--event", several=True)
     parser.add_argument(
-        "--scale", metavar="F", type=float, default=1.0, help="factor on the motions (default: 1)"
+        "--scale",
+        metavar="F",
+        type=float,
+        default=1.0,
+        help="factor on the acceleration of the motions (default: 1)",
+    )
+    parser.add_argument(
+        "--time-scale",
+        metavar="F",
+        type=float,
+        default=1.0,
+        help="factor on their time (default: 1; 2 brings lick: motions to full scale)",
     )
     parser.add_argument(
         "--engine",
@@ -72,12 +83,14 @@ def main(args: argparse.Namespace) -> int:
     check_jobs(args.jobs, _COMMAND)
     if not 0 < abs(args.scale) <= 1000:
         raise InputError(_COMMAND, "--scale", args.scale, "must lie in [-1000, 1000], not be 0")
+    if not 1e-3 <= args.time_scale <= 1e3:
+        raise InputError(_COMMAND, "--time-scale", args.time_scale, "must lie in [0.001, 1000]")
     limits = [
         read_event(text, _COMMAND, args.engine) for text in args.event or _EVENTS[args.engine]
     ]
     objects = read_objects(args.list)
     sources = motion_sources(args.motions, _COMMAND)
-    motion = {"scale": args.scale}
+    motion = {"scale": args.scale, "time_scale": args.time_scale}
     plan = plan_of(tables_of_objects(objects, sources, args.engine, motion), Path(args.list))
     check_motions(plan)
     jobs = args.jobs or os.cpu_count() or 1

@@ -128,7 +128,7 @@ def screen(
     *,
     motions: str | Sequence[str],
     event: str | Sequence[str] = (),
-    scale: float = 1.0,
+    scale: float | tuple[float, float] = 1.0,
     engine: str = "rigid",
     jobs: int | None = None,
     retry_failed: bool = False,
@@ -148,7 +148,8 @@ def screen(
         one or several, such as ["overturn", "slide > 20 mm"], of which the first ranks; left out:
         overturn and slide > 10 mm, with engine "housner" overturn and top > 10 mm.
     scale
-        factor on the motions.
+        factor on the acceleration of the motions, or two, on their acceleration and on their time:
+        (1, 2) brings motions of "lick:" to full scale.
     engine
         "rigid" or "housner".
     jobs
@@ -176,8 +177,9 @@ def screen(
         path = _beside(folder, "-list.csv")
         objects.to_csv(path, index=False)
         objects = path
-    words = [str(objects), "--motions", *_several(motions), f"--scale={scale:.17g}"]
-    words += ["--engine", engine, *_jobs(jobs)]
+    of_acceleration, of_time = scale if isinstance(scale, tuple) else (scale, 1.0)
+    words = [str(objects), "--motions", *_several(motions), f"--scale={of_acceleration:.17g}"]
+    words += [f"--time-scale={of_time:.17g}", "--engine", engine, *_jobs(jobs)]
     words += ["--retry-failed"] * retry_failed
     for one in _several(event):
         words += ["--event", one]

@@ -8,9 +8,9 @@ from typing import Any
 from fecolumn.statistics.records import record_count
 from fecolumn.statistics.sensitivity import Sensitivity, sensitivity
 from fecolumn.study.report.sweep import ENGINE_KEY, Setting, Sweep, common_motions, common_peaks
+from fecolumn.study.setting_pairs import LEAST_RECORDS
 
 _SAMPLED = 8  # an axis with more levels is a sampled one: its outer quarters are compared
-_LEAST_MOTIONS = 5
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +77,7 @@ def _effect(
 ) -> Rank | None:
     motions = common_motions(at_low + at_high) if at_low else []
     records = at_low[0].records_of(motions) if at_low else []
-    if record_count(records, len(records)) < _LEAST_MOTIONS:
+    if record_count(records, len(records)) < LEAST_RECORDS:
         return None
     effect = sensitivity(
         *common_peaks(at_low, motions), *common_peaks(at_high, motions), records=records

@@ -1,0 +1,165 @@
+"""Pairs of settings of a study that differ in one axis, or in axes that change together, and how
+far their distributions are apart.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fecolumn.engines.ending import lost
+from fecolumn.statistics.ecdf import censored
+from fecolumn.statistics.equivalence import distance_bound
+from fecolumn.statistics.records import counted_unit, record_count
+from fecolumn.statistics.two_sample import paired_kolmogorov_smirnov
+from fecolumn.study.substeps import SettingTables
+
+#: Records below which nothing is compared. Motions of one record are swapped together: there are
+#: 2^n ways to swap two settings within n records, two of them extreme, and with n = 5 no p-value
+#: falls below 2/32 = 0.06
+LEAST_RECORDS = 6
+#: Pairs above which only the first and the last setting of each line are compared, and lines above
+#: which these are taken from all axes in turn: a comparison takes some tenths of a second
+MOST_PAIRS = 60
+
+#: Record of each motion of a plan
+MotionRecords = dict[tuple[str, ...], str]
+#: Axes that change together, and settings that differ in them alone
+SettingLine = tuple[tuple[str, ...], list[SettingTables]]
+
+
+@dataclass(frozen=True, slots=True)
+class SettingPair:
+    """Two settings that differ in one axis, or in those of one `[[zip]]`: its keys, their axis
+    values and names, motions in both, distance of their CDFs, its upper bound, its paired p, and
+    different records of the motions.
+    """
+
+    axis: str
+    settings: tuple[dict[str, Any], dict[str, Any]]
+    names: tuple[str, str]
+    n: int
+    distance: float
+    bound: float
+    p: float
+    records: int
+
+    @property
+    def unit(self) -> str:
+        """What the statistics count."""
+        return counted_unit(self.n, self.records)
+
+
+def setting_lines(settings: list[SettingTables]) -> list[SettingLine]:
+    """Lines of at least two settings that differ in one axis alone, or in axes that change
+    together (`axes_together`).
+    """
+    lines: dict[tuple[Any, ...], SettingLine] = {}
+    for axes in axes_together([values for values, _ in settings]):
+        for values, runs in settings:
+            others = tuple(repr(item) for item in values.items() if item[0] not in axes)
+            lines.setdefault((axes, *others), (axes, []))[1].append((values, runs))
+    return [line for line in lines.values() if len(line[1]) > 1]
+
+
+def axes_together(settings: list[dict[str, Any]]) -> list[tuple[str, ...]]:
+    """Axes of settings, those in one group whose values determine each other in every setting, as
+    those of one `[[zip]]` do; axes of one value are groups of their own.
+    """
+    if not settings:
+        return []
+    groups: list[tuple[str, ...]] = []
+    for key in settings[0]:
+        place = next(
+            (n for n, group in enumerate(groups) if _together(settings, group[0], key)), None
+        )
+        if place is None:
+            groups.append((key,))
+        else:
+            groups[place] = (*groups[place], key)
+    return groups
+
+
+def _together(settings: list[dict[str, Any]], one: str, other: str) -> bool:
+    both = {(repr(values[one]), repr(values[other])) for values in settings}
+    levels = [{pair[place] for pair in both} for place in (0, 1)]
+    return 1 < len(both) == len(levels[0]) == len(levels[1])
+
+
+def pairs_of(
+    settings: list[SettingTables], records: MotionRecords, confidence: float = 0.95
+) -> list[SettingPair]:
+    """Pairs of settings of one line, over the motions done in both; records: of each motion;
+    confidence: of the bound of their distance.
+
+    Where they are more than 60, the first and the last setting of each line; where there are more
+    lines than that, of lines of all axes in turn (`pair_count` has the number of all).
+    """
+    lines = setting_lines(settings)
+    chosen = [(axes, *two) for axes, line in lines for two in itertools.combinations(line, 2)]
+    if len(chosen) > MOST_PAIRS:
+        chosen = [(axes, line[0], line[-1]) for axes, line in _in_turn(lines)][:MOST_PAIRS]
+    found = []
+    for axes, (first, runs_a), (second, runs_b) in chosen:
+        common = [motion for motion in runs_a if motion in runs_b]
+        own = [records[motion] for motion in common]
+        count = record_count(own, len(own))
+        if count < LEAST_RECORDS:
+            continue
+        (u_a, over_a), (u_b, over_b) = (
+            tuple(
+                np.array([measure(runs[motion]) for motion in common]) for measure in (_peak, lost)
+            )
+            for runs in (runs_a, runs_b)
+        )
+        shown = axes if len(lines) == 1 else tuple(first)
+        p = paired_kolmogorov_smirnov(censored(u_a, over_a), censored(u_b, over_b), records=own).p
+        found.append(
+            SettingPair(
+                " with ".join(axes),
+                (first, second),
+                (setting_name(first, shown), setting_name(second, shown)),
+                len(common),
+                *distance_bound(u_a, over_a, u_b, over_b, confidence, own),
+                p,
+                count,
+            )
+        )
+    return found
+
+
+def pair_count(settings: list[SettingTables]) -> int:
+    """Number of pairs of settings on one line."""
+    return sum(len(line) * (len(line) - 1) // 2 for _, line in setting_lines(settings))
+
+
+def _in_turn(lines: list[SettingLine]) -> list[SettingLine]:
+    """Lines, of each group of axes one after the other."""
+    groups: dict[tuple[str, ...], list[SettingLine]] = {}
+    for line in lines:
+        groups.setdefault(line[0], []).append(line)
+    turns = itertools.zip_longest(*groups.values())
+    return [line for turn in turns for line in turn if line is not None]
+
+
+def _peak(summary: dict[str, Any]) -> float:
+    return float(summary["u_max_m"])
+
+
+def setting_name(values: dict[str, Any], shown: tuple[str, ...] | None = None) -> str:
+    """Values of axes, such as "dt_s = 0.02, alpha_hht = 0", of all or of those `shown`; keys by
+    their last words, as many as tell them apart.
+    """
+    return ", ".join(f"{_short(key, values)} = {values[key]}" for key in shown or tuple(values))
+
+
+def _short(key: str, keys: dict[str, Any]) -> str:
+    words = key.split(".")
+    for number in range(1, len(words)):
+        ending = words[-number:]
+        if sum(other.split(".")[-number:] == ending for other in keys) == 1:
+            return ".".join(ending)
+    return key
