@@ -1,7 +1,6 @@
 """fecolumn screen: what a list becomes, its ranking, and lists that cannot be used."""
 
 import csv
-import json
 
 import numpy as np
 import pytest
@@ -145,8 +144,6 @@ def test_time_of_the_motions_is_scaled_as_the_key_does(tmp_path, pulses):
         assert screen(folder, text, pulses, *options) == 0
         (row,) = rows(folder / "out" / "screen.csv")
         found[factor] = int(row["reached"])
-        case = next((folder / "out").glob("analyses/*/case.json")).read_text()
-        assert json.loads(case)["motion"].get("time_scale", 1.0) == float(factor)
     assert found["4"] > found["1"]
 
 
