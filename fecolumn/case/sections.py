@@ -277,7 +277,11 @@ class Motion(Section):
         1.0, doc="factor on time; 0.5: the motion is twice as fast", low=1e-3, high=1e3
     )
     rotation_deg: float = parameter(
-        0.0, doc="rotation of the horizontal components about z", unit="deg", low=-360, high=360
+        0.0,
+        doc="rotation of the horizontal components about z, from x towards y",
+        unit="deg",
+        low=-360,
+        high=360,
     )
     strong_part: tuple[float, ...] = parameter(
         (0.0, 1.0),
