@@ -127,6 +127,7 @@ WRONG = [
     (dict(vary=("block.width_m", 0.6, 0.2)), "must be a range LO:HI that rises"),
     (dict(vary=("block.width_m", "a", "b")), "range"),
     (dict(vary=("block.width", 0.2, 0.6)), "block.width"),
+    (dict(vary=("block.width_m", -0.2, -0.6)), "did you mean -0.6:-0.2"),
     (dict(limit="P(fall) < 0.1"), "fall"),
     (dict(motions="lick:1-2"), "at least 5 motions"),
     (dict(jobs=0), "must be at least 1"),

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from fecolumn.foundation.interrupt import termination_as_interrupt
+from fecolumn.foundation.range_option import take_values_below_zero
 
 _COMMAND = "fecolumn calibrate"
 _MOST = 4  # keys: each one more doubles the runs
@@ -20,6 +21,7 @@ _NO_PART = ("motion", "integration", "output", "overturn", "mesh")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn calibrate`."""
+    take_values_below_zero(parser)
     parser.add_argument("case", metavar="CASE.toml", help="case file; its motion is not used")
     parser.add_argument(
         "--test",

@@ -5,6 +5,7 @@ or of a user's own runs.
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -139,7 +140,8 @@ def _of_study(
     for row in failed_of(sweep.rows):
         own = {key: value for key, value in setting_of(row["axes"]).items() if key != SCALE}
         lacking.setdefault(repr(own), []).append(row)
-    sets = {}
+    sets: dict[str, IntensityTable] = {}
+    runs_of_all, still = 0, 0
     for values, settings in across_scales(sweep.done):
         runs = [run for setting in settings for run in setting.runs.values()]
         try:
@@ -153,14 +155,41 @@ def _of_study(
             if name not in found[0]:
                 raise InputError(folder, "--im", name, f"must be one of {', '.join(found[0])}")
         asked = happened or (lambda run: bool(run["overturned"]))
-        fallen = np.array([asked(run) for run in runs])
+        moved = np.array([all(one[name] > 0 for name in wanted) for one in found])
+        runs_of_all, still = runs_of_all + moved.size, still + int((~moved).sum())
+        if not moved.any():
+            continue
+        records = records[moved]
         sets[sweep.words(values)] = IntensityTable(
-            {name: np.array([one[name] for one in found]) for name in wanted},
-            fallen,
+            {name: np.array([one[name] for one in found])[moved] for name in wanted},
+            np.array([asked(run) for run in runs])[moved],
             records if len(set(records)) < len(records) else None,
             failed_runs(lacking.get(repr(values), []), records, wanted, measures),
         )
+    _tell_without_intensity(folder, " and ".join(wanted), runs_of_all, still)
     return sets
+
+
+def _tell_without_intensity(folder: str, measures: str, runs: int, still: int) -> None:
+    """Warn of the runs whose motions have no intensity.
+
+    Raises
+    ------
+    InputError
+        none of the motions has one.
+    """
+    from fecolumn.foundation.schema import InputError
+
+    if still == runs:
+        raise InputError(
+            folder, "", None, f"none of its {runs} motions has {measures} above 0, as at scale 0"
+        )
+    if still:
+        print(
+            f"fecolumn: warning: {still} of {runs} analyses are left out: their motions have no "
+            f"{measures} above 0, as at scale 0",
+            file=sys.stderr,
+        )
 
 
 def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
