@@ -15,7 +15,14 @@ from fecolumn.statistics.bands import wilson
 from fecolumn.statistics.fragility import DegenerateData, Fragility, logit, lognormal
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.gallery import Gallery
-from fecolumn.study.report.intensity import NOT_FOUND, SCALE, Intensities, Runs, across_scales
+from fecolumn.study.report.intensity import (
+    NOT_FOUND,
+    SCALE,
+    Intensities,
+    Runs,
+    across_scales,
+    without_intensity,
+)
 from fecolumn.study.report.notation import (
     axis_name,
     count,
@@ -53,13 +60,13 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageS
         if sum(len(setting.runs) for setting in settings) >= _FEWEST
     ]
     try:
-        found = [
-            FittedSetting(values, runs, _fit(runs))
-            for values, settings in groups
-            for runs in [intensities.of_runs(settings)]
-        ]
+        of_groups = [intensities.of_runs(settings) for _, settings in groups]
     except NOT_FOUND:
         return None
+    found = [
+        FittedSetting(values, runs, _fit(runs)) for (values, _), runs in zip(groups, of_groups)
+    ]
+    left = without_intensity([one for _, settings in groups for one in settings], of_groups)
     own = {key: value for key, value in sweep.reference.values.items() if key != SCALE}
     here = next((one for one in found if one.values == own and one.fit), None)
     if here is None or here.fit is None:
@@ -140,7 +147,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageS
                 "[[fragility]] and [[fragilities]]: probability of overturning over "
                 "the peak ground velocity, lognormal, by maximum likelihood (Baker "
                 f"2015), each run one yes or no. {median_text}{known}Intensities are those of "
-                f"the ensemble as it stands, {scaled}."
+                f"the ensemble as it stands, {scaled}. {left}".rstrip()
             ),
             gallery.draw("fragility", caption, line_figure, panels),
             PageTable(

@@ -146,11 +146,11 @@ def _of_study(
         runs = [run for setting in settings for run in setting.runs.values()]
         try:
             found = [measures(run) for run in runs]
-            records = motions.of_runs(settings).record
         except NOT_FOUND as error:
             raise InputError(
                 folder, "", None, f"a motion of its analyses is not to be found: {error}"
             ) from None
+        records = np.array([record for one in settings for record in one.records_of()])
         for name in wanted:
             if name not in found[0]:
                 raise InputError(folder, "--im", name, f"must be one of {', '.join(found[0])}")
