@@ -5,6 +5,7 @@ import io
 import shutil
 import signal
 import threading
+from pathlib import Path
 
 import numpy as np
 import pandas
@@ -90,6 +91,19 @@ def test_a_list_of_objects_is_a_table_too(tmp_path):
     )
     assert list(answer.table["name"]) == ["slender", "stout"]
     assert "Most endangered of 2 is 'slender'" in answer.text and "wrote" not in answer.text
+
+
+def test_a_list_that_cannot_be_written_leaves_the_older_one(tmp_path):
+    class Broken:
+        def to_csv(self, path=None, index=True):
+            if path is not None:
+                Path(path).write_text("name,wid")
+            raise OSError("no room")
+
+    (tmp_path / "m-list.csv").write_text("older")
+    with pytest.raises(OSError, match="no room"):
+        fecolumn.screen(Broken(), tmp_path / "m", motions="lick:1-5")
+    assert (tmp_path / "m-list.csv").read_text() == "older"
 
 
 def test_a_calibration_and_a_risk(tmp_path):

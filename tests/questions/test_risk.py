@@ -356,6 +356,18 @@ def test_runs_that_bound_no_curve_are_refused(tmp_path, capsys):
     assert "bound no fragility over pga_m_s2" in capsys.readouterr().err
 
 
+def test_frequency_of_nothing_has_no_middle_half(tmp_path, capsys):
+    hazard, out = hazard_file(tmp_path, POWER), str(tmp_path / "out")
+    far = FRAGILITY.replace("7.8,6.9,8.9", "7.8e20,6.9e20,8.9e20").replace(
+        "0.41,0.28,0.60", "0.2,0.1,0.3"
+    )
+    file = hazard_file(tmp_path, far, "fragility.csv")
+    assert main(["risk", str(file), "--hazard", str(hazard), "-o", out]) == 0
+    said = capsys.readouterr().out
+    assert "frequency of 0 [0, 0] a year" in said and "half of it" not in said
+    assert "in 50 years (95 % intervals).\n" in said
+
+
 def test_curve_that_ends_too_soon_or_begins_too_late_is_told(tmp_path, capsys):
     runs, *_ = runs_file(tmp_path)
     lines = POWER.splitlines()

@@ -4,10 +4,13 @@ import csv
 
 import numpy as np
 import pytest
+from scipy.special import ndtr
 from synthetic_study import write_synthetic
 
 from fecolumn.cli import main
 from fecolumn.statistics.fragility import logit, lognormal
+from fecolumn.statistics.intensity_table import IntensityTable
+from fecolumn.study.report.fragility_command import _write
 
 
 def rows(file):
@@ -193,3 +196,33 @@ def test_study_of_motions_at_rest_alone_is_refused(tmp_path, capsys):
     )
     assert main(["fragility", str(study), "-o", str(tmp_path / "out")]) == 2
     assert "none of its 2 motions has pgv_m_s above 0" in capsys.readouterr().err
+
+
+def test_refusal_of_a_risk_names_its_event(tmp_path, capsys):
+    pulses, hazard = str(tmp_path / "p6.h5"), tmp_path / "hazard.csv"
+    make = ["motions", "make", "pulses", "symmetric_ricker", "--periods", "0.5", "--amplitudes"]
+    assert main([*make, *"123456", "-o", pulses]) == 0
+    hazard.write_text("pga_m_s2,annual_frequency\n0.1,0.1\n100,1e-8\n")
+    sources = [f"{pulses}#{number}" for number in range(1, 7)]
+    study = write_synthetic(
+        tmp_path / "s", {"motion.scale": [1.0]}, 0, sources=sources, effect=lambda values: 1e-6
+    )
+    ask = ["risk", str(study), "--hazard", str(hazard), "-o", str(tmp_path / "out"), "--event"]
+    for event, said in (
+        ("top > 50 mm", "none of 6 runs are beyond the limit: that bounds P(top > 50 mm), but no"),
+        ("overturn", "none of 6 runs overturned: that bounds P(overturn), but no curve"),
+    ):
+        assert main([*ask, event]) == 2
+        assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("levels", [7, 8])
+def test_figure_that_has_not_all_settings_says_so(tmp_path, capsys, levels):
+    rng = np.random.default_rng(1)
+    im = rng.lognormal(0, 1, 40)
+    fallen = rng.random(40) < ndtr(np.log(im))
+    tables = {f"mu = {k}": IntensityTable({"pga_m_s2": im}, fallen, None) for k in range(levels)}
+    _write(tables, tmp_path, "study")
+    said = "the figure has 7 of 8 settings; fragility.csv has all"
+    assert (said in capsys.readouterr().out) == (levels == 8)
+    assert len(rows(tmp_path / "fragility.csv")) == levels
