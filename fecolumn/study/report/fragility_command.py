@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 Happened = Callable[[dict[str, Any]], bool]
 # Ends of the intervals of the median and of the dispersion
 CurveEnds = tuple[tuple[float, float], tuple[float, float]]
-_FEWEST = 5  # runs
-_BINS = 6
 _CURVES = 7  # of the figure
 
 
@@ -272,7 +270,7 @@ def _one(
     import numpy as np
 
     from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
-    from fecolumn.statistics.bands import wilson
+    from fecolumn.study.report.observed_shares import observed_shares
 
     rows: list[list[Any]] = [
         [
@@ -316,21 +314,7 @@ def _one(
             Curve(label or "lognormal, maximum likelihood", grid, p.p, (p.lower, p.upper))
         )
         if len(fits) == 1:
-            bins = np.array_split(
-                np.argsort(im, kind="stable"), min(_BINS, max(2, im.size // _FEWEST))
-            )
-            shares = np.array([table.overturned[place].mean() for place in bins])
-            low, high = np.transpose(
-                [np.ravel(wilson([table.overturned[place].sum()], place.size)) for place in bins]
-            )
-            curves.append(
-                Curve(
-                    "observed, groups of equal number",
-                    np.array([np.median(im[place]) for place in bins]),
-                    shares,
-                    bars=(low, high),
-                )
-            )
+            curves.append(observed_shares(im, table.overturned))
     line_figure(
         [
             CurvePanel(
