@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from fecolumn.case.case import Case
 
 #: Factor to metres by the word of the unit.
-LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
+METRES_OF = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
 _ANGLES = {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180}
 _ACCELERATIONS = {"g": GRAVITY, "m/s2": 1.0, "cm/s2": 1e-2}
 _FORCES = {"N": 1.0, "kN": 1e3, "MN": 1e6}
@@ -49,18 +49,18 @@ class PeakQuantity:
 
 
 _QUANTITIES = {
-    "top": PeakQuantity(LENGTHS, "u_max_m", "", ""),
+    "top": PeakQuantity(METRES_OF, "u_max_m", "", ""),
     "tilt": PeakQuantity(_ANGLES, "tilt_max_rad", "bodies", "tilt_max_rad"),
     "acceleration": PeakQuantity(_ACCELERATIONS, "", "bodies", "acceleration_max_m_s2"),
-    "slide": PeakQuantity(LENGTHS, "", "interfaces", "slide_max_m"),
-    "residual slide": PeakQuantity(LENGTHS, "", "interfaces", "residual_slide_m"),
-    "rise": PeakQuantity(LENGTHS, "", "interfaces", "rise_max_m"),
+    "slide": PeakQuantity(METRES_OF, "", "interfaces", "slide_max_m"),
+    "residual slide": PeakQuantity(METRES_OF, "", "interfaces", "residual_slide_m"),
+    "rise": PeakQuantity(METRES_OF, "", "interfaces", "rise_max_m"),
     "force": PeakQuantity(_FORCES, "", "interfaces", "force_max_n"),
     "tension": PeakQuantity(_FORCES, "", "links", "tension_max_n"),
     "compression": PeakQuantity(_FORCES, "", "links", "compression_max_n"),
-    "elongation": PeakQuantity(LENGTHS, "", "links", "elongation_max_m"),
-    "shortening": PeakQuantity(LENGTHS, "", "links", "shortening_max_m"),
-    "drift": PeakQuantity(LENGTHS, "", "storeys", "drift_max_m"),
+    "elongation": PeakQuantity(METRES_OF, "", "links", "elongation_max_m"),
+    "shortening": PeakQuantity(METRES_OF, "", "links", "shortening_max_m"),
+    "drift": PeakQuantity(METRES_OF, "", "storeys", "drift_max_m"),
     "shear": PeakQuantity(_FORCES, "", "storeys", "shear_max_n"),
 }
 _ENDINGS: dict[str, Callable[[dict[str, Any]], bool]] = {
