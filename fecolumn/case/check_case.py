@@ -7,6 +7,7 @@ from pathlib import Path
 from fecolumn.case.bodies import Storeys
 from fecolumn.case.check_found import check_found
 from fecolumn.case.check_grounds import check_grounds
+from fecolumn.case.check_motion import check_strong_part
 from fecolumn.case.checked import CheckedCase, Refuse, refuse_in
 from fecolumn.case.sections import (
     DEFAULT,
@@ -183,8 +184,8 @@ def _check_integration(case: CheckedCase, refuse: Refuse) -> None:
             f"must be at least {time / MOST_STEPS:g} s: more than {MOST_STEPS:.0e} "
             f"steps in {time:g} s",
         )
-    if case.motion and (len(part := case.motion.strong_part) != 2 or not part[0] < part[1]):
-        refuse("motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
+    if case.motion:
+        check_strong_part(case.motion, "motion", refuse)
 
 
 def check_duration(case: CheckedCase, file: Path | str) -> None:

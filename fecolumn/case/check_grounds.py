@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fecolumn.case.check_motion import check_strong_part
 from fecolumn.case.checked import CheckedCase, Refuse
 from fecolumn.case.ground import Ground
 from fecolumn.case.joint import Joint
@@ -64,9 +65,8 @@ def _check_keys(case: CheckedCase, key: str, ground: Ground, refuse: Refuse) -> 
         )
     if ground.motion and case.motion is None:
         refuse(f"{key}.motion", None, "needs a table [motion] as well, that of the other grounds")
-    part = ground.motion.strong_part if ground.motion else (0.0, 1.0)
-    if len(part) != 2 or not part[0] < part[1]:
-        refuse(f"{key}.motion.strong_part", list(part), "must be two rising fractions in [0, 1]")
+    if ground.motion:
+        check_strong_part(ground.motion, f"{key}.motion", refuse)
 
 
 def _check_interface(case: CheckedCase, key: str, interface: Joint, refuse: Refuse) -> None:

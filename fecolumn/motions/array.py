@@ -30,7 +30,12 @@ def motion_file(path: Path | str, acceleration: ArrayLike, dt_s: float) -> str:
         an array of another shape, with fewer than two samples, or with values or a step that are
         no ground motion's.
     """
-    path, values = Path(path), np.array(acceleration, float)
+    path = Path(path)
+    try:
+        values = np.array(acceleration, float)
+    except (TypeError, ValueError):
+        told = "must be numbers of shape (n,), (n, 2) or (n, 3): all rows of one length"
+        raise InputError(path, "acceleration", None, told) from None
     values = values[:, None] if values.ndim == 1 else values
     if values.ndim != 2 or values.shape[1] not in (1, 2, 3) or len(values) < 2:
         raise InputError(

@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fecolumn.case.check_motion import check_strong_part
+from fecolumn.case.checked import refuse_in
 from fecolumn.case.sections import GRAVITY, Motion
 from fecolumn.foundation.deprecated import renamed
 from fecolumn.foundation.schema import InputError
@@ -172,6 +174,7 @@ def higher_between_rows(ground: GroundMotion, sampled: GroundMotion) -> str:
 
 def unsampled(motion: Motion, file: Path | str) -> GroundMotion:
     """As load_motion, at the motion's own step and without delay."""
+    check_strong_part(motion, "motion", refuse_in(file))
     ground = rotate(read_motion(motion, file), motion.rotation_deg)
     if not motion.vertical:
         ground = without_vertical(ground)

@@ -36,13 +36,18 @@ class GroundMotion:
     Attributes
     ----------
     acceleration
-        older name of `acceleration_m_s2`.
+        (n, 3) along x, y and z (up), n of at least 2, read-only [m/s2]; also `acceleration_m_s2`.
     dt
-        older name of `dt_s`.
+        sampling step, above 0 [s]; also `dt_s`.
     name
         short name for figures and tables.
     source
         where the motion comes from, to be cited.
+
+    Raises
+    ------
+    ValueError
+        an acceleration of another shape, or a step that is not above 0.
     """
 
     acceleration: NDArray[Any]

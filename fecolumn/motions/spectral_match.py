@@ -4,7 +4,6 @@ dispersion do.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,7 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.foundation.schema import InputError, meant
 from fecolumn.motions.record import UnusableRecord
 from fecolumn.motions.text import check_end, read_text
-from fecolumn.statistics.csv_table import check_columns, check_row, read_csv
+from fecolumn.statistics.csv_table import check_columns, check_row, number_of, read_csv
 
 _NEEDED = "period_s, sa_g or sa_m_s2, and sigma_ln where the dispersion shall fit, too"
 _UNITS = {"sa_g": GRAVITY, "sa_m_s2": 1.0}
@@ -101,10 +100,7 @@ def read_target_spectrum(path: Path | str) -> TargetSpectrum:
 
 def _value(path: Path, number: int, name: str, cell: str) -> float:
     low, high = {"period_s": (1e-3, 100.0), "sigma_ln": (0.0, 3.0)}.get(name, (0.0, 1e6))
-    try:
-        value = float(cell) if "_" not in cell else math.nan
-    except ValueError:
-        value = math.nan
+    value = number_of(cell)
     if not (low <= value <= high and (value > 0 or name == "sigma_ln")):
         told = f"must be a number greater than 0 and at most {high:g}"
         if low:

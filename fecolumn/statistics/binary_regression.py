@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 _MAX_ITERATIONS, _TOLERANCE = 100, 1e-10
+#: What a yes is unless a caller says something else.
+OVERTURN = "overturn"
 
 
 #: Of parameters c (p,): ln L, its gradient (p,) and minus its Hessian (p, p)
@@ -23,7 +25,11 @@ class DegenerateData(ValueError):
 
 
 def fit_binary(
-    x: NDArray[Any], yes: NDArray[Any], link: str, groups: ArrayLike | None = None
+    x: NDArray[Any],
+    yes: NDArray[Any],
+    link: str,
+    groups: ArrayLike | None = None,
+    event: str = OVERTURN,
 ) -> tuple[Any, NDArray[Any], int | None]:
     """Fit c of P(yes) = link(x c) by Newton's method.
 
@@ -41,6 +47,8 @@ def fit_binary(
         "probit" or "logit"; both likelihoods are concave.
     groups
         (n,) label of each run; None takes all runs as independent.
+    event
+        what a yes is, for messages: OVERTURN, or another limit state, such as "top > 50 mm".
 
     Returns
     -------
@@ -55,7 +63,7 @@ def fit_binary(
     """
     from statsmodels.discrete.discrete_model import Logit, Probit
 
-    refuse_degenerate(x, yes)
+    refuse_degenerate(x, yes, event)
     options: dict[str, Any] = {}
     count, factor = None, 1.0
     if groups is not None:
@@ -114,13 +122,16 @@ def maximize(
     raise DegenerateData("the likelihood rises without end: the data all but part into yes and no")
 
 
-def refuse_degenerate(x: NDArray[Any], yes: NDArray[Any]) -> None:
-    """Raise DegenerateData where the likelihood has no finite maximum."""
+def refuse_degenerate(x: NDArray[Any], yes: NDArray[Any], event: str = OVERTURN) -> None:
+    """Raise DegenerateData where the likelihood has no finite maximum; event: as of
+    `fit_binary`.
+    """
     k, n = int(yes.sum()), yes.size
     if k in (0, n):
+        happened = "overturned" if event == OVERTURN else "are beyond the limit"
         raise DegenerateData(
-            f"{'none' if k == 0 else 'all'} of {n} runs overturned: that bounds "
-            "P(overturn), but no curve"
+            f"{'none' if k == 0 else 'all'} of {n} runs {happened}: that bounds "
+            f"P({event}), but no curve"
         )
     # columns alike but for one part in 1e5, such as peaks of pulses of one shape, leave the
     # information singular to rounding
@@ -131,8 +142,11 @@ def refuse_degenerate(x: NDArray[Any], yes: NDArray[Any]) -> None:
             "the intensity measures do not vary, or not independently of each other"
         )
     if _separated(x, yes):
+        parts = ("beyond the limit", "within it")
+        if event == OVERTURN:
+            parts = ("that overturned", "that stood")
         raise DegenerateData(
-            "the intensity parts all runs that overturned from all that stood: the "
+            f"the intensity parts all runs {parts[0]} from all {parts[1]}: the "
             "slope of the fragility is unbounded"
         )
 

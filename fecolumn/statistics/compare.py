@@ -42,7 +42,8 @@ class Comparison:
     paired_p
         p-value of ks by swapping the settings within motions; None of unpaired ensembles.
     median_a_m, median_b_m
-        median of u_max [m]; inf where half of the runs or more overturn.
+        median of u_max [m]; inf where more than half of the runs
+        overturned or slid off.
     e50
         |median_a - median_b| / median_b, b being the reference (the test); inf where a's median
         alone is infinite, nan where b's is.

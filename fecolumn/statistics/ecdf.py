@@ -89,7 +89,7 @@ def ecdf(
         (n,) peak displacement of each run [m], or of any other unit; ignored where the run
         was lost.
     lost
-        (n,) True where the column overturned or slid off.
+        (n,) True, or 1, where the column overturned or slid off; else False, or 0.
     confidence
         level of the band, in (0, 1).
     records
@@ -104,8 +104,8 @@ def ecdf(
     Raises
     ------
     InputError
-        empty sample, lengths that differ, a run that stood without a finite u_max, or a confidence
-        out of range.
+        empty sample, lengths that differ, a run of which `lost` says something else, a run that
+        stood without a finite u_max, or a confidence out of range.
     """
     _check_share("ecdf", "confidence", confidence)
     standing, n = _standing(u_max, lost)
@@ -145,7 +145,7 @@ def percentile(u_max: ArrayLike, lost: ArrayLike, fraction: float) -> float:
     if fraction != 1:
         _check_share("percentile", "fraction", fraction)
     standing, n = _standing(u_max, lost)
-    rank = math.ceil(round(fraction * n, 9))  # 0.07 * 100 is 7.000000000000001 in binary
+    rank = max(1, math.ceil(round(fraction * n, 9)))  # 0.07 * 100 is 7.000000000000001 in binary
     return float(np.sort(standing)[rank - 1]) if rank <= standing.size else math.inf
 
 
@@ -242,18 +242,25 @@ def share_interval(
     )
 
 
-def censored(u_max: ArrayLike, lost: ArrayLike) -> NDArray[Any]:
-    """The sample for rank statistics, (n,): u_max, and inf where the run was lost.
+def censored(u_max: ArrayLike, lost: ArrayLike, dimensions: int = 1) -> NDArray[Any]:
+    """The sample for rank statistics: u_max, and inf where the run was lost.
 
     All lost runs are ties beyond every run that stood.
+
+    Parameters
+    ----------
+    u_max, lost
+        as of `ecdf`, (n,), or of n motions at several settings (settings, n).
+    dimensions
+        1 or 2, which of both.
 
     Raises
     ------
     InputError
         as of `ecdf`.
     """
-    _standing(u_max, lost)
-    return np.where(np.asarray(lost, bool), math.inf, np.asarray(u_max, float))
+    u, over = _checked(u_max, lost, dimensions)
+    return np.where(over, math.inf, u)
 
 
 def largest_peak(*samples: tuple[ArrayLike, ArrayLike]) -> float:
@@ -268,19 +275,41 @@ def largest_peak(*samples: tuple[ArrayLike, ArrayLike]) -> float:
 
 def _standing(u_max: ArrayLike, lost: ArrayLike) -> tuple[NDArray[Any], int]:
     """Peaks of the runs that stood, and the size of the whole sample."""
-    u_max, lost = np.asarray(u_max, float), np.asarray(lost, bool)
-    if u_max.ndim != 1 or u_max.shape != lost.shape or u_max.size == 0:
-        told = f"{lost.shape}: u_max {u_max.shape} and it must be two lists of one length"
+    u, over = _checked(u_max, lost, 1)
+    return u[~over], u.size
+
+
+def _checked(
+    u_max: ArrayLike, lost: ArrayLike, dimensions: int
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """u_max, and whether each run was lost (bool), of one shape with so many dimensions."""
+    u, over = np.asarray(u_max, float), _truths(lost)
+    if u.ndim != dimensions or u.shape != over.shape or u.size == 0:
+        what = "two lists of one length" if dimensions == 1 else "two tables of one shape"
+        told = f"{over.shape}: u_max {u.shape} and it must be {what}"
         raise InputError("ecdf", "lost", None, f"has shape {told}, not empty")
-    standing = u_max[~lost]
-    if not np.isfinite(standing).all():
+    if not np.isfinite(u[~over]).all():
         raise InputError(
             "ecdf",
             "u_max",
             None,
             "of a run that stood is not finite; a failed run is neither standing nor lost",
         )
-    return standing, u_max.size
+    return u, over
+
+
+def _truths(lost: ArrayLike) -> NDArray[Any]:
+    """Truth values, of these or of numbers 0 and 1; any text would be true to numpy."""
+    values = np.asarray(lost)
+    if values.dtype != bool:
+        for value in values.flat:
+            if not isinstance(value, (bool, np.bool_, int, float, np.number)) or value not in (
+                0,
+                1,
+            ):
+                told = "must be True or False, or 1 or 0, for each run"
+                raise InputError("ecdf", "lost", value, told)
+    return values.astype(bool)
 
 
 def _whole(value: Any) -> bool:

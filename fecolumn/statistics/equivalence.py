@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fecolumn.statistics.bands import normal_quantile
+from fecolumn.statistics.ecdf import censored
 from fecolumn.statistics.records import Records, by_record
 
 #: A difference of two CDFs that most would call small: "no difference" is claimed up to it.
@@ -47,15 +48,15 @@ def distance_bound(
     Returns
     -------
     Largest |F_a - F_b| over u, and its upper confidence bound, both in [0, 1].
+
+    Raises
+    ------
+    ValueError
+        as of `ecdf`; two numbers of motions.
     """
-    a, b = (
-        np.where(np.asarray(over, bool), np.inf, np.asarray(u, float))
-        for u, over in ((u_a, overturned_a), (u_b, overturned_b))
-    )
-    if a.shape != b.shape or a.ndim != 1 or a.size == 0:
-        raise ValueError(
-            f"u_a {a.shape} and u_b {b.shape}: must be peaks of the same motions, at least one"
-        )
+    a, b = censored(u_a, overturned_a), censored(u_b, overturned_b)
+    if a.shape != b.shape:
+        raise ValueError(f"u_a {a.shape} and u_b {b.shape}: must be peaks of the same motions")
     at = np.unique(np.concatenate([a, b]))
     at = at[np.isfinite(at)]
     if not at.size:

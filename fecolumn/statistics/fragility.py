@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import expit, ndtr, stdtrit
 
 from fecolumn.statistics.bands import normal_quantile
-from fecolumn.statistics.binary_regression import DegenerateData, fit_binary
+from fecolumn.statistics.binary_regression import OVERTURN, DegenerateData, fit_binary
 
 __all__ = [
     "DegenerateData",
@@ -189,8 +189,8 @@ def _quantile(clusters: int | None, confidence: float) -> float:
     return float(stdtrit(clusters - 1, (1 + confidence) / 2))
 
 
-def median_of(a: float, b: float) -> float:
-    """Median exp(-a/b) of Phi(a + b ln im).
+def median_of(a: float, b: float, event: str = OVERTURN) -> float:
+    """Median exp(-a/b) of Phi(a + b ln im); event: as of `fit_binary`.
 
     Raises
     ------
@@ -199,10 +199,15 @@ def median_of(a: float, b: float) -> float:
     """
     if abs(a) > _LARGEST_LOG * b:
         raise DegenerateData(
-            "overturning hardly depends on the intensity measure: half would overturn at no "
-            "intensity that a number can tell"
+            f"{_noun(event)} hardly depends on the intensity measure: half would "
+            f"{'overturn' if event == OVERTURN else 'be beyond the limit'} at no intensity that a "
+            "number can tell"
         )
     return math.exp(-a / b)
+
+
+def _noun(event: str) -> str:
+    return "overturning" if event == OVERTURN else event
 
 
 def _exp(x: float) -> float:
@@ -210,7 +215,12 @@ def _exp(x: float) -> float:
     return math.exp(x) if x < _LARGEST_LOG else math.inf
 
 
-def lognormal(im: ArrayLike, overturned: ArrayLike, groups: ArrayLike | None = None) -> Fragility:
+def lognormal(
+    im: ArrayLike,
+    overturned: ArrayLike,
+    groups: ArrayLike | None = None,
+    event: str = OVERTURN,
+) -> Fragility:
     """Lognormal fragility by maximum likelihood.
 
     Shinozuka et al. (2000), Journal of Engineering Mechanics 126; Baker (2015), Earthquake Spectra
@@ -228,6 +238,8 @@ def lognormal(im: ArrayLike, overturned: ArrayLike, groups: ArrayLike | None = N
     groups
         (n,) motion of each run, where motions come at several scales; None takes all runs as
         independent.
+    event
+        what `overturned` tells, for messages, as of `fit_binary`.
 
     Raises
     ------
@@ -239,16 +251,16 @@ def lognormal(im: ArrayLike, overturned: ArrayLike, groups: ArrayLike | None = N
     """
     im, overturned = np.asarray(im, float), np.asarray(overturned, bool)
     x = _data(im.reshape(-1), overturned)
-    fit, covariance, clusters = fit_binary(x, overturned, "probit", groups)
+    fit, covariance, clusters = fit_binary(x, overturned, "probit", groups, event)
     a, b = fit.params
     if b <= 0:
         raise DegenerateData(
-            "overturning gets rarer with the intensity measure: it has no lognormal "
+            f"{_noun(event)} gets rarer with the intensity measure: it has no lognormal "
             "fragility; logit() shows the trend"
         )
     to_shape = np.array([[-1 / b, a / b**2], [0.0, -1 / b**2]])
     return Fragility(
-        median_of(a, b),
+        median_of(a, b, event),
         1 / b,
         to_shape @ covariance @ to_shape.T,
         float(fit.llf),

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fecolumn.foundation.files import read_any_text
 from fecolumn.foundation.gravity import GRAVITY
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.csv_table import check_row, number_of, read_csv
@@ -119,13 +120,12 @@ def _text(rows: list[tuple[int, list[str]]], number: int, place: int) -> str:
 def _of_openquake(
     path: Path, header: list[str], rows: list[tuple[int, list[str]]], site: int
 ) -> HazardCurve:
-    with open(path, encoding="utf-8-sig") as file:
-        first = file.readline()
+    first = re.split(r"[\r\n]", read_any_text(path), maxsplit=1)[0]
     stated = {
         key: found[1]
         for key, pattern in (
             ("imt", r"imt='([^']+)'"),
-            ("investigation_time", r"investigation_time=([\d.eE+]+)"),
+            ("investigation_time", r"investigation_time=([-\d.eE+]+)"),
         )
         if first.startswith("#") and (found := re.search(pattern, first))
     }
@@ -146,10 +146,18 @@ def _of_openquake(
     number, row = rows[site - 1]
     years = _number(path, 1, "investigation_time", stated["investigation_time"])
     name, factor = _OF_OPENQUAKE[stated["imt"]]
+    most = _MOST[name.removeprefix(stated["imt"].lower())]
     ims, frequencies = [], []
     for column, text in zip(header, row):
         if not (found := _POE.fullmatch(column)):
             continue
+        if factor * number_of(found[1]) > most:
+            raise InputError(
+                path,
+                "header",
+                column,
+                f"must be at most {most / factor:.4g}: is its unit another?",
+            )
         poe = _number(path, number, column, text, zero=True)
         if poe > 1:
             raise InputError(path, f"line {number}, {column}", text, "must be at most 1")

@@ -173,14 +173,17 @@ def first_overturning(
     Parameters
     ----------
     lower, upper
-        (n,) intensities between which each motion first overturns; 0 and inf for not known.
+        (n,) intensities between which each motion first overturns; 0 and inf for not known. A
+        motion of which neither end is known tells nothing: it is left out, and n of what is
+        returned counts the others.
     records
         (n,) record of each motion, None where each has one of its own.
 
     Raises
     ------
     DegenerateData
-        one intensity parts all motions that stood from all that overturned: the slope is unbounded.
+        nothing is known of any motion; all are of one record; none overturns; or one intensity
+        parts all motions that stood from all that overturned: the slope is unbounded.
     ValueError
         intervals that are none.
     """
@@ -193,8 +196,14 @@ def first_overturning(
         or not (lower < upper).all()
     ):
         raise ValueError("lower and upper must be lists of one length with 0 <= lower < upper")
+    names = list(range(lower.size) if records is None else records)
+    record_numbers(names, lower.size)  # as many as motions
+    known = (lower > 0) | np.isfinite(upper)
+    if not known.any():
+        raise DegenerateData(f"of none of {known.size} motions anything is known")
+    lower, upper = np.asarray(lower[known]), np.asarray(upper[known])
     n, fallen = lower.size, int(np.isfinite(upper).sum())
-    numbers = record_numbers(records, n)
+    numbers = record_numbers([names[place] for place in np.flatnonzero(known)], n)
     weight = np.ones(n) if numbers is None else 1 / np.bincount(numbers)[numbers]
     count = n if numbers is None else int(numbers.max()) + 1
     if count < 2:

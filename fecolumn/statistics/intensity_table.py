@@ -29,9 +29,10 @@ class FailedRuns:
     Attributes
     ----------
     measures
-        name of each intensity measure to its values (f,); None where they are not to be found.
+        name of each intensity measure to its values (g,), positive, of the g <= f runs whose motion
+        has an intensity; None where they are not to be found.
     records
-        (n + f,) what the motion of each run is of, those that are done first.
+        (n + g,) what the motion of each run is of, those that are done first.
     count
         f.
     why
@@ -78,7 +79,7 @@ class IntensityTable:
         return tuple(
             IntensityTable(
                 measures,
-                np.append(self.overturned, np.full(self.failed.count, fallen)),
+                np.append(self.overturned, np.full(len(records) - len(self.overturned), fallen)),
                 records if len(set(records)) < len(records) else None,
             )
             for fallen in (False, True)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from fecolumn.statistics.bands import normal_quantile
+from fecolumn.statistics.ecdf import censored
 from fecolumn.statistics.equivalence import paired_error, upper_bound
 from fecolumn.statistics.records import Records, by_record
 
@@ -72,12 +73,14 @@ def sensitivity(
     keep to the difference of the data, at all u together (a band for the whole difference contains
     the difference at its largest). Its upper end is what the data exclude, see
     `equivalence.distance_bound`.
+
+    Raises
+    ------
+    ValueError
+        as of `ecdf`; two shapes at the two levels.
     """
-    low, high = (
-        np.where(np.asarray(over, bool), np.inf, np.asarray(u, float))
-        for u, over in ((u_low, overturned_low), (u_high, overturned_high))
-    )
-    if low.shape != high.shape or low.ndim != 2 or low.size == 0:
+    low, high = censored(u_low, overturned_low, 2), censored(u_high, overturned_high, 2)
+    if low.shape != high.shape:
         raise ValueError(
             f"u_low {low.shape} and u_high {high.shape}: must be peaks of the same "
             "settings and motions"

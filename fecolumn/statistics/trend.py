@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fecolumn.statistics.ecdf import censored
 from fecolumn.statistics.flips import swapped_p
 from fecolumn.statistics.records import Records, by_record, record_numbers, record_sums
 
@@ -63,13 +64,13 @@ def trend(u_max: ArrayLike, overturned: ArrayLike, seed: int = 0, records: Recor
     Raises
     ------
     ValueError
-        fewer than two levels or no motion.
+        as of `ecdf`; fewer than two levels.
     """
     from scipy.stats import binomtest, page_trend_test
 
-    u = np.where(np.asarray(overturned, bool), np.inf, np.asarray(u_max, float))
-    if u.ndim != 2 or u.shape[0] < 2 or u.shape[1] < 1:
-        raise ValueError(f"u_max {u.shape}: at least two levels and one motion are needed")
+    u = censored(u_max, overturned, 2)
+    if u.shape[0] < 2:
+        raise ValueError(f"u_max {u.shape}: at least two levels are needed")
     levels, n = u.shape
     first, second = np.triu_indices(levels, 1)
     tau = ((u[second] > u[first]) * 1.0 - (u[second] < u[first])).mean(axis=0)

@@ -83,15 +83,12 @@ def read_factors(tables: dict[str, Any], path: Path) -> list[AxisFactor]:
         ]
         for factor in factors:
             _refuse_twice(factor, path)
-    zips = tables.get("zip", [])
-    for number, table in enumerate(zips if isinstance(zips, list) else [zips], 1):
-        factors.append(
-            _zip(
-                table,
-                "zip" if len(zips) == 1 or not isinstance(zips, list) else f"zip.{number}",
-                path,
-            )
-        )
+    if "zip" in tables:
+        zips = tables["zip"]
+        if not isinstance(zips, list) or len(zips) < 2:
+            factors.append(_zip(zips[0] if isinstance(zips, list) and zips else zips, "zip", path))
+        else:
+            factors += [_zip(one, f"zip.{number}", path) for number, one in enumerate(zips, 1)]
     if "latin_hypercube" in tables:
         factors.append(_latin_hypercube(tables["latin_hypercube"], path))
     seen: dict[str, str] = {}

@@ -66,11 +66,6 @@ def what_to_do(rows: Sequence[dict[str, Any]]) -> str:
     return "; ".join(patch if one == "patch" else one for one in told)
 
 
-def commonest_reason(rows: Sequence[dict[str, Any]]) -> str:
-    """The commonest reason of analyses that failed, without its instant and its details."""
-    return _commonest(rows)[0]
-
-
 def why_failed(rows: Sequence[dict[str, Any]]) -> str:
     """Why analyses failed, such as "2 killed ..." of one reason alone, and what to do.
 

@@ -88,7 +88,7 @@ def complete_study(
     InputError
         the folder is not this study's, or another driver works in it.
     StudyError
-        workers cannot start, or the disk is full.
+        workers cannot start, the disk is full, or the ledger cannot be written.
     KeyboardInterrupt
         Ctrl-C; the workers are stopped and the ledger is closed.
     """
@@ -104,14 +104,24 @@ def complete_study(
             done: list[dict[str, Any]] = store.rows()
             return done
     except sqlite3.DatabaseError as error:
-        full = "full" in str(error) or "disk I/O" in str(error)
-        raise StudyError(
-            _DISK_FULL if full else f"the ledger of {folder} cannot be written ({error})"
-        ) from None
+        raise StudyError(_ledger_fault(error, folder)) from None
     except OSError as error:
         if disk_full(error):
             raise StudyError(_DISK_FULL) from None
         raise
+
+
+def _ledger_fault(error: sqlite3.DatabaseError, folder: Path | str) -> str:
+    """What keeps SQLite from writing a study's ledger, and what helps.
+
+    A quota and a limit on the size of files are a fault of writing to it, and no full disk.
+    """
+    if "full" in str(error):
+        return _DISK_FULL
+    if getattr(error, "sqlite_errorname", "") == "SQLITE_IOERR_WRITE":
+        told = "the disk is full, a quota or a limit on the size of files is reached, or the disk"
+        return f"{told} is at fault (the ledger of {folder}: {error}); free room"
+    return f"the ledger of {folder} cannot be written ({error})"
 
 
 def drive(

@@ -133,6 +133,13 @@ def test_strong_part_shortens_the_motion(tmp_path):
     assert part.pga == pytest.approx(whole.pga, rel=1e-9)
 
 
+@pytest.mark.parametrize("part", [(0.9, 0.2), (0.5, 0.5), (0.1, 0.2, 0.3), (0.1,), ()])
+def test_part_that_does_not_rise_is_refused(tmp_path, part):
+    source, _ = smooth_csv(tmp_path)
+    found = refused(Motion(source, strong_part=part))
+    assert found.key == "motion.strong_part" and "two rising fractions" in found.allowed
+
+
 def test_same_input_gives_the_same_hash_and_any_change_another(tmp_path):
     source, _ = smooth_csv(tmp_path)
     first, again, other = (

@@ -371,6 +371,7 @@ def test_a_pipe_or_a_device_in_place_of_a_test_holds_nothing_up(tmp_path):
         ([("block.restitutoin", "0.5:1")], "did you mean block.restitution"),
         ([("block.restitution", "1:0.5")], "did you mean 0.5:1?"),
         ([("block.restitution", "0.5:1.5")], "block.restitution = "),
+        ([("block.restitution", "-.5:-0.1")], "block.restitution = -0.3: must lie in [0, 1]"),
         ([("block.restitution", "-0.5:1")] * 2, "--fit = 'block.restitution': stands twice"),
         ([("block.sides", "1:2")], "a number of the object or of its start that varies contin"),
         ([("motion.scale", "1:2")], "a number of the object or of its start"),
@@ -378,11 +379,47 @@ def test_a_pipe_or_a_device_in_place_of_a_test_holds_nothing_up(tmp_path):
     ],
 )
 def test_keys_that_cannot_be_fitted_are_refused_in_a_line(test_of_block, capsys, fits, said):
-    if fits[0][1].startswith("-"):  # a range that begins with a minus is an option to argparse
-        fits = [(key, "0.5:1") for key, _ in fits]
     assert calibrate(test_of_block, "refused", *fits) == 2
     told = capsys.readouterr().err
     assert said in told and told.count("\n") == 1
+
+
+DRUM = """[bodies.{name}]
+kind = "block"
+length_m = 0.4
+width_m = 0.4
+height_m = 0.5
+mass_kg = 200
+element_size_m = 0.1
+rigid = true
+contact_stiffness_n_m3 = 1e10
+edge_radius_m = 0.01
+[joints.below_{name}]
+between = ["{name}", "{below}"]
+"""
+DRUMS = "".join(
+    DRUM.format(name=name, below=below)
+    for name, below in (("a", "ground"), ("b", "a"), ("c", "b"), ("d", "c"))
+)
+
+
+@pytest.mark.parametrize(
+    "text, said",
+    [
+        ("bodies = 3\n", "bodies = 3: must hold tables by name"),
+        ("grounds = 3\n" + DRUMS, "grounds = 3: must hold tables by name"),
+        (DRUMS.replace("mass_kg", "mas_kg", 1), "bodies.a.mas_kg = 200: unknown key"),
+        (DRUMS, "has 10 keys to fit, contact.restitution, contact.friction_coefficient, bodies.a"),
+        (DRUMS, "; at most 4: name them by --fit"),
+    ],
+)
+def test_case_without_usual_keys_is_refused_in_a_line(tmp_path, capsys, text, said):
+    (tmp_path / "block.toml").write_text(text)
+    (tmp_path / "free.csv").write_text("time_s,tilt_rad\n0,0.1\n0.5,0.05\n1,0.04\n")
+    assert calibrate(tmp_path, "refused") == 2
+    told = capsys.readouterr().err
+    assert said in told and told.count("\n") == 1
+    assert not (tmp_path / "refused").exists()
 
 
 @pytest.mark.parametrize("table", ["base", "grounds", "joints"])

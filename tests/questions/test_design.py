@@ -279,6 +279,7 @@ def test_limit_that_cannot_be_used_is_refused_in_a_line(limit, said):
             "is of links: the case has no [links]",
         ),
         ({"--vary": ("block.width_m", "0.5:0.5000001")}, "must hold two values told apart by six"),
+        ({"--vary": ("block.width_m", "-1e-1:0.9")}, "--vary block.width_m = -0.1: must"),
         ({"--steps": ("1",)}, "--steps = 1: must lie in [2, 1024]"),
         ({"-j": ("0",)}, "-j = 0: must be at least 1"),
         ({"case": ("absent.toml",)}, "absent.toml: no such file"),

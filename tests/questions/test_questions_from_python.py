@@ -5,6 +5,7 @@ import io
 import shutil
 import signal
 import threading
+from pathlib import Path
 
 import numpy as np
 import pandas
@@ -92,6 +93,19 @@ def test_a_list_of_objects_is_a_table_too(tmp_path):
     assert "Most endangered of 2 is 'slender'" in answer.text and "wrote" not in answer.text
 
 
+def test_a_list_that_cannot_be_written_leaves_the_older_one(tmp_path):
+    class Broken:
+        def to_csv(self, path=None, index=True):
+            if path is not None:
+                Path(path).write_text("name,wid")
+            raise OSError("no room")
+
+    (tmp_path / "m-list.csv").write_text("older")
+    with pytest.raises(OSError, match="no room"):
+        fecolumn.screen(Broken(), tmp_path / "m", motions="lick:1-5")
+    assert (tmp_path / "m-list.csv").read_text() == "older"
+
+
 def test_a_calibration_and_a_risk(tmp_path):
     time = np.arange(0, 1.5, 0.05)
     truth = fecolumn.case_from_tables(
@@ -127,6 +141,7 @@ WRONG = [
     (dict(vary=("block.width_m", 0.6, 0.2)), "must be a range LO:HI that rises"),
     (dict(vary=("block.width_m", "a", "b")), "range"),
     (dict(vary=("block.width", 0.2, 0.6)), "block.width"),
+    (dict(vary=("block.width_m", -0.2, -0.6)), "did you mean -0.6:-0.2"),
     (dict(limit="P(fall) < 0.1"), "fall"),
     (dict(motions="lick:1-2"), "at least 5 motions"),
     (dict(jobs=0), "must be at least 1"),

@@ -266,6 +266,19 @@ def test_export_of_openquake_is_read(tmp_path):
     assert read_hazard(file, 2).im.size == 3
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+def test_export_of_openquake_is_read_as_other_programs_save_it(tmp_path, encoding):
+    text = OPENQUAKE.replace("kind='mean'", "kind='mean', of='Zürich'").replace("=50.0", "=5.0e+1")
+    (tmp_path / "hazard.csv").write_bytes(text.encode(encoding))
+    curve = read_hazard(tmp_path / "hazard.csv")
+    assert curve.frequency == pytest.approx(-np.log1p(-np.array([0.4, 5e-3])) / 50)
+
+
+def test_time_of_openquake_may_have_a_negative_exponent(tmp_path):
+    curve = read_hazard(hazard_file(tmp_path, OPENQUAKE.replace("=50.0", "=5000.0e-2")))
+    assert curve.frequency == pytest.approx(-np.log1p(-np.array([0.4, 5e-3])) / 50)
+
+
 @pytest.mark.parametrize(
     "text, said",
     [
@@ -286,6 +299,11 @@ def test_export_of_openquake_is_read(tmp_path):
         ("pga_g,probability_0_years\n0.1,0.1\n0.2,0.02\n", "more than 0 years"),
         (OPENQUAKE.replace("'PGA'", "'SA(0.5)'"), "imt = 'SA(0.5)': must be one of PGA, PGV"),
         (OPENQUAKE.replace("#,", "x,"), "has 7 columns where the header has 6"),
+        (OPENQUAKE.replace("poe-2.0", "poe-300.0"), "= 'poe-300.0000000': must be at most 100: is"),
+        (
+            OPENQUAKE.replace("PGA", "PGV").replace("poe-2.0", "poe-20000.0"),
+            "= 'poe-20000.0000000': must be at most 1e+04: is",
+        ),
         (OPENQUAKE.replace("4.0E-01", "1.4"), "poe-0.0500000 = '1.4': must be at most 1"),
         ("sa1_g,annual_frequency\n0.1,1e-2\n0.2,1e-3\n", "must have one column sa1_m_s2"),
         (
@@ -336,6 +354,18 @@ def test_runs_that_bound_no_curve_are_refused(tmp_path, capsys):
     hazard, out = hazard_file(tmp_path, POWER), str(tmp_path / "out")
     assert main(["risk", str(tmp_path / "runs.csv"), "--hazard", str(hazard), "-o", out]) == 2
     assert "bound no fragility over pga_m_s2" in capsys.readouterr().err
+
+
+def test_frequency_of_nothing_has_no_middle_half(tmp_path, capsys):
+    hazard, out = hazard_file(tmp_path, POWER), str(tmp_path / "out")
+    far = FRAGILITY.replace("7.8,6.9,8.9", "7.8e20,6.9e20,8.9e20").replace(
+        "0.41,0.28,0.60", "0.2,0.1,0.3"
+    )
+    file = hazard_file(tmp_path, far, "fragility.csv")
+    assert main(["risk", str(file), "--hazard", str(hazard), "-o", out]) == 0
+    said = capsys.readouterr().out
+    assert "frequency of 0 [0, 0] a year" in said and "half of it" not in said
+    assert "in 50 years (95 % intervals).\n" in said
 
 
 def test_curve_that_ends_too_soon_or_begins_too_late_is_told(tmp_path, capsys):

@@ -4,10 +4,13 @@ import csv
 
 import numpy as np
 import pytest
+from scipy.special import ndtr
 from synthetic_study import write_synthetic
 
 from fecolumn.cli import main
 from fecolumn.statistics.fragility import logit, lognormal
+from fecolumn.statistics.intensity_table import IntensityTable
+from fecolumn.study.report.fragility_command import _write
 
 
 def rows(file):
@@ -151,3 +154,75 @@ def test_table_that_cannot_be_used_is_refused_in_a_line(tmp_path, capsys, text, 
         main(["fragility", str(tmp_path / "runs.csv"), *options, "-o", str(tmp_path / "out")]) == 2
     )
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("fails", [(), (0, 31)])  # a motion at rest and another
+def test_motions_at_scale_0_have_no_intensity_and_are_left_out(tmp_path, capsys, fails):
+    pulses, hazard = tmp_path / "p12.h5", tmp_path / "hazard.csv"
+    make = ["motions", "make", "pulses", "symmetric_ricker", "--periods", "0.5", "--amplitudes"]
+    assert main([*make, *map(str, np.linspace(0.5, 5.0, 12)), "-o", str(pulses)]) == 0
+    hazard.write_text("pga_m_s2,annual_frequency\n0.1,0.1\n100,1e-8\n")
+    sources, found = [f"{pulses}#{number}" for number in range(1, 13)], []
+    for name, scales in (("with", [0.0, 0.5, 1.0, 2.0]), ("without", [0.5, 1.0, 2.0])):
+        left = tuple(place - (12 if name == "without" else 0) for place in fails)
+        study = write_synthetic(
+            tmp_path / name,
+            {"motion.scale": scales},
+            0,
+            sources=sources,
+            effect=lambda values: values["motion.scale"],
+            fails=[place for place in left if place >= 0],
+        )
+        for command in (["fragility", "--im", "pga_m_s2"], ["risk", "--hazard", str(hazard)]):
+            out = tmp_path / f"{name}_{command[0]}"
+            capsys.readouterr()
+            assert main([command[0], str(study), *command[1:], "-o", str(out)]) == bool(fails)
+            told = "of 48 analyses are left out: their motions have no pga_m_s2 above 0"
+            at_rest = 12 - (len(fails) > 0)
+            error = capsys.readouterr().err
+            if fails:
+                told = told.replace("48", "46")
+            assert (f"{at_rest} {told}" in error) == (name == "with")
+            found.append((out / f"{command[0]}.csv").read_text())
+    assert found[:2] == found[2:]
+
+
+def test_study_of_motions_at_rest_alone_is_refused(tmp_path, capsys):
+    pulses = str(tmp_path / "p2.h5")
+    make = ["motions", "make", "pulses", "symmetric_ricker", "--periods", "0.5", "--amplitudes"]
+    assert main([*make, "1", "2", "-o", pulses]) == 0
+    study = write_synthetic(
+        tmp_path / "s", {"motion.scale": [0.0]}, 0, sources=[f"{pulses}#1", f"{pulses}#2"]
+    )
+    assert main(["fragility", str(study), "-o", str(tmp_path / "out")]) == 2
+    assert "none of its 2 motions has pgv_m_s above 0" in capsys.readouterr().err
+
+
+def test_refusal_of_a_risk_names_its_event(tmp_path, capsys):
+    pulses, hazard = str(tmp_path / "p6.h5"), tmp_path / "hazard.csv"
+    make = ["motions", "make", "pulses", "symmetric_ricker", "--periods", "0.5", "--amplitudes"]
+    assert main([*make, *"123456", "-o", pulses]) == 0
+    hazard.write_text("pga_m_s2,annual_frequency\n0.1,0.1\n100,1e-8\n")
+    sources = [f"{pulses}#{number}" for number in range(1, 7)]
+    study = write_synthetic(
+        tmp_path / "s", {"motion.scale": [1.0]}, 0, sources=sources, effect=lambda values: 1e-6
+    )
+    ask = ["risk", str(study), "--hazard", str(hazard), "-o", str(tmp_path / "out"), "--event"]
+    for event, said in (
+        ("top > 50 mm", "none of 6 runs are beyond the limit: that bounds P(top > 50 mm), but no"),
+        ("overturn", "none of 6 runs overturned: that bounds P(overturn), but no curve"),
+    ):
+        assert main([*ask, event]) == 2
+        assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("levels", [7, 8])
+def test_figure_that_has_not_all_settings_says_so(tmp_path, capsys, levels):
+    rng = np.random.default_rng(1)
+    im = rng.lognormal(0, 1, 40)
+    fallen = rng.random(40) < ndtr(np.log(im))
+    tables = {f"mu = {k}": IntensityTable({"pga_m_s2": im}, fallen, None) for k in range(levels)}
+    _write(tables, tmp_path, "study")
+    said = "the figure has 7 of 8 settings; fragility.csv has all"
+    assert (said in capsys.readouterr().out) == (levels == 8)
+    assert len(rows(tmp_path / "fragility.csv")) == levels

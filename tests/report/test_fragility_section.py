@@ -13,6 +13,7 @@ from fecolumn.cli import main
 from fecolumn.motions.ensemble_file import read_member
 from fecolumn.motions.intensity import peak_values
 from fecolumn.statistics.fragility import lognormal
+from fecolumn.study.report.observed_shares import observed_shares, share_groups
 
 PEAKS = np.linspace(0.5, 5.0, 30)
 
@@ -39,6 +40,18 @@ def pulses(tmp_path_factory):
         == 0
     )
     return [f"{file}#{number}" for number in range(1, len(PEAKS) + 1)]
+
+
+@pytest.mark.parametrize(
+    "n, groups", [(4, 1), (9, 1), (10, 2), (20, 4), (29, 5), (30, 6), (500, 6)]
+)
+def test_shares_are_of_six_groups_at_most_and_five_runs_at_least(n, groups):
+    im, happened = np.arange(1.0, n + 1), np.arange(n) >= n // 2
+    curve = observed_shares(im, happened)
+    assert curve.x.size == share_groups(n) == groups and curve.name.endswith("of equal number")
+    assert (np.diff(curve.x) > 0).all() and (
+        (curve.bars[0] <= curve.y) & (curve.y <= curve.bars[1])
+    ).all()
 
 
 def rows_of(out):

@@ -133,3 +133,46 @@ def test_fragility_over_the_scales_knows_that_its_runs_repeat_twenty_motions(stu
 def test_two_scales_are_no_incremental_analysis(tmp_path):
     sweep = read_sweep(write_synthetic(tmp_path, {"motion.scale": [1.0, 2.0]}, 5))
     assert incremental(sweep, None, Intensities(sweep.folder)) is None and SPECIMEN.is_file()
+
+
+@pytest.fixture(scope="module")
+def both_ways(tmp_path_factory, study):
+    """The same pulses at scales of both signs, and at rest."""
+    pulses = study.parent.parent / "p20.h5"
+    return write_synthetic(
+        tmp_path_factory.mktemp("both"),
+        {"motion.scale": [-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0]},
+        0,
+        sources=[f"{pulses}#{number}" for number in range(1, 21)],
+        scatter=0.0,
+        effect=lambda values: abs(values["motion.scale"]),
+    )
+
+
+def test_scales_of_both_signs_are_two_motions_of_a_record(both_ways):
+    page = report(both_ways)
+    assert "each of 40 motions of 20 records scaled to 3 levels" in page.text
+    assert page.text.count("20 runs of motions without intensity, at scale 0, are left out") == 2
+    rows = table(both_ways, "ida_motions")
+    assert len(rows) == 40 and all(row["scales"] == "3" for row in rows)
+    forth = [row for row in rows if not row["motion"].endswith(", reversed")]
+    back = {row["motion"]: row for row in rows}
+    assert len(forth) == 20
+    for row in forth:
+        other = back[f"{row['motion']}, reversed"]
+        assert other["pgv_overturned_m_s"] == row["pgv_overturned_m_s"]
+    (row,) = table(both_ways, "first_overturnings")
+    assert (row["motions"], row["records"], row["runs"]) == ("40", "20", "120")
+    assert table(both_ways, "fragilities")[0]["n"] == "120"
+
+
+def test_what_is_wrong_in_a_section_is_no_motion_that_is_not_found(study, monkeypatch):
+    """A section is left out where motions are not to be found, and for nothing else."""
+
+    def broken(*_):
+        raise ValueError("not of a motion")
+
+    sweep = read_sweep(study)
+    monkeypatch.setattr("fecolumn.study.report.incremental.incremental_curves", broken)
+    with pytest.raises(ValueError, match="not of a motion"):
+        incremental(sweep, None, Intensities(sweep.folder))

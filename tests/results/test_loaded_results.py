@@ -217,7 +217,15 @@ def test_array_is_a_motion(drum, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "acceleration", [np.zeros(1), np.zeros((5, 4)), np.array([0.0, np.nan, 1.0])]
+    "acceleration",
+    [
+        np.zeros(1),
+        np.zeros((5, 4)),
+        np.array([0.0, np.nan, 1.0]),
+        [[0.0, 1.0], [2.0]],
+        ["a", "b"],
+        [None, {}],
+    ],
 )
 def test_array_that_is_no_motion_is_refused(acceleration, tmp_path):
     with pytest.raises(InputError, match="acceleration"):

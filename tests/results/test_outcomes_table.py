@@ -2,6 +2,7 @@
 package.
 """
 
+import h5py
 import numpy as np
 import pytest
 
@@ -27,6 +28,32 @@ def test_rows_come_back_with_their_dictionary(tmp_path):
     assert table.length_m.to_numpy() == pytest.approx([1 / 3, np.nan, -1e-7], rel=1e-5, nan_ok=True)
     assert table.attrs["columns"]["length_m"] == {"meaning": "of it", "unit": "m"}
     assert table.attrs["made"] == {"version": "1", "physics": "3"}
+
+
+OTHERS = {
+    "no order": (None, {"a": [1.0]}, {}),
+    "order without column": ('["b"]', {"a": [1.0]}, {}),
+    "order that is none": ("3", {"a": [1.0]}, {}),
+    "order that is no JSON": ("a", {"a": [1.0]}, {}),
+    "no meaning": ('["a"]', {"a": [1.0]}, {}),
+    "one number": ('["a"]', {"a": 1.0}, {"meaning": "x", "unit": "m", "words": "[]"}),
+    "words of no places": ('["a"]', {"a": [0.5]}, {"meaning": "x", "unit": "m", "words": '["b"]'}),
+    "two lengths": (
+        '["a", "b"]',
+        {"a": [1.0], "b": [1.0, 2.0]},
+        {"meaning": "x", "unit": "m", "words": "[]"},
+    ),
+}
+
+
+@pytest.mark.parametrize("order, columns, attributes", OTHERS.values(), ids=OTHERS)
+def test_another_file_with_columns_is_refused(tmp_path, order, columns, attributes):
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        for name, values in columns.items():
+            file.create_dataset(f"columns/{name}", data=values).attrs.update(attributes)
+        file.attrs.update({} if order is None else {"order": order})
+    with pytest.raises(fecolumn.InputError, match="is no table of outcomes; python -m bench"):
+        fecolumn.outcomes(file=tmp_path / "other.h5")
 
 
 def test_what_is_no_table_is_refused(tmp_path):

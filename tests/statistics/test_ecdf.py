@@ -2,12 +2,13 @@ import math
 import re
 
 import numpy as np
+import pandas
 import pytest
 from scipy.stats import beta
 
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.bands import normal_quantile
-from fecolumn.statistics.ecdf import ecdf, percentile, proportion_interval
+from fecolumn.statistics.ecdf import censored, ecdf, percentile, proportion_interval
 from fecolumn.statistics.ensemble import summarize
 
 
@@ -172,3 +173,46 @@ def test_row_of_an_ensemble():
 def test_what_no_share_can_be_is_refused_by_name(call, told):
     with pytest.raises(InputError, match=told):
         call()
+
+
+@pytest.mark.parametrize(
+    "lost", [["no", "no"], ["0", "0"], [None, None], [0, 2], [0.5, 0], [math.nan, 0], [False, "no"]]
+)
+def test_what_says_neither_lost_nor_standing_is_refused(lost):
+    with pytest.raises(InputError, match="must be True or False, or 1 or 0, for each run"):
+        ecdf([1.0, 2.0], lost)
+    with pytest.raises(InputError, match="must be True or False, or 1 or 0, for each run"):
+        percentile([1.0, 2.0], lost, fraction=0.5)
+
+
+@pytest.mark.parametrize(
+    "lost",
+    [
+        [0, 1],
+        [0.0, 1.0],
+        np.array([False, True], object),
+        np.array([0, 1], np.uint8),
+        pandas.Series([False, True], dtype="boolean"),
+    ],
+)
+def test_ones_and_noughts_tell_what_is_lost(lost):
+    assert ecdf([1.0, 2.0], lost).lost == 1
+
+
+def test_percentile_of_a_small_share_is_the_least_peak():
+    assert percentile([1, 2, 3], [0, 0, 0], fraction=1e-10) == 1.0
+
+
+def test_median_is_finite_where_half_are_lost_and_not_where_more_are():
+    assert percentile([1, 2, 3, 4], [0, 0, 1, 1], fraction=0.5) == 2.0
+    assert percentile([1, 2, 3, 4, 5], [0, 0, 1, 1, 1], fraction=0.5) == math.inf
+
+
+def test_tables_of_motions_at_several_settings_are_checked_alike():
+    u, lost = np.array([[1.0, 2.0], [3.0, math.nan]]), np.array([[False, True], [False, True]])
+    np.testing.assert_array_equal(censored(u, lost, 2), [[1.0, math.inf], [3.0, math.inf]])
+    for wrong in ((u[0], lost[0]), (u, lost[0]), (u, ~lost), (np.zeros((2, 0)), np.zeros((2, 0)))):
+        with pytest.raises(InputError, match="^ecdf: "):
+            censored(*wrong, 2)
+    with pytest.raises(InputError, match="two lists of one length"):
+        censored(u, lost)

@@ -3,6 +3,7 @@ state.
 """
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -11,7 +12,13 @@ from scipy.special import expit
 from scipy.stats import norm
 
 from fecolumn.statistics.displacement_fragility import displacement
-from fecolumn.statistics.fragility import DegenerateData, Fragility, logit, lognormal
+from fecolumn.statistics.fragility import (
+    DegenerateData,
+    Fragility,
+    logit,
+    lognormal,
+    median_of,
+)
 
 MEDIAN, BETA = 1.3, 0.4
 
@@ -290,6 +297,28 @@ def test_data_without_a_maximum_are_refused_in_words(im, overturned, reason):
     for fit in (lognormal, logit):
         with pytest.raises(DegenerateData, match=reason):
             fit(im, overturned)
+
+
+@pytest.mark.parametrize(
+    "im, beyond, said",
+    [
+        ([1, 2], [0, 0], "none of 2 runs are beyond the limit: that bounds P(top > 50 mm), but"),
+        ([1, 2, 3, 4], [0, 0, 1, 1], "all runs beyond the limit from all within it: the slope"),
+        ([1, 2, 3, 4, 5], [1, 1, 0, 1, 0], "top > 50 mm gets rarer with the intensity measure"),
+    ],
+)
+def test_refusals_name_the_limit_state(im, beyond, said):
+    with pytest.raises(DegenerateData, match=re.escape(said)):
+        lognormal(im, beyond, event="top > 50 mm")
+
+
+def test_a_median_that_no_number_tells_names_the_limit_state():
+    for event, said in (
+        ("overturn", "overturning hardly depends on the intensity measure: half would overturn at"),
+        ("lost", "lost hardly depends on the intensity measure: half would be beyond the limit at"),
+    ):
+        with pytest.raises(DegenerateData, match=said):
+            median_of(1.0, 1e-9, event)
 
 
 def test_plane_that_parts_two_measures_is_found():

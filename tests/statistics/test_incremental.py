@@ -159,6 +159,26 @@ def test_intervals_that_do_not_bound_the_curve_are_refused_in_words(lower, upper
         first_overturning(lower, upper)
 
 
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("records", [None, ["a", "a", "b", "c", "d", "d"]])
+def test_motion_of_which_nothing_is_known_tells_nothing(records):
+    lower, upper = [1.0, 2.0, 1.5, 3.0, 0.0, 2.5], [2.0, 4.0, 3.0, np.inf, 1.0, 5.0]
+    fit = first_overturning(lower, upper, records)
+    more = first_overturning(
+        [0.0, *lower, 0.0], [np.inf, *upper, np.inf], records and ["a", *records, "e"]
+    )
+    assert more.n == fit.n == 6 and more.overturned == 5 and more.clusters == fit.clusters
+    assert more.parameters == pytest.approx(fit.parameters, rel=1e-9)
+    np.testing.assert_allclose(more.covariance, fit.covariance, rtol=1e-9)
+
+
+def test_motions_of_which_nothing_is_known_are_refused():
+    with pytest.raises(DegenerateData, match="of none of 3 motions anything is known"):
+        first_overturning(np.zeros(3), np.full(3, np.inf))
+    with pytest.raises(ValueError, match="2 records of 3 runs"):
+        first_overturning(np.zeros(3), np.full(3, np.inf), ["a", "b"])
+
+
 def test_two_runs_of_one_intensity_are_refused():
     with pytest.raises(ValueError, match="two runs of one intensity"):
         incremental_curves(["a", "a"], [1, 1], [0.1, 0.2], [0, 0])

@@ -133,3 +133,14 @@ def test_a_distance_that_few_motions_hide_and_the_number_that_shows_it():
         a, b = rng.normal(size=(2, 40))
         seen += kolmogorov_smirnov(a, b).statistic > detectable_distance(40)
     assert seen / 300 < 0.08
+
+
+def test_a_peak_that_is_not_known_is_refused_and_not_taken_as_lost():
+    u, lost = np.array([[1.0, 2.0, 3.0], [2.0, np.nan, 4.0]]), np.zeros((2, 3), bool)
+    for ask in (
+        lambda: trend(u, lost),
+        lambda: sensitivity(u[:1], lost[:1], u[1:], lost[1:]),
+        lambda: distance_bound(u[0], lost[0], u[1], lost[1]),
+    ):
+        with pytest.raises(ValueError, match="neither standing nor lost"):
+            ask()

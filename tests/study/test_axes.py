@@ -18,7 +18,8 @@ LATIN = (
 
 def _plan(tmp_path, text):
     file = tmp_path / "study.toml"
-    file.write_text(f'[case]\nextends = "{SPECIMEN}"\n[case.integration]\nduration_s = 1.0\n{text}')
+    case = f'[case]\nextends = "{SPECIMEN}"\n[case.integration]\nduration_s = 1.0\n'
+    file.write_text(case + text if text.startswith("[") else text + case)
     return read_plan(file)
 
 
@@ -116,6 +117,9 @@ def test_ids_are_those_of_the_cases(tmp_path):
         ),
         (ZIP + '[axes]\n"column.height_m" = [1.0]', "zip.column.height_m: stands in axes already"),
         ("[[zip]]\n", "zip = {}: a table of lists"),
+        ("zip = 3\n", "zip = 3: a table of lists"),
+        ("zip = []\n", r"zip = \[\]: a table of lists"),
+        ("zip = [3, 4]\n", "zip.1 = 3: a table of lists"),
         (
             '[latin_hypercube]\n"contact.friction_coefficient" = [0.2, 0.8]',
             r"latin_hypercube.samples: missing; number of samples",

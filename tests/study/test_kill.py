@@ -8,6 +8,7 @@ import os
 import random
 import resource
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -192,6 +193,26 @@ def test_small_disk_stops_the_study_cleanly_and_more_room_lets_it_go_on(tmp_path
         assert all(file.read_bytes() == content for file, content in before.items())
     finally:
         subprocess.run(["umount", "-l", disk], check=True)
+
+
+@pytest.mark.parametrize(
+    "said, name, told",
+    [
+        ("database or disk is full", "SQLITE_FULL", "^the disk is full; free room$"),
+        ("disk I/O error", "SQLITE_IOERR_WRITE", r"is at fault \(the ledger of .*disk I/O error"),
+        ("disk I/O error", "SQLITE_IOERR_FSYNC", r"^the ledger of .* cannot be written \(disk I/O"),
+    ],
+)
+def test_fault_of_a_disk_is_told_and_not_called_a_full_one(tmp_path, monkeypatch, said, name, told):
+    error = sqlite3.OperationalError(said)
+    error.sqlite_errorname = name
+
+    def drive(*_):
+        raise error
+
+    monkeypatch.setattr("fecolumn.study.run.drive", drive)
+    with pytest.raises(StudyError, match=told):
+        complete_study(read_plan(write_study(tmp_path, pulses=[1])), tmp_path / "out", entry=ENTRY)
 
 
 def test_full_disk_is_told_to_a_caller(tmp_path):

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from fecolumn.foundation.interrupt import termination_as_interrupt
+from fecolumn.foundation.range_option import take_values_below_zero
 
 _COMMAND = "fecolumn calibrate"
 _MOST = 4  # keys: each one more doubles the runs
@@ -20,6 +21,7 @@ _NO_PART = ("motion", "integration", "output", "overturn", "mesh")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn calibrate`."""
+    take_values_below_zero(parser)
     parser.add_argument("case", metavar="CASE.toml", help="case file; its motion is not used")
     parser.add_argument(
         "--test",
@@ -89,13 +91,25 @@ def main(args: argparse.Namespace) -> int:
 
 
 def _ranges(args: argparse.Namespace, tables: dict[str, Any]) -> dict[str, tuple[float, float]]:
-    """Keys to fit with their ranges."""
+    """Keys to fit with their ranges.
+
+    Raises
+    ------
+    InputError
+        of --fit, or, where that is left out, of the case; or there are too many keys.
+    """
+    from fecolumn.case.case import case_from_tables
     from fecolumn.foundation.schema import InputError
     from fecolumn.study.questions.calibration import usual_ranges
     from fecolumn.study.questions.given import read_range
 
     if args.fit is None:
-        found = usual_ranges(tables, args.case)
+        rest = {key: table for key, table in tables.items() if key != "motion"}
+        case_from_tables(rest, args.case)
+        found = usual_ranges(rest, args.case)
+        if len(found) > _MOST:
+            told = f"has {len(found)} keys to fit, {', '.join(found)}; at most {_MOST}: name them"
+            raise InputError(args.case, "", None, f"{told} by --fit")
         if not args.quiet:
             print(f"fitting {', '.join(found)}", file=sys.stderr, flush=True)
         return found

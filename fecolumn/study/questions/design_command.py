@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from fecolumn.foundation.interrupt import termination_as_interrupt
+from fecolumn.foundation.range_option import take_values_below_zero
 
 _COMMAND = "fecolumn design"
 _TOLD = 5  # failed analyses
@@ -18,6 +19,7 @@ _STEPS = 64  # of the range: finer than any interval of some hundred motions
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn design`."""
+    take_values_below_zero(parser)
     parser.add_argument("case", metavar="CASE.toml", help="case file; its own motion is not used")
     parser.add_argument(
         "--vary",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -51,20 +52,17 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
     if not Path(source).is_dir() and (found := _stated(source, measure)):
         return found
     event = read_event(limit, "fecolumn risk")
-    happened = None if event.quantity == "overturn" else event.happened
+    happened, fit_curve = None, lognormal
+    if event.quantity != "overturn":
+        happened, fit_curve = event.happened, partial(lognormal, event=event.text)
     fitted, refused = {}, {}
     for label, table in runs_by_setting(source, (measure,), happened).items():
         im = table.measures[measure]
         try:
-            fit = lognormal(im, table.overturned, table.records)
-            bounds = [one.region() for one in over_failed(table, measure, lognormal)]
+            fit = fit_curve(im, table.overturned, table.records)
+            bounds = [one.region() for one in over_failed(table, measure, fit_curve)]
         except DegenerateData as error:
-            told = str(error)
-            if event.quantity != "overturn":
-                told = told.replace("that overturned", "beyond the limit")
-                told = told.replace("overturned", "are beyond the limit")
-                told = told.replace("that stood", "within it")
-            refused[label] = told
+            refused[label] = str(error)
             continue
         fitted[label] = KnownFragility(
             fit.median,

@@ -13,11 +13,13 @@ from typing import TYPE_CHECKING, Any
 from fecolumn.case.sections import GRAVITY, MODEL_ENGINES
 from fecolumn.engines.ending import lost
 from fecolumn.foundation.schema import InputError, meant
+from fecolumn.statistics.csv_table import number_of
 
 if TYPE_CHECKING:
     from fecolumn.case.case import Case
 
-_LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
+#: Factor to metres by the word of the unit.
+METRES_OF = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
 _ANGLES = {"rad": 1.0, "mrad": 1e-3, "deg": math.pi / 180}
 _ACCELERATIONS = {"g": GRAVITY, "m/s2": 1.0, "cm/s2": 1e-2}
 _FORCES = {"N": 1.0, "kN": 1e3, "MN": 1e6}
@@ -47,18 +49,18 @@ class PeakQuantity:
 
 
 _QUANTITIES = {
-    "top": PeakQuantity(_LENGTHS, "u_max_m", "", ""),
+    "top": PeakQuantity(METRES_OF, "u_max_m", "", ""),
     "tilt": PeakQuantity(_ANGLES, "tilt_max_rad", "bodies", "tilt_max_rad"),
     "acceleration": PeakQuantity(_ACCELERATIONS, "", "bodies", "acceleration_max_m_s2"),
-    "slide": PeakQuantity(_LENGTHS, "", "interfaces", "slide_max_m"),
-    "residual slide": PeakQuantity(_LENGTHS, "", "interfaces", "residual_slide_m"),
-    "rise": PeakQuantity(_LENGTHS, "", "interfaces", "rise_max_m"),
+    "slide": PeakQuantity(METRES_OF, "", "interfaces", "slide_max_m"),
+    "residual slide": PeakQuantity(METRES_OF, "", "interfaces", "residual_slide_m"),
+    "rise": PeakQuantity(METRES_OF, "", "interfaces", "rise_max_m"),
     "force": PeakQuantity(_FORCES, "", "interfaces", "force_max_n"),
     "tension": PeakQuantity(_FORCES, "", "links", "tension_max_n"),
     "compression": PeakQuantity(_FORCES, "", "links", "compression_max_n"),
-    "elongation": PeakQuantity(_LENGTHS, "", "links", "elongation_max_m"),
-    "shortening": PeakQuantity(_LENGTHS, "", "links", "shortening_max_m"),
-    "drift": PeakQuantity(_LENGTHS, "", "storeys", "drift_max_m"),
+    "elongation": PeakQuantity(METRES_OF, "", "links", "elongation_max_m"),
+    "shortening": PeakQuantity(METRES_OF, "", "links", "shortening_max_m"),
+    "drift": PeakQuantity(METRES_OF, "", "storeys", "drift_max_m"),
     "shear": PeakQuantity(_FORCES, "", "storeys", "shear_max_n"),
 }
 _ENDINGS: dict[str, Callable[[dict[str, Any]], bool]] = {
@@ -198,7 +200,7 @@ def read_event(
         raise refuse(f"{what}; must be one of {words}, such as {name} > 5 {next(iter(kind.units))}")
     if "," in value:
         raise refuse(f"{value!r} needs a decimal point: {value.replace(',', '.')}")
-    number = _number(value)
+    number = number_of(value)
     if not 0 < number < math.inf:
         raise refuse(f"{value!r} must be a number greater than 0 [{unit}]")
     inner = f"[{part}]" if part else ""
@@ -260,16 +262,9 @@ def read_limit(text: str, command: str, engine: str | None = None) -> ShareLimit
         raise InputError(
             command, "--limit", text, f"{value!r} needs a decimal point: {value.replace(',', '.')}"
         )
-    share = _number(value) / (100 if percent else 1)
+    share = number_of(value) / (100 if percent else 1)
     if not 0 < share < 1:
         raise InputError(
             command, "--limit", text, "its probability must lie between 0 and 1 (0 and 100 %)"
         )
     return ShareLimit(read_event(event, command, engine, "--limit"), share, less == "<")
-
-
-def _number(text: str) -> float:
-    try:
-        return float(text) if "_" not in text else math.nan
-    except ValueError:
-        return math.nan

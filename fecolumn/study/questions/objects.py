@@ -8,11 +8,11 @@ from typing import Any
 
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.csv_table import check_row, number_of, read_csv
+from fecolumn.study.questions.limit import METRES_OF
 
-_LENGTHS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3}
 _MASSES = {"kg": 1.0, "g": 1e-3, "t": 1e3}
 #: Columns of the list with the units that may end their names; friction has none.
-_COLUMNS = {"width": _LENGTHS, "depth": _LENGTHS, "height": _LENGTHS, "mass": _MASSES}
+_COLUMNS = {"width": METRES_OF, "depth": METRES_OF, "height": METRES_OF, "mass": _MASSES}
 _MOST = {"width": 100.0, "depth": 100.0, "height": 100.0, "mass": 1e9, "friction": 10.0}
 # [kg/m3] of the block that an object is taken for: below, it is lighter than air (1.2), and above
 # denser than any matter (osmium, 22,600)

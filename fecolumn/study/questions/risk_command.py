@@ -131,12 +131,16 @@ def _write(sets: dict[str, Any], curve: Any, args: Any, folder: Path) -> None:
         for place, contribution in enumerate(best.parts[0]):
             cells = (best.edges[place], best.edges[place + 1], contribution, share[place])
             parts.append([name, *(f"{x:.6g}" for x in cells)])
-        half = _middle(best.edges, share)
+        where = ""
+        if value > 0:
+            half = _middle(best.edges, share)
+            where = (
+                f"; half of it comes from {curve.measure} between {half[0]:.3g} and {half[1]:.3g}"
+            )
         print(
             f"{label + ': ' if label else ''}{args.event} has a mean annual frequency of "
             f"{value:.3g} [{low:.3g}, {high:.3g}] a year and a probability of {100 * p[0]:.3g} % "
-            f"[{100 * p[1]:.3g}, {100 * p[2]:.3g}] in {years} years (95 % intervals); half of it "
-            f"comes from {curve.measure} between {half[0]:.3g} and {half[1]:.3g}."
+            f"[{100 * p[1]:.3g}, {100 * p[2]:.3g}] in {years} years (95 % intervals){where}."
         )
         _warn(best, value, curve)
         if one.runs and (outside := _outside(curve, one, value)) > _MUCH:

@@ -122,7 +122,7 @@ def answer_of(
 
 def screening_table(ranked: list[ScreenedObject], limits: list[LimitEvent]) -> list[list[Any]]:
     """Header and, of each object, a row for each limit state, for a CSV file; u_max_50_m is inf
-    where half are lost, empty, as the probability, where nothing is done.
+    where more than half overturned or slid off, empty, as the probability, where nothing is done.
     """
     sizes = ["width_m", "depth_m", "height_m", "mass_kg", "friction"]
     shares = ["probability", "wilson_low", "wilson_high"]

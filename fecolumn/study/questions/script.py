@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from fecolumn.case.case import Case
+from fecolumn.foundation.atomic import write_bytes
 from fecolumn.foundation.deprecated import renamed
 from fecolumn.foundation.schema import InputError
 from fecolumn.study.questions.answer import Answer, asked
@@ -175,7 +176,7 @@ def screen(
 
     if hasattr(objects, "to_csv"):
         path = _beside(folder, "-list.csv")
-        objects.to_csv(path, index=False)
+        write_bytes(path, objects.to_csv(index=False).encode())
         objects = path
     of_acceleration, of_time = scale if isinstance(scale, tuple) else (scale, 1.0)
     words = [str(objects), "--motions", *_several(motions), f"--scale={of_acceleration:.17g}"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,9 +34,6 @@ from fecolumn.study.report.pair_table import pair_table
 from fecolumn.study.report.power import power
 from fecolumn.study.report.setting_columns import setting_in_figure, setting_labels
 from fecolumn.study.report.sweep import Setting, Sweep
-
-if TYPE_CHECKING:
-    pass
 
 #: Lines of a panel and panels of a figure, at most
 _LINES, _PANELS = 7, 9
@@ -177,7 +174,7 @@ def _opening(sweep: Sweep, figure: str) -> str:
     half = (
         " mm"
         if np.isfinite(median)
-        else f" (half or more {'are lost' if fallen.sum() < over.sum() else 'overturn'})"
+        else f" (more than half {'are lost' if fallen.sum() < over.sum() else 'overturn'})"
     )
     return (
         f"[[{figure}]] shows the distribution of the largest displacement of "

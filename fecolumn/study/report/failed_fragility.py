@@ -26,18 +26,19 @@ def failed_runs(
     measures: Callable[[dict[str, Any]], dict[str, float]],
 ) -> FailedRuns | None:
     """Intensities of the analyses of a setting that failed, beside records of those that are done;
-    rows: of the ledger; measures: function of a run.
+    rows: of the ledger; measures: function of a run. Motions of no intensity are left out.
     """
     if not rows:
         return None
     runs, why = [{"case_id": row["id"]} for row in rows], why_failed(rows)
     try:
         found = [measures(run) for run in runs]
-        of_all = np.append(records, [record_of(row["axes"]) for row in rows])
+        own = np.array([record_of(row["axes"]) for row in rows])
     except NOT_FOUND:  # it failed before its case was written
         return FailedRuns(None, records, len(rows), why)
-    known = {name: np.array([one[name] for one in found]) for name in wanted}
-    return FailedRuns(known, of_all, len(rows), why)
+    moved = np.array([all(one[name] > 0 for name in wanted) for one in found])
+    known = {name: np.array([one[name] for one in found])[moved] for name in wanted}
+    return FailedRuns(known, np.append(records, own[moved]), len(rows), why)
 
 
 def warn_of_failed(label: str, table: IntensityTable, bounded: bool) -> None:

@@ -11,11 +11,17 @@ from numpy.typing import NDArray
 
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
-from fecolumn.statistics.bands import wilson
 from fecolumn.statistics.fragility import DegenerateData, Fragility, logit, lognormal
 from fecolumn.study.report.document import PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.gallery import Gallery
-from fecolumn.study.report.intensity import NOT_FOUND, SCALE, Intensities, Runs, across_scales
+from fecolumn.study.report.intensity import (
+    NOT_FOUND,
+    SCALE,
+    Intensities,
+    Runs,
+    across_scales,
+    without_intensity,
+)
 from fecolumn.study.report.notation import (
     axis_name,
     count,
@@ -25,11 +31,12 @@ from fecolumn.study.report.notation import (
     p_value,
     sentence,
 )
+from fecolumn.study.report.observed_shares import observed_shares, share_groups
 from fecolumn.study.report.setting_columns import axis_columns
 from fecolumn.study.report.sweep import Sweep
 
 LABEL = "PGV, RotD50 [m/s]"
-_FEWEST, _BINS, _FOLD, _CURVES = 20, 6, 20, 7
+_FEWEST, _FOLD, _CURVES = 20, 20, 7
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,13 +60,13 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageS
         if sum(len(setting.runs) for setting in settings) >= _FEWEST
     ]
     try:
-        found = [
-            FittedSetting(values, runs, _fit(runs))
-            for values, settings in groups
-            for runs in [intensities.of_runs(settings)]
-        ]
+        of_groups = [intensities.of_runs(settings) for _, settings in groups]
     except NOT_FOUND:
         return None
+    found = [
+        FittedSetting(values, runs, _fit(runs)) for (values, _), runs in zip(groups, of_groups)
+    ]
+    left = without_intensity([one for _, settings in groups for one in settings], of_groups)
     own = {key: value for key, value in sweep.reference.values.items() if key != SCALE}
     here = next((one for one in found if one.values == own and one.fit), None)
     if here is None or here.fit is None:
@@ -76,7 +83,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageS
     ]
     caption = (
         f"Fragility {sweep.at(own)}, with its 95 % band, and the shares observed in "
-        f"{count(_BINS, 'group')} of runs of equal number, with Wilson's "
+        f"{count(share_groups(fit.n), 'group')} of runs of equal number, with Wilson's "
         "95 % interval of independent runs."
     )
     if axis := curve_axis(sweep, [one.values for one in found if one.fit]):
@@ -140,7 +147,7 @@ def fragility(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> PageS
                 "[[fragility]] and [[fragilities]]: probability of overturning over "
                 "the peak ground velocity, lognormal, by maximum likelihood (Baker "
                 f"2015), each run one yes or no. {median_text}{known}Intensities are those of "
-                f"the ensemble as it stands, {scaled}."
+                f"the ensemble as it stands, {scaled}. {left}".rstrip()
             ),
             gallery.draw("fragility", caption, line_figure, panels),
             PageTable(
@@ -245,15 +252,7 @@ def _curves(runs: Runs, fit: Fragility) -> list[Curve]:
     pgv, over = runs.measures[:, 0], runs.overturned
     grid = _grid([pgv])
     p = fit.probability(grid)
-    bins = np.array_split(np.argsort(pgv, kind="stable"), _BINS)
-    shares = np.array([over[place].mean() for place in bins])
-    low, high = np.transpose([np.ravel(wilson([over[place].sum()], place.size)) for place in bins])
     return [
         Curve("lognormal, maximum likelihood", grid, p.p, (p.lower, p.upper)),
-        Curve(
-            "observed, sextiles",
-            np.array([np.median(pgv[place]) for place in bins]),
-            shares,
-            bars=(low, high),
-        ),
+        observed_shares(pgv, over),
     ]

@@ -5,6 +5,7 @@ or of a user's own runs.
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,8 +18,7 @@ if TYPE_CHECKING:
 Happened = Callable[[dict[str, Any]], bool]
 # Ends of the intervals of the median and of the dispersion
 CurveEnds = tuple[tuple[float, float], tuple[float, float]]
-_FEWEST = 5  # runs
-_BINS = 6
+_CURVES = 7  # of the figure
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -139,28 +139,56 @@ def _of_study(
     for row in failed_of(sweep.rows):
         own = {key: value for key, value in setting_of(row["axes"]).items() if key != SCALE}
         lacking.setdefault(repr(own), []).append(row)
-    sets = {}
+    sets: dict[str, IntensityTable] = {}
+    runs_of_all, still = 0, 0
     for values, settings in across_scales(sweep.done):
         runs = [run for setting in settings for run in setting.runs.values()]
         try:
             found = [measures(run) for run in runs]
-            records = motions.of_runs(settings).record
         except NOT_FOUND as error:
             raise InputError(
                 folder, "", None, f"a motion of its analyses is not to be found: {error}"
             ) from None
+        records = np.array([record for one in settings for record in one.records_of()])
         for name in wanted:
             if name not in found[0]:
                 raise InputError(folder, "--im", name, f"must be one of {', '.join(found[0])}")
         asked = happened or (lambda run: bool(run["overturned"]))
-        fallen = np.array([asked(run) for run in runs])
+        moved = np.array([all(one[name] > 0 for name in wanted) for one in found])
+        runs_of_all, still = runs_of_all + moved.size, still + int((~moved).sum())
+        if not moved.any():
+            continue
+        records = records[moved]
         sets[sweep.words(values)] = IntensityTable(
-            {name: np.array([one[name] for one in found]) for name in wanted},
-            fallen,
+            {name: np.array([one[name] for one in found])[moved] for name in wanted},
+            np.array([asked(run) for run in runs])[moved],
             records if len(set(records)) < len(records) else None,
             failed_runs(lacking.get(repr(values), []), records, wanted, measures),
         )
+    _tell_without_intensity(folder, " and ".join(wanted), runs_of_all, still)
     return sets
+
+
+def _tell_without_intensity(folder: str, measures: str, runs: int, still: int) -> None:
+    """Warn of the runs whose motions have no intensity.
+
+    Raises
+    ------
+    InputError
+        none of the motions has one.
+    """
+    from fecolumn.foundation.schema import InputError
+
+    if still == runs:
+        raise InputError(
+            folder, "", None, f"none of its {runs} motions has {measures} above 0, as at scale 0"
+        )
+    if still:
+        print(
+            f"fecolumn: warning: {still} of {runs} analyses are left out: their motions have no "
+            f"{measures} above 0, as at scale 0",
+            file=sys.stderr,
+        )
 
 
 def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
@@ -242,7 +270,7 @@ def _one(
     import numpy as np
 
     from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
-    from fecolumn.statistics.bands import wilson
+    from fecolumn.study.report.observed_shares import observed_shares
 
     rows: list[list[Any]] = [
         [
@@ -286,33 +314,21 @@ def _one(
             Curve(label or "lognormal, maximum likelihood", grid, p.p, (p.lower, p.upper))
         )
         if len(fits) == 1:
-            bins = np.array_split(
-                np.argsort(im, kind="stable"), min(_BINS, max(2, im.size // _FEWEST))
-            )
-            shares = np.array([table.overturned[place].mean() for place in bins])
-            low, high = np.transpose(
-                [np.ravel(wilson([table.overturned[place].sum()], place.size)) for place in bins]
-            )
-            curves.append(
-                Curve(
-                    "observed, groups of equal number",
-                    np.array([np.median(im[place]) for place in bins]),
-                    shares,
-                    bars=(low, high),
-                )
-            )
+            curves.append(observed_shares(im, table.overturned))
     line_figure(
         [
             CurvePanel(
                 words(name),
                 r"$P$(overturn)",
-                curves[:7],
+                curves[:_CURVES],
                 {"ylim": (0, 1), "xlim": (0, None)},
                 legend="upper left",
             )
         ],
         folder / "fragility",
     )
+    if len(fits) > _CURVES:
+        print(f"the figure has {_CURVES} of {len(fits)} settings; fragility.csv has all")
     return rows
 
 

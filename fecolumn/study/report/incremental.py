@@ -4,7 +4,6 @@ levels.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,10 +19,17 @@ from fecolumn.statistics.records import counted_unit, run_count
 from fecolumn.study.report.document import PageBlock, PageColumn, PageSection, PageTable, Paragraph
 from fecolumn.study.report.fragility import LABEL, curve_axis
 from fecolumn.study.report.gallery import Gallery
-from fecolumn.study.report.intensity import NOT_FOUND, SCALE, Intensities, across_scales
+from fecolumn.study.report.intensity import (
+    NOT_FOUND,
+    SCALE,
+    Intensities,
+    Runs,
+    across_scales,
+    without_intensity,
+)
 from fecolumn.study.report.notation import axis_name, count, fixed, interval, millimetres
 from fecolumn.study.report.setting_columns import axis_columns
-from fecolumn.study.report.sweep import Setting, Sweep
+from fecolumn.study.report.sweep import Sweep
 
 _LEAST_SCALES, _LEAST_MOTIONS, _FOLD = 3, 3, 20
 
@@ -44,14 +50,12 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Pag
     """The section; None where motions are not at three scales or more, or not to be found."""
     if SCALE not in sweep.varied:
         return None
+    groups = across_scales(sweep.done)
     try:
-        found = [
-            one
-            for values, settings in across_scales(sweep.done)
-            if (one := _scaled(values, settings, intensities))
-        ]
+        of_groups = [intensities.of_runs(settings) for _, settings in groups]
     except NOT_FOUND:
         return None
+    found = [one for (values, _), runs in zip(groups, of_groups) if (one := _scaled(values, runs))]
     own = {key: value for key, value in sweep.reference.values.items() if key != SCALE}
     here = next((one for one in found if one.values == own), found[0] if found else None)
     if here is None:
@@ -86,6 +90,7 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Pag
         if again
         else f"No motion lets the {sweep.subject.noun} stand again at a larger scale."
     )
+    text = f"{text} {without_intensity(sweep.done, of_groups)}".rstrip()
     blocks.append(
         Paragraph(f"{text} [[first_overturnings]] has all settings, [[ida_motions]] every motion.")
     )
@@ -110,12 +115,14 @@ def incremental(sweep: Sweep, gallery: Gallery, intensities: Intensities) -> Pag
     )
 
 
-def _scaled(
-    values: dict[str, Any], settings: Sequence[Setting], intensities: Intensities
-) -> ScaledSetting | None:
-    runs = intensities.of_runs(settings)
-    curves = incremental_curves(runs.motion, runs.measures[:, 0], runs.u_max, runs.lost)
-    own = dict(zip(runs.motion.tolist(), runs.record.tolist()))
+def _scaled(values: dict[str, Any], runs: Runs) -> ScaledSetting | None:
+    """A motion at scales below 0 is another motion of its record."""
+    motions = [
+        name.strip("[]'\"") + (", reversed" if turned else "")
+        for name, turned in zip(runs.motion.tolist(), runs.reversed)
+    ]
+    curves = incremental_curves(motions, runs.measures[:, 0], runs.u_max, runs.lost)
+    own = dict(zip(motions, runs.record.tolist()))
     records = [own[curve.motion] for curve in curves]
     if (
         len(set(records)) < _LEAST_MOTIONS
@@ -269,7 +276,7 @@ def _motions(sweep: Sweep, found: list[ScaledSetting]) -> PageTable:
             rows.append(
                 (
                     *(one.values[axis] for axis in axes),
-                    curve.motion.strip("[]'\""),
+                    curve.motion,
                     len(curve.im),
                     stood or None,
                     u,

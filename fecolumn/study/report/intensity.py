@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from fecolumn.case.sections import Motion
 from fecolumn.foundation.schema import InputError, build
 from fecolumn.motions.record import GroundMotion
+from fecolumn.study.report.notation import count
 from fecolumn.study.report.sweep import Setting, read_tables
 
 SCALE = "motion.scale"
@@ -23,7 +24,7 @@ NOT_FOUND = (InputError, OSError, ValueError, KeyError, TypeError)
 
 @dataclass(frozen=True, slots=True)
 class Runs:
-    """n runs and the intensity of their motions.
+    """n runs and the intensity of their motions, which is above 0.
 
     Attributes
     ----------
@@ -33,6 +34,8 @@ class Runs:
         (n,) name of the motion, whatever its scale.
     record
         (n,) its file, whatever its scale and direction, see `plan.record_of`.
+    reversed
+        (n,) bool, whether its scale is below 0.
     u_max
         (n,) [m]; of no meaning where the column was lost.
     lost
@@ -44,6 +47,7 @@ class Runs:
     measures: NDArray[Any]
     motion: NDArray[Any]
     record: NDArray[Any]
+    reversed: NDArray[Any]
     u_max: NDArray[Any]
     lost: NDArray[Any]
     overturned: NDArray[Any]
@@ -95,7 +99,7 @@ class Intensities:
         return scale * pgv, scale * pga
 
     def of_runs(self, settings: Sequence[Setting]) -> Runs:
-        """All runs of settings.
+        """All runs of settings whose motions have an intensity, which those at scale 0 have not.
 
         Raises
         ------
@@ -105,18 +109,31 @@ class Intensities:
         u, lost = (
             np.concatenate(values) for values in zip(*(setting.peaks() for setting in settings))
         )
+        measures = np.array([self.peaks(run) for _, run in runs])
+        kept = (measures > 0).all(axis=1)
         return Runs(
-            np.array([self.peaks(run) for _, run in runs]),
-            np.array([name for name, _ in runs]),
-            np.array([record for setting in settings for record in setting.records_of()]),
-            u,
-            lost,
-            np.concatenate([setting.column("overturned").astype(bool) for setting in settings]),
+            measures[kept],
+            np.array([name for name, _ in runs])[kept],
+            np.array([record for one in settings for record in one.records_of()])[kept],
+            np.array([one.values.get(SCALE, 1.0) < 0 for one in settings for _ in one.runs])[kept],
+            u[kept],
+            lost[kept],
+            np.concatenate([one.column("overturned").astype(bool) for one in settings])[kept],
         )
 
     def _table(self, run: dict[str, Any]) -> tuple[Motion, Path]:
         folder = self._folder / "analyses" / run["case_id"]
         return build(Motion, read_tables(folder)["motion"], folder), folder
+
+
+def without_intensity(settings: Iterable[Setting], runs: Iterable[Runs]) -> str:
+    """A sentence on the runs of settings that are left out of `runs`, as their motions have no
+    intensity; "" of none.
+    """
+    left = sum(len(one.runs) for one in settings) - sum(one.motion.size for one in runs)
+    if not left:
+        return ""
+    return f"{count(left, 'run')} of motions without intensity, at scale 0, are left out. "
 
 
 def across_scales(settings: Iterable[Setting]) -> list[tuple[dict[str, Any], list[Setting]]]:

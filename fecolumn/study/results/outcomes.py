@@ -105,9 +105,13 @@ def outcomes(*, file: str | Path | None = None) -> pandas.DataFrame:
                 values[name] = dataset[:]
                 if words := json.loads(dataset.attrs["words"]):
                     values[name] = pandas.Categorical.from_codes(values[name], words)
+        frame = pandas.DataFrame(values)
+    except InputError:
+        raise
     except OSError as error:
         raise InputError(path, "", None, f"is no HDF5 file ({error})") from None
-    frame = pandas.DataFrame(values)
+    except (KeyError, ValueError, TypeError):  # other data below the same name
+        raise InputError(path, "", None, f"is no table of outcomes; {_MAKER} makes one") from None
     frame.attrs.update(columns=about, made=made)
     return frame
 
