@@ -32,6 +32,7 @@ def write_synthetic(
     sources=None,
     also=lambda values, summary: {},
     case=SPECIMEN,
+    zipped="",
 ) -> Path:
     """A study folder.
 
@@ -57,6 +58,8 @@ def write_synthetic(
         what else a summary has, from the values of all axes and the summary itself.
     case
         file of the case that all analyses share.
+    zipped
+        lines of a table [[zip]].
     """
     folder.mkdir(parents=True, exist_ok=True)
     lines = [f'"{key}" = {list(values)}' for key, values in axes.items()]
@@ -66,7 +69,7 @@ def write_synthetic(
     (folder / "study.toml").write_text(
         f'title = "{title}"\ncase = "{case}"\n[axes]\n'
         + "\n".join(lines)
-        + f'\n"motion.source" = [{named}]\n'
+        + f'\n"motion.source" = [{named}]\n{"[[zip]]" if zipped else ""}\n{zipped}'
     )
     plan = read_plan(folder / "study.toml")
     with Store(folder / "out", plan, "synthetic:run") as store:

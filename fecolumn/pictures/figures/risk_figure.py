@@ -55,7 +55,7 @@ def risk_figure(
         [
             CurvePanel(
                 label,
-                "annual frequency of exceedance",
+                "annual frequency of exceedance [1/year]",
                 [Curve("", curve.im, curve.frequency, markers=True)],
                 {**scale, "yscale": "log"},
             ),

@@ -44,9 +44,10 @@ def distributions(sweep: Sweep, pairs: list[ComparedPair], gallery: Gallery) -> 
     figures: list[Figure] = []
     for name, axis in _views(sweep):
         panels = _panels(sweep, axis)
-        other = [axis_name(one) for one in sweep.varied if one != axis]
+        own = sweep.together(axis) if axis else ()
+        other = [axis_name(one) for one in sweep.varied if one not in own]
         what = (
-            f"a line for each {axis_name(axis)}"
+            f"a line for each {' and '.join(axis_name(one) for one in own)}"
             if axis
             else "settings of the study"
             if len(sweep.done) <= _LINES
@@ -111,7 +112,7 @@ def _seen(panels: list[CdfPanel]) -> str:
 def _views(sweep: Sweep) -> list[tuple[str, str | None]]:
     """Axes that are drawn as lines: up to three with few levels, most levels first."""
     axes = sorted(
-        (axis for axis in sweep.varied if len(sweep.axes[axis]) <= _LINES and sweep.lines(axis)),
+        (axis for axis in sweep.leading if len(sweep.axes[axis]) <= _LINES and sweep.lines(axis)),
         key=lambda axis: -len(sweep.axes[axis]),
     )
     return [(f"cdf_by_{axis.split('.')[-1]}", axis) for axis in axes[:3]] or [("cdf", None)]
@@ -146,14 +147,18 @@ def _panels(sweep: Sweep, axis: str | None) -> list[CdfPanel]:
             {
                 key: value
                 for key, value in setting.values.items()
-                if key != axis and key in sweep.varied
+                if key not in sweep.together(axis) and key in sweep.varied
             }
         )
         groups.setdefault(title, []).append(setting)
+
+    def level_of(setting: Setting) -> str:
+        return ", ".join(axis_text(key, setting.values[key]) for key in sweep.together(axis))
+
     panels = [
         CdfPanel(
             title,
-            tuple((axis_text(axis, one.values[axis]), one.distribution()) for one in group),
+            tuple((level_of(one), one.distribution()) for one in group),
             sweep.p_lost,
         )
         for title, group in groups.items()

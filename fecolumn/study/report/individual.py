@@ -40,7 +40,7 @@ _MANY = 100.0
 def individual(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     """The section; None where no motion was run in two settings."""
     matrices = [
-        figure for axis in sweep.varied[:_MATRICES] if (figure := _matrix(sweep, axis, gallery))
+        figure for axis in sweep.leading[:_MATRICES] if (figure := _matrix(sweep, axis, gallery))
     ]
     if not matrices:
         return None
@@ -65,7 +65,7 @@ def individual(sweep: Sweep, gallery: Gallery) -> PageSection | None:
     blocks: list[PageBlock] = [Paragraph(text), *matrices]
     rows = [
         row
-        for axis in sweep.varied
+        for axis in sweep.leading
         if all(isinstance(level, (int, float)) for level in sweep.axes[axis])
         for row in _trends(sweep, axis)
     ]
@@ -108,7 +108,7 @@ def _matrix(sweep: Sweep, axis: str, gallery: Gallery) -> Figure | None:
     lines = sweep.lines(axis)
     if not lines:
         return None
-    wanted = {key: sweep.reference.values[key] for key in sweep.varied if key != axis}
+    wanted = {key: sweep.reference.values[key] for key in lines[0].others}
     line = next((one for one in lines if one.others == wanted), lines[len(lines) // 2])
     if len(line.settings) > _VARIABLES:
         line = Line(

@@ -31,6 +31,8 @@ class ComparedPair:
         the axis and its two levels.
     others
         values of all other axes.
+    partners
+        of the axes whose values go with those of `axis`, as of one `[[zip]]`, their two values.
     comparison
         of the low level (a) with the high one (b), over the motions done in both.
     distance, bound
@@ -49,6 +51,7 @@ class ComparedPair:
     low: Any
     high: Any
     others: dict[str, Any]
+    partners: dict[str, tuple[Any, Any]]
     comparison: Comparison
     distance: float
     bound: float
@@ -62,7 +65,7 @@ def read_pairs(sweep: Sweep) -> list[ComparedPair]:
     """Every pair that differs in one axis, or where these are too many, the extreme levels of each
     line.
     """
-    lines = [line for axis in sweep.varied for line in sweep.lines(axis)]
+    lines = [line for axis in sweep.leading for line in sweep.lines(axis)]
     spans = [
         (line, low, high)
         for line in lines
@@ -101,6 +104,11 @@ def read_pairs(sweep: Sweep) -> list[ComparedPair]:
             low,
             high,
             line.others,
+            {
+                key: (line.settings[0].values[key], line.settings[1].values[key])
+                for key in sweep.together(line.axis)
+                if key != line.axis
+            },
             result,
             distance,
             bound,

@@ -15,6 +15,7 @@ _FOLD = 20
 def pair_table(sweep: Sweep, pairs: list[ComparedPair]) -> PageTable:
     """The table: distances, p and motions that are lost in one of two settings alone."""
     rows = []
+    zipped = any(pair.partners for pair in pairs)
     shared = any(pair.comparison.records_a < pair.comparison.n_a for pair in pairs)
     for pair in pairs:
         it = pair.comparison
@@ -23,6 +24,7 @@ def pair_table(sweep: Sweep, pairs: list[ComparedPair]) -> PageTable:
                 pair.axis,
                 pair.low,
                 pair.high,
+                *((_partners(pair),) if zipped else ()),
                 {key: value for key, value in pair.others.items() if key in sweep.varied},
                 it.n_a,
                 *((it.records_a,) if shared else ()),
@@ -42,6 +44,7 @@ def pair_table(sweep: Sweep, pairs: list[ComparedPair]) -> PageTable:
         )
     columns = (
         PageColumn("axis a b", "a against b", _levels, text=True),
+        *((PageColumn("with", "with", text=True),) if zipped else ()),
         PageColumn("at", "at", setting_words, text=True),
         PageColumn("n", "n"),
         *((PageColumn("records", "records"),) if shared else ()),
@@ -76,3 +79,8 @@ def pair_table(sweep: Sweep, pairs: list[ComparedPair]) -> PageTable:
 
 def _levels(axis: str, low: object, high: object) -> str:
     return f"{axis_name(axis)}: {level_text(axis, low)}, {level_text(axis, high)}"
+
+
+def _partners(pair: ComparedPair) -> str:
+    """Values of the axes that go with the axis of a pair."""
+    return "; ".join(_levels(key, *values) for key, values in pair.partners.items())

@@ -7,10 +7,15 @@ from typing import Any
 
 from fecolumn.statistics.records import record_count
 from fecolumn.statistics.sensitivity import Sensitivity, sensitivity
-from fecolumn.study.report.sweep import ENGINE_KEY, Setting, Sweep, common_motions, common_peaks
+from fecolumn.study.report.sweep import (
+    ENGINE_KEY,
+    SAMPLED,
+    Setting,
+    Sweep,
+    common_motions,
+    common_peaks,
+)
 from fecolumn.study.setting_pairs import LEAST_RECORDS
-
-_SAMPLED = 8  # an axis with more levels is a sampled one: its outer quarters are compared
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +47,7 @@ def ranking(sweep: Sweep) -> list[Rank]:
         for axis in sweep.varied
         if axis != ENGINE_KEY
         for rank in [
-            _sampled(sweep, axis) if len(sweep.axes[axis]) > _SAMPLED else _crossed(sweep, axis)
+            _sampled(sweep, axis) if len(sweep.axes[axis]) > SAMPLED else _crossed(sweep, axis)
         ]
         if rank
     ]

@@ -18,6 +18,7 @@ from fecolumn.study.alpha import ALPHA_KEY, alpha_note
 from fecolumn.study.plan import ENSEMBLE_AXES, record_of
 from fecolumn.study.report.notation import ALL_ANALYSES, setting_text
 from fecolumn.study.report.subject import Subject, subject_of
+from fecolumn.study.setting_pairs import axes_together
 from fecolumn.study.store import DONE, FAILED, read_study
 
 DT_KEY, ENGINE_KEY = "integration.dt_s", "integration.engine"
@@ -80,6 +81,10 @@ class Setting:
             self.column("slid_off", motions) == 1
         )
         return np.where(lost, np.nan, self.column("u_max_m", motions)), lost
+
+
+#: Levels of an axis above which it is taken for a sampled one
+SAMPLED = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,18 +230,35 @@ class Sweep:
         """
         return setting_text({axis: values[axis] for axis in self.varied if axis in values})
 
+    def together(self, axis: str) -> tuple[str, ...]:
+        """The axis and those whose values go with its own, as of one `[[zip]]`; the axis alone
+        where it is sampled.
+        """
+        return next((group for group in self._together if axis in group), (axis,))
+
+    @cached_property
+    def _together(self) -> list[tuple[str, ...]]:
+        few = [axis for axis in self.varied if len(self.axes[axis]) <= SAMPLED]
+        return axes_together([{axis: one.values[axis] for axis in few} for one in self.settings])
+
+    @property
+    def leading(self) -> list[str]:
+        """Axes with more than one level, of those that go together the first."""
+        return [axis for axis in self.varied if self.together(axis)[0] == axis]
+
     def groups(self, axis: str) -> list[tuple[dict[str, Any], tuple[Setting, ...]]]:
-        """Values of the other axes, and the settings with runs that have them, in rising order of
-        the axis' levels.
+        """Values of the other axes, but for those that go with this one, and the settings with runs
+        that have them, in rising order of the axis' levels.
         """
         groups: dict[str, list[Setting]] = {}
+        keys = [key for key in self.varied if key not in self.together(axis)]
         for setting in self.done:
-            others = {key: setting.values[key] for key in self.varied if key != axis}
+            others = {key: setting.values[key] for key in keys}
             groups.setdefault(repr(others), []).append(setting)
         order = {repr(level): place for place, level in enumerate(self.axes[axis])}
         return [
             (
-                {key: group[0].values[key] for key in self.varied if key != axis},
+                {key: group[0].values[key] for key in keys},
                 tuple(sorted(group, key=lambda s: order[repr(s.values[axis])])),
             )
             for group in groups.values()

@@ -173,7 +173,7 @@ def _relative(sweep: Sweep, axis: str) -> list[Curve]:
         return []
     curves = []
     for step in sweep.axes[DT_KEY][:_CURVES]:
-        lines = [line for line in sweep.lines(axis) if line.others[DT_KEY] == step]
+        lines = [line for line in sweep.lines(axis) if line.others.get(DT_KEY) == step]
         if not lines:
             continue
         line, motions = lines[len(lines) // 2], lines[len(lines) // 2].motions()
