@@ -31,6 +31,7 @@ DECIDING = (
     "case/check_grounds.py",
     "case/checked.py",
     "case/check_link.py",
+    "case/check_motion.py",
     "case/check_step.py",
     "case/check_thin.py",
     "case/given.py",
