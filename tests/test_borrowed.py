@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numba
 import numpy as np
+import pytest
 
 from fecolumn.foundation._borrowed import borrowed
 
@@ -75,6 +76,7 @@ for function in (all_of, counted):
 """
 
 
+@pytest.mark.long
 def test_references_to_borrowed_arrays_are_not_counted(tmp_path):
     (tmp_path / "borrower.py").write_text(BORROWER)
     environment = os.environ | {

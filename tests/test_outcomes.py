@@ -293,6 +293,7 @@ def test_case_with_a_motion_runs_all_of_it(tmp_path):
     )
 
 
+@pytest.mark.long
 def test_motion_cut_short_is_said(tmp_path, capsys):
     file, out = tmp_path / "case.toml", tmp_path / "out"
     lines = [

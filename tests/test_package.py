@@ -37,6 +37,7 @@ def test_every_file_that_states_the_version_states_the_same():
     assert f"version: {__version__}" in citation
 
 
+@pytest.mark.long
 def test_sdist_and_wheel_hold_every_file_and_run_in_a_fresh_environment(tmp_path):
     """The wheel is built from the sdist. Other libraries are those of this environment, by a .pth
     file that leads to them.

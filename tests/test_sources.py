@@ -50,6 +50,7 @@ def block():
     return case_from_tables(_BLOCK, "block")
 
 
+@pytest.mark.long
 def test_digest_covers_all_that_an_analysis_imports_but_what_decides_nothing():
     covered = {str(path.relative_to(ROOT)) for path in sources.files_of(sources.DECIDING)}
     assert closure("simulation.py") - covered == _DECIDE_NOTHING

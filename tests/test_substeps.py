@@ -74,6 +74,7 @@ def test_a_rim_that_rolls_fast_is_followed_in_parts_unless_the_step_is_literal(
     assert max(summary["energy_closure_rel"] for summary in made.values()) < 1e-9
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("body", BODIES)
 @pytest.mark.parametrize("engine", ["reduced", "full"])
 def test_a_landing_is_found_in_its_step(body, engine, tmp_path):
@@ -177,6 +178,7 @@ def test_what_would_say_nothing_is_refused(tmp_path, lines, words):
     assert all(word in str(refusal.value) for word in words)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["paper_study", "quick_study"])
 def test_the_studies_of_the_front_page_take_the_literal_step(name):
     from fecolumn.study.plan import read_plan

@@ -84,6 +84,7 @@ def test_tables_tell_shares_shifts_and_failures():
     assert "| monolith and 2 drums | 399 |" in said
 
 
+@pytest.mark.long
 def test_two_motions_of_a_monolith_are_kept_and_told(tmp_path, capsys, monkeypatch):
     """Motions of few seconds; the command tells them again without computing, from its folder or
     from the rows that come with the repository.

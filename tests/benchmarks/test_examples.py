@@ -12,6 +12,7 @@ def test_a_section_that_is_followed_has_commands(page, heading):
     assert any(block.language == "sh" for block in sections(page)[heading])
 
 
+@pytest.mark.long
 def test_an_example_answers_what_is_kept(tmp_path):
     """Seismic risk: no motion of this program enters, so that today's answer is the table's."""
     page, heading, begin = EXAMPLES["risk"]

@@ -89,6 +89,7 @@ def test_siconos_finds_no_fault_with_our_forces(beside_siconos):
         assert theirs["fecolumn"]["own_error"] < 1e-9
 
 
+@pytest.mark.long
 def test_problem_recorded_from_a_step_is_the_one_that_the_engine_solved():
     """Its forces obey the laws of W and q to what a step is solved to, 1e-11 of the foot's width;
     the solver finds the weight of both blocks from nothing.

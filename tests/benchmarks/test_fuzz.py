@@ -9,6 +9,7 @@ import pytest
 from benchmarks.fuzz import SUBJECTS, watch
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("subject", SUBJECTS)
 def test_damaged_files_are_used_or_refused_in_one_line(subject):
     ends = list(watch.watched(subject, list(range(20)), seed=12))
@@ -25,6 +26,7 @@ def test_three_hundred_mutants_of_calibrations_and_of_classes(subject):
     assert verdicts["refused"] >= 100 and verdicts["used"] >= 10
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "code, verdict", [("import os; os.abort()", "death"), ("import time; time.sleep(100)", "hang")]
 )

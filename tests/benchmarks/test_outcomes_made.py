@@ -26,6 +26,7 @@ def test_measures_go_with_the_power_of_the_factor(file):
     assert measures(ensemble, 5, 2.0, True) == pytest.approx(intensity_measures(along_x(doubled)))
 
 
+@pytest.mark.long
 def test_a_row_of_a_planar_block_is_that_block_s_response(file):
     ensemble = stored(file)
     rows = models.planar_blocks(file, 0, 12)

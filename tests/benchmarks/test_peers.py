@@ -68,6 +68,7 @@ def test_track_tells_impact_creep_and_energy(tmp_path):
     assert track.cpu_per_step == pytest.approx(0.25)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("engine", ["rigid", "reduced"])
 def test_toes_of_this_program_start_where_they_stand(engine, tmp_path):
     """The one turned about is not moved by the release, the other one by radius (1 - cos)."""

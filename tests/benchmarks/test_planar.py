@@ -36,6 +36,7 @@ def test_mass_of_a_trapezoid():
     assert inertia > 0
 
 
+@pytest.mark.long
 def test_friction_problem_is_solved_as_by_many_sweeps():
     """Random ones of eight contacts of three bodies: impulses fulfil Signorini's and Coulomb's
     laws, and velocities are those of Gauss-Seidel.
@@ -64,6 +65,7 @@ def on_a_fixed_block(d):
     return Structure((whole.bodies[0], held, whole.bodies[2]), whole.joints[1:])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize("d", [0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1e-2])
 def test_displaced_block_lifts_swings_and_loses_as_its_closed_form(d, sign):
@@ -124,6 +126,7 @@ def test_block_slides_by_coulomb():
     assert moved[-1] == pytest.approx(moved[-2], abs=1e-10)
 
 
+@pytest.mark.long
 def test_frame_is_its_equivalent_block():
     """Free: quarter period and loss of an impact.
 
@@ -190,6 +193,7 @@ def test_pulse_of_the_column_ends_at_rest_and_windows_are_told():
     assert column.windows([0.43], [False]) == "none"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("tp, stands, falls", [(0.1, 4.25, 4.4), (0.5, 0.248, 0.256)])
 def test_multi_drum_column(tp, stands, falls):
     """First edge of a program written independently: 4.32 g at 0.1 s, 0.253 g at 0.5 s."""

@@ -35,6 +35,7 @@ def case_of(name, program, number, folder):
     return case_from_tables(tables | dict(motion=rest | dict(source=f"{source}{number}")), "test")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", PLANE)
 def test_every_program_has_the_motion_of_the_planar_program(name, tmp_path):
     for program in (BY_NAME["judge"], BY_NAME["mujoco-defaults"], BY_NAME["rigid"]):
@@ -115,6 +116,7 @@ def test_top_and_tilt_of_a_block_that_leans():
     assert way_of_top(BLOCK, course)[0] == pytest.approx([0.6 * math.sin(0.1), 0.0])
 
 
+@pytest.mark.long
 def test_planar_program_and_housner_agree_and_what_is_done_is_kept(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(tables, "FOLDER", tmp_path / "tables")
     given = ["--structure", "block", "--program", "housner", "judge", "--motions", "2"]

@@ -23,6 +23,7 @@ def runs(peaks, fallen):
     }
 
 
+@pytest.mark.long
 def test_both_readings_have_the_same_settings_and_differ_in_the_step_alone():
     plans = [read_plan(f"benchmarks/{file}.toml") for file in paper.READINGS.values()]
     fixed, rolling = (plan.analyses for plan in plans)
@@ -67,6 +68,7 @@ def test_models_are_set_beside_full_order_on_the_motions_that_it_has():
     assert rows[2]["D"] == "-" and [row["CPU of a motion [s]"] for row in rows] == ["2", "2", "-"]
 
 
+@pytest.mark.long
 def test_full_order_is_asked_for_by_itself():
     for study in models.STUDIES:
         plans = [models.plan(study, full) for full in (False, True)]
@@ -74,6 +76,7 @@ def test_full_order_is_asked_for_by_itself():
         assert engines == [{"housner", "wobbling", "rigid", "reduced"}, {"full"}]
 
 
+@pytest.mark.long
 def test_models_go_on_from_rows_that_are_kept(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(tables, "FOLDER", tmp_path / "tables")
     whole = models.plan("own_mesh", True)
@@ -130,6 +133,7 @@ def test_map_is_printed_a_line_a_height():
     ]
 
 
+@pytest.mark.long
 def test_slenderness_to_design_with_is_a_line_through_what_is_computed():
     """Makris and Roussos (1998): the one-sine pulse overturns at 6 to 9 % less than by their line,
     in alpha of 10 degrees.

@@ -21,6 +21,7 @@ def _plan(name):
     return read_plan(f"benchmarks/{name}.toml")
 
 
+@pytest.mark.long
 def test_fixed_settings_are_analyses_of_the_paper_study():
     paper = {
         (
@@ -48,6 +49,7 @@ def test_fixed_settings_are_analyses_of_the_paper_study():
         )
 
 
+@pytest.mark.long
 def test_every_setting_of_the_tables_is_in_the_studies():
     made = {
         Setting(*(a.values[key] for key in KEYS))

@@ -110,6 +110,7 @@ def test_new_writes_a_case_and_a_study_that_are_accepted_and_overwrites_nothing(
     assert all(file.read_bytes() == before[file] for file in folder.iterdir())
 
 
+@pytest.mark.long
 def test_new_statue_needs_a_shape_and_a_foot(tmp_path, capsys):
     assert main(["new", "statue", str(tmp_path / "a")]) == 2
     assert "must name the file with the statue's shape" in capsys.readouterr().err
@@ -193,6 +194,7 @@ def test_new_into_a_file_is_refused(tmp_path, capsys):
     assert "cannot be written" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_a_studys_commented_lines_are_keys_too(tmp_path):
     """What a newcomer takes out of its comment must work."""
     main(["new", str(tmp_path)])

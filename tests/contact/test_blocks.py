@@ -10,6 +10,7 @@ from fecolumn.contact.blocks import eliminate, find_blocks
 from fecolumn.contact.friction import solve_contact
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "sizes, pairs",
     [

@@ -32,6 +32,7 @@ def found(blocks, nodal, rigid, active=None, factor=0.0):
     return W
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("n", [1, 2, 7, 12])
 @pytest.mark.parametrize("mobile", [True, False])
 def test_mobility_of_points_between_two_bodies_is_the_sum_over_both(n, mobile):
@@ -88,6 +89,7 @@ def test_two_points_on_a_rod_are_coupled_by_its_rotation():
     assert W[0::3, 0::3] == pytest.approx(np.full((2, 2), 1 / mass))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("n", [5, 12])
 def test_static_displacement_is_the_compliance_times_the_forces(n):
     blocks, rng = Blocks(n, False), np.random.default_rng(3)

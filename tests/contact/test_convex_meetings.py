@@ -31,6 +31,7 @@ def in_order(places):
     return places[np.lexsort(places.round(6).T)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("gap", [5e-3, 0.0, -5e-3])
 def test_places_of_crossed_squares_are_the_corners_of_their_overlap(gap):
     w, rotations = world(CUBE, CUBE), FLAT.copy()

@@ -124,6 +124,7 @@ def test_rigid_motion_and_exchange_of_the_bodies_change_nothing():
         assert exchanged[0] == pytest.approx(found[0], abs=1e-12)
 
 
+@pytest.mark.long
 def test_the_axis_of_the_step_before_is_kept_while_it_is_as_good():
     """Equal cubes on one another: both faces that touch are as good, and neither changes."""
     hulls = hulls_of([hull_of(CUBE), hull_of(CUBE)])

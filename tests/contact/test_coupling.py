@@ -27,6 +27,7 @@ def points_of(joints, count, own=1e-3, seed=1, modes=0):
     return coupling_by_levers(np.full((len(bodies), 3), own), levers, bodies)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("modes", [0, 3])
 @pytest.mark.parametrize("joints", JOINTS)
 def test_levers_are_the_whole_matrix(joints, modes):
@@ -47,6 +48,7 @@ def test_levers_are_the_whole_matrix(joints, modes):
     assert (together <= exact * (1 + 1e-12)).all() and (together > exact / 6).all()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("joints", JOINTS)
 @pytest.mark.parametrize("friction", [0.0, 0.3, 1.0])
 def test_a_newton_step_by_levers_is_that_by_the_whole_matrix(joints, friction):

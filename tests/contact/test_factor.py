@@ -22,6 +22,7 @@ def factor_of(W):
     return factor
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("sizes, pairs", CASES)
 def test_solutions_are_those_of_the_whole_matrix(sizes, pairs):
     W = compliance(sizes, pairs)

@@ -65,6 +65,7 @@ def test_a_tube_of_one_brick_keeps_every_node():
     assert np.array_equal(found.positions, whole.positions) and found.outlines.all()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("shape", ["drum", "block"])
 def test_few_points_carry_the_weight_and_sink_a_little_deeper_than_all(shape):
     """Forces on single nodes press deeper than the pressure that they stand for."""

@@ -61,6 +61,7 @@ def test_foot_that_slides_and_lifts_in_part_obeys_the_laws(seed):
     assert violation(W, q, 0.3, solution.forces) < 1e-12
 
 
+@pytest.mark.long
 def test_interior_point_leads_into_the_cone_from_nothing():
     W, q = foot(60, 3)
     R, U = np.zeros_like(q), np.zeros_like(q)

@@ -56,6 +56,7 @@ def impact(blocks, seed):
     return coupling, velocity, np.full(n, FRICTION), np.zeros((n, 3))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("blocks", [1, 3])
 @pytest.mark.parametrize("seed", range(4))
 def test_coulombs_law_is_missed_by_no_more_than_is_said(blocks, seed):
@@ -72,6 +73,7 @@ def test_coulombs_law_is_missed_by_no_more_than_is_said(blocks, seed):
     assert (works <= 1.2 * missed * np.linalg.norm(impulses, axis=1) + 1e-10).all()
 
 
+@pytest.mark.long
 def test_an_impact_that_stops_too_early_takes_energy_too(monkeypatch):
     coupling, velocity, friction, start = impact(3, 1)
     monkeypatch.setattr(frozen_slips, "FROZEN_ROUNDS", 2)
@@ -93,6 +95,7 @@ def test_a_good_guess_needs_fewer_steps():
     np.testing.assert_allclose(times(coupling, again), times(coupling, impulses), atol=1e-2)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("blocks", [1, 3])
 @pytest.mark.parametrize("seed", range(3))
 def test_rough_impulses_take_the_energy_of_exact_ones(blocks, seed):
@@ -130,6 +133,7 @@ def test_the_slope_of_the_nearest_impulse_of_the_cone_is_that_of_differences(mu)
     assert len(kinds) >= 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("along", [0.3, 1.0, 3.0])
 @pytest.mark.parametrize("seed", range(4))
 def test_forces_of_a_step_are_found_where_newton_alone_may_find_none(seed, along):

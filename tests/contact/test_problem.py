@@ -68,6 +68,7 @@ def test_a_point_that_is_pulled_up_gives_its_force_back_and_opens(up, load):
     assert point["relative"][2] == pytest.approx(max(up - DEEP, 0.0), abs=2 * SOLVED)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", ["alone", "nodal", "by mass and inertia"])
 def test_a_point_above_the_base_carries_nothing_however_small(kind):
     """It begins 1e-6 m up with 0.004 N, which indents 4e-12 m: less than the length to which the

@@ -42,6 +42,7 @@ def found(seed):
     return foot, stick, W
 
 
+@pytest.mark.long
 def test_operator_is_the_compliance_of_all_points_and_its_inverse():
     foot, stick, W = found(1)
     np.testing.assert_allclose(operator_of(stick, N), W, atol=1e-5 * np.abs(W).max())
@@ -71,6 +72,7 @@ def _elastic(foot):
     return turn @ (foot.bodies.mobility + half * rows @ inverse @ rows.T) @ turn.T
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "slips, opens, seed", [(0, 0, 1), (1, 0, 2), (2, 1, 3), (4, 2, 4), (0, 3, 5), (5, 1, 6)]
 )

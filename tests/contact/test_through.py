@@ -37,6 +37,7 @@ def test_bodies_that_only_touch_are_not_named():
         assert len(check(bodies).deepest(centers, rotations)) == told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("spread", [(1, 1, 1), (8, 1, 1), (0.1, 0.1, 8)])
 def test_pairs_whose_boxes_overlap_are_all_found(spread):
     rng = np.random.default_rng(0)

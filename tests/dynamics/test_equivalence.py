@@ -40,6 +40,7 @@ def test_augmented_lagrange_does_not_penetrate(reference):
     assert deepest < 1e-9
 
 
+@pytest.mark.long
 def test_total_lagrangian_goes_the_same_way(reference):
     path, _ = _shaken(integration={"kinematics": "total_lagrangian"})
     assert np.abs(path - reference[0]).max() < 1e-4 * np.abs(reference[0]).max()

@@ -46,6 +46,7 @@ def test_quarter_period_loss_and_ledger_of_free_rocking(alpha):
     assert tilt_angle(state.rotation[0]) > 0.2 * slenderness
 
 
+@pytest.mark.long
 def test_a_column_released_between_nodes_of_its_rim_stays_in_its_plane():
     """The rim is a circle: no corner turns the column aside. A polygon turns it by 1 mrad."""
     system = coarse_system(integration={"dt_s": 1e-3}, contact={"friction_coefficient": 0.8})

@@ -54,6 +54,7 @@ def plate(half, thickness=0.1, bricks=4, material=SOFT):
     return BasePlate(Body(MPI.COMM_WORLD, mesh, material, 1, held))
 
 
+@pytest.mark.long
 def test_tangents_of_copies_are_of_each_body_as_it_is_turned():
     run = pair(SOFT).full(kinematics=TotalLagrangian)
     system, random = run.system, np.random.default_rng(2)
@@ -73,6 +74,7 @@ def test_tangents_of_copies_are_of_each_body_as_it_is_turned():
     np.testing.assert_allclose(fresh.rotation, R, atol=1e-12)
 
 
+@pytest.mark.long
 def test_total_lagrangian_pair_moves_as_the_corotated_one_to_the_order_of_its_strain():
     grounds, off = pulse(2.0, 0.2, 120), []
     for stiff in (1.0, 10.0):
@@ -86,6 +88,7 @@ def test_total_lagrangian_pair_moves_as_the_corotated_one_to_the_order_of_its_st
     assert 0 < off[0] < 5 * strain and off[1] < off[0] / 5
 
 
+@pytest.mark.long
 def test_total_lagrangian_pair_that_rocks_keeps_its_energy():
     run = pair(MARBLE, rotation=rotation_matrix([0, 0.02, 0]), velocity=np.zeros(3))
     run = run.full(kinematics=TotalLagrangian, stands=False)

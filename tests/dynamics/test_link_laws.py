@@ -11,6 +11,7 @@ def full_cycles(steps, peak, cycles):
     return peak * np.sin(2 * np.pi * np.arange(1, cycles * steps + 1) / steps)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("steps", [8, 12, 1000])
 def test_hardening_is_bilinear_and_yields_back_after_twice_the_yield_force(steps):
     """N = h k e + (1 - h) F clipped; a half cycle out to FAR and back."""

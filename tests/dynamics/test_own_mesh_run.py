@@ -6,6 +6,7 @@ from pathlib import Path
 import h5py
 import meshio
 import numpy as np
+import pytest
 from mpi4py import MPI
 
 from fecolumn.case.case import Case, case_from_tables
@@ -18,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "mesh"))
 from own_meshes import bricks, own_case, tetrahedra, write  # noqa: E402
 
 
+@pytest.mark.long
 def test_tetrahedra_and_bricks_of_one_block_stand_and_vibrate_alike(tmp_path):
     found = []
     for kind, made in (("tetra", tetrahedra), ("hexahedron", bricks)):

@@ -1,6 +1,7 @@
 """A column that rolls around on its rim."""
 
 import numpy as np
+import pytest
 from coarse_column import coarse_system
 
 from fecolumn.engines.dynamics.checkpoint import read_checkpoint, write_checkpoint
@@ -21,6 +22,7 @@ def started(tilt=0.003):
     return system, state, ledger
 
 
+@pytest.mark.long
 def test_rolling_past_twenty_nodes_loses_what_the_sudden_start_does_and_no_more(tmp_path):
     """At a tilt of 3 mrad the contact is several nodes wide; a polygon loses 3 % here, the start (m
     g)^2 C / 2 half as stress.
@@ -41,6 +43,7 @@ def test_rolling_past_twenty_nodes_loses_what_the_sudden_start_does_and_no_more(
     assert np.array_equal(goes_on.x, restarted.x)
 
 
+@pytest.mark.long
 def test_a_stiff_column_passes_upright_at_a_tilt_of_a_tenth_of_a_milliradian_without_loss():
     """Released from a tenth of its slenderness with a spin across: in steps of 1 ms, the fastest of
     them made in parts, it loses nothing of Housner's loss.

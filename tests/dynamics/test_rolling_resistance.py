@@ -31,6 +31,7 @@ def wobble(engine, steps):
     return one, rim, rim.radius * np.ptp(np.unwrap(angles))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("engine, steps", [("rigid", 600), ("corotated", 120)])
 def test_a_wobbling_column_loses_the_resistance_times_its_weight_per_length_rolled(engine, steps):
     one, rim, rolled = wobble(engine, steps)

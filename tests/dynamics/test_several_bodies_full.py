@@ -81,6 +81,7 @@ def test_a_slab_of_bricks_rests_on_more_columns_than_it_needs(columns):
     assert np.abs(rows - rows[0]).max() < 5e-10
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("push, uplifts", [(0.95, False), (1.1, True)])
 def test_a_frame_of_bricks_uplifts_when_the_ground_accelerates_by_g_tan_alpha(push, uplifts):
     """Makris and Vassiliou (2013): columns of slenderness alpha under a slab uplift together at g

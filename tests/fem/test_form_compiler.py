@@ -70,6 +70,7 @@ def _killed(cache, times, seed):
     _whole(cache / "killed")
 
 
+@pytest.mark.long
 def test_killed_while_it_compiles_the_next_process_compiles_again(tmp_path):
     _killed(tmp_path, 5, 1)
 
@@ -80,6 +81,7 @@ def test_killed_fifty_times_while_it_compiles_the_next_process_compiles_again(tm
         _killed(tmp_path / str(round_), 5, round_)
 
 
+@pytest.mark.long
 def test_what_a_killed_compiler_of_other_programs_left_is_made_again(tmp_path):
     _whole(tmp_path)
     for file in (tmp_path / "fenics").iterdir():
@@ -89,6 +91,7 @@ def test_what_a_killed_compiler_of_other_programs_left_is_made_again(tmp_path):
     _whole(tmp_path)
 
 
+@pytest.mark.long
 def test_processes_that_start_at_once_compile_once_and_all_go_on(tmp_path):
     processes = [_start(tmp_path) for _ in range(3)]
     assert all(
@@ -97,6 +100,7 @@ def test_processes_that_start_at_once_compile_once_and_all_go_on(tmp_path):
     _whole(tmp_path)
 
 
+@pytest.mark.long
 def test_error_of_the_compiler_is_told_and_the_next_process_tries_again(tmp_path):
     environment = os.environ | {"XDG_CACHE_HOME": str(tmp_path), "CC": "false"}
     failed = subprocess.run(

@@ -60,6 +60,7 @@ def asked(*words) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_every_file_and_column_of_rocking_models(pulses):
     one = asked("rocking", "housner", pulses / "one.toml", pulses / "one")
     many = asked("rocking", "housner", pulses / "many.toml", pulses / "many")
@@ -76,6 +77,7 @@ def test_every_file_and_column_of_rocking_models(pulses):
     assert left == [name for name in listed("outputs", "history.csv") if name != "damping [J]"]
 
 
+@pytest.mark.long
 def test_every_coordinate_and_peak_of_all_rocking_models(pulses):
     """In the history and in the summary, each with its unit."""
     tables = dict(
@@ -141,6 +143,7 @@ def test_every_file_and_column_of_fragilities_and_risks(pulses):
         assert of_measures(header(risk / name), *measures) == list(listed("outputs", name)), name
 
 
+@pytest.mark.long
 def test_every_file_and_column_of_a_design(pulses):
     words = ["--vary", "block.width_m", "0.2:0.6", "--limit", "P(overturn) < 0.5", "--steps", "2"]
     motions = ["--motions", f"{pulses / 'p.h5'}#*", "-j", "1"]
@@ -152,6 +155,7 @@ def test_every_file_and_column_of_a_design(pulses):
     )
 
 
+@pytest.mark.long
 def test_every_file_and_column_of_a_screening(pulses):
     (pulses / "list.csv").write_text(
         "name,width_m,depth_m,height_m,mass_kg,friction\na,0.3,0.3,2,30,0.9\n"
@@ -166,6 +170,7 @@ def test_every_file_and_column_of_a_screening(pulses):
     assert list(dict.fromkeys(columns)) == list(listed("outputs", "tables/screen.csv"))
 
 
+@pytest.mark.long
 def test_every_file_and_column_of_a_calibration(pulses):
     (pulses / "test.csv").write_text(
         "time_s,tilt_rad\n"
@@ -182,6 +187,7 @@ def test_every_file_and_column_of_a_calibration(pulses):
         assert header(out / name) == list(listed("outputs", name)), name
 
 
+@pytest.mark.long
 def test_every_file_and_column_of_motions(pulses):
     told = told_files("Files of `fecolumn motions`")
     motion = f"{pulses / 'p.h5'}#3"

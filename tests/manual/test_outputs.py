@@ -141,6 +141,7 @@ def test_every_dataset_and_entry_of_a_structure_beside_those_of_a_column(tmp_pat
     }
 
 
+@pytest.mark.long
 def test_every_entry_of_a_comparison_of_two_analyses(analysis, tmp_path):
     shaken = tmp_path / "shaken"  # a key differs
     (tmp_path / "shaken.toml").write_text(
@@ -259,12 +260,14 @@ def test_every_column_of_an_ensemble(tmp_path):
     assert list(listed("outputs", "ENSEMBLE.csv")) == columns
 
 
+@pytest.mark.long
 def test_every_column_of_a_reports_tables(tmp_path):
     axes = {"integration.dt_s": [0.02, 1e-3], "integration.alpha_hht": [0, -0.2]}
     sources = [f"lick:{number}" for number in range(1, 13)]
     check_tables(write_synthetic(tmp_path, axes, 12, fails=(3,), sources=sources), axes)
 
 
+@pytest.mark.long
 def test_every_column_of_tables_of_engines_and_of_a_podiums_laws(tmp_path):
     axes = {"integration.engine": ["housner", "reduced", "full"]}
     check_tables(

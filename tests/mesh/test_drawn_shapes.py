@@ -35,6 +35,7 @@ def test_a_surface_encloses_what_formulas_say():
     assert found.inertia == pytest.approx(np.diag(exact), rel=1e-6, abs=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ending", ["stl", "ply", "obj"])
 def test_a_box_is_filled_with_tetrahedra(tmp_path, ending):
     own = own_mesh(MeshFile(str(saved(box(), tmp_path / f"box.{ending}"))))
@@ -45,6 +46,7 @@ def test_a_box_is_filled_with_tetrahedra(tmp_path, ending):
     assert found.mass == pytest.approx(0.144, rel=1e-6)
 
 
+@pytest.mark.long
 def test_a_scan_weighs_and_turns_as_its_surface(tmp_path):
     """Mass, centre and inertia within 0.1 % of the surface's integrals, though chords cut off some
     of its volume."""
@@ -67,6 +69,7 @@ def test_a_scan_weighs_and_turns_as_its_surface(tmp_path):
     assert np.array_equal(again.mesh.points, own.mesh.points)
 
 
+@pytest.mark.long
 def test_units_are_taken_and_missed(tmp_path):
     path = saved(box((400, 300, 1200)), tmp_path / "box.stl")
     assert own_mesh(MeshFile(str(path), "mm")).height == pytest.approx(1.2, rel=1e-6)
@@ -75,6 +78,7 @@ def test_units_are_taken_and_missed(tmp_path):
     assert 'mesh_unit = "m" makes it 1.2 m' in refusal(small, unit="mm")
 
 
+@pytest.mark.long
 def test_an_open_surface_names_its_holes(tmp_path):
     whole = box()
     open_foot = whole.extract_cells(np.flatnonzero(triangles(whole)[:, :, 2].max(axis=1) > 0))
@@ -97,6 +101,7 @@ def test_inverted_triangles_are_turned_and_told(tmp_path):
     assert found.notes == ("3 of 12 triangles looked inwards, and were turned",)
 
 
+@pytest.mark.long
 def test_a_cavity_a_second_body_and_a_damaged_file_are_refused(tmp_path):
     two = box() + box((0.2, 0.2, 0.2)).translate((0, 0, 0.3))
     assert "2 pieces" in refusal(
@@ -111,6 +116,7 @@ def test_a_cavity_a_second_body_and_a_damaged_file_are_refused(tmp_path):
     assert "head of a PLY" in refusal(tmp_path / "text.ply")
 
 
+@pytest.mark.long
 def test_a_foot_is_cut_flat_in_the_upper_half_only(tmp_path):
     path = saved(figure(), tmp_path / "a.stl")
     assert "less than half of the height" in refusal(path, cut_foot=0.9)
@@ -147,6 +153,7 @@ def test_a_step_file_is_of_the_size_it_says(cad):
     assert found.inertia[2, 2] == pytest.approx(turning, rel=1e-9)
 
 
+@pytest.mark.long
 def test_a_script_of_gmsh_may_make_bricks(tmp_path):
     (tmp_path / "a.geo").write_text(
         "h=100; Point(1)={-200,-200,0,h}; Point(2)={200,-200,0,h}; Point(3)={200,200,0,h};"

@@ -16,6 +16,7 @@ from rocking_analyses import BLOCK
 from rocking_structures import GATE
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "tables, bodies, masses",
     [
@@ -40,6 +41,7 @@ def test_every_body_stands_beside_its_closed_form_and_in_the_files(
     )
 
 
+@pytest.mark.long
 def test_a_body_alone_is_drawn_in_the_colours_of_its_parts_without_an_x_server(
     tmp_path, monkeypatch
 ):

@@ -33,6 +33,7 @@ def test_a_hollow_body_has_the_moments_that_are_stated(made):
     assert found.inertia == pytest.approx(inertia, rel=1e-7, abs=1e-12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("made", [bricks, tetrahedra], ids=["bricks", "tetrahedra"])
 def test_moments_that_differ_a_little_are_found_whatever_is_rounded(made):
     rng = np.random.default_rng(0)

@@ -127,6 +127,7 @@ def _rows(time):
 STEPS = [0.01 * i for i in range(200)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "rows, keys, dt, said",
     [
@@ -186,6 +187,7 @@ _LICK = (
 )
 
 
+@pytest.mark.long
 def test_processes_that_ask_for_the_lick_ensemble_at_once_all_get_it(tmp_path):
     """As the tasks of a job array on a fresh cache; a damaged file in the cache is made anew."""
     environment = os.environ | {"FECOLUMN_CACHE": str(tmp_path)}

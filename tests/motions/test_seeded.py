@@ -40,6 +40,7 @@ ORDINATES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("variability", VARIABILITIES)
 def test_median_of_115_motions_meets_the_figures_of_the_record(variability):
     model = read_model(LICK)

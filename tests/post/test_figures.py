@@ -35,6 +35,7 @@ def _picture(file):
     return imread(file)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("n, titles", [(2, ["a"]), (115, ["a", "b", "c", "d"])])
 def test_cdf_figure_shows_lines_and_bands(tmp_path, n, titles):
     png, pdf = cdf_figure(
@@ -84,6 +85,7 @@ def test_one_peak_far_beyond_the_others_does_not_squeeze_them():
     assert common(near) == near and common([]) == [] and common([0.0]) == [0.0]
 
 
+@pytest.mark.long
 def test_same_data_same_bytes(tmp_path):
     files = [cdf_figure([_panel("a", 20, 1)], tmp_path / name) for name in "pq"]
     assert all(first.read_bytes() == second.read_bytes() for first, second in zip(*files))
@@ -107,6 +109,7 @@ def test_axis_text_carries_the_unit():
     assert axis_text("contact.law", "penalty") == "law = penalty"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("overturned", [False, True])
 def test_figures_of_one_analysis(tmp_path, overturned):
     write_history(tmp_path, overturned=overturned)

@@ -150,6 +150,7 @@ def test_of_many_links_the_one_that_pulls_most_stands_out(drawn):
     ]
 
 
+@pytest.mark.long
 def test_links_have_files_of_three_each(tmp_path):
     columns = _of_links({"a": 1, "b": 2, "c 4d": 1, "7": 1})
     assert link_names(columns) == ["a", "b", "c 4d", "7"] and figure_names(columns) == [

@@ -54,6 +54,7 @@ def rows(file):
         return list(csv.DictReader(text))
 
 
+@pytest.mark.long
 def test_known_restitution_and_first_tilt_are_recovered_from_noise(test_of_block, capsys):
     fits = (("block.restitution", "0.8:1"), ("initial.tilt_rad", "0.11:0.13"))
     assert calibrate(test_of_block, "both", *fits) == 0
@@ -71,6 +72,7 @@ def test_known_restitution_and_first_tilt_are_recovered_from_noise(test_of_block
     assert (test_of_block / "both" / "calibrate.png").stat().st_size > 5000
 
 
+@pytest.mark.long
 def test_key_that_the_test_does_not_feel_is_said_not_to_be_identified(test_of_block, capsys):
     assert calibrate(test_of_block, "free", ("block.friction_coefficient", "0.3:0.9")) == 0
     (row,) = rows(test_of_block / "free" / "calibrate.csv")
@@ -80,6 +82,7 @@ def test_key_that_the_test_does_not_feel_is_said_not_to_be_identified(test_of_bl
     assert "It does not describe the test" in said  # Housner's own restitution is not 0.925
 
 
+@pytest.mark.long
 def test_what_was_killed_goes_on_from_its_runs(test_of_block):
     command = [
         *(sys.executable, "-m", "fecolumn.cli", "calibrate", str(test_of_block / "block.toml")),
@@ -165,6 +168,7 @@ def recovered(tmp_path, known, block, lasts=0.6):
     return tuple(float(row[name]) for name in ("low", "value", "high"))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("known, block", RECOVERED)
 def test_a_known_value_is_found_in_the_record_of_a_run_with_it(tmp_path, capsys, known, block):
     low, value, high = recovered(tmp_path, known, block)
@@ -216,6 +220,7 @@ def test_profile_of_a_straight_line_is_that_of_linear_regression():
         assert found == pytest.approx([value - reach, value + reach], abs=0.08 * reach)
 
 
+@pytest.mark.long
 def test_intervals_hold_the_truth_as_often_as_they_say():
     rng, x, inside = np.random.default_rng(4), np.linspace(-1, 2, 60), 0
     for _ in range(60):

@@ -68,6 +68,7 @@ def design(folder, out, *more, vary=("block.width_m", "0.1:1.1"), limit="P(tilt 
     )
 
 
+@pytest.mark.long
 def test_size_and_interval_are_those_of_the_closed_form(pulses, capsys):
     """A block lifts when the peak of the ground exceeds g width / height: its least width for a
     share of motions is a quantile of their peaks.
@@ -92,6 +93,7 @@ def test_size_and_interval_are_those_of_the_closed_form(pulses, capsys):
     assert (pulses / "closed" / "design.png").stat().st_size > 5000
 
 
+@pytest.mark.long
 def test_another_limit_of_the_same_runs_computes_only_new_values(pulses, capsys):
     assert design(pulses, "again", "--steps", "8") == 0
     before = {path.name for path in (pulses / "again" / "analyses").iterdir()}
@@ -100,6 +102,7 @@ def test_another_limit_of_the_same_runs_computes_only_new_values(pulses, capsys)
     assert design(pulses, "again", "--steps", "8", limit="P(overturn) < 0.05") == 0
 
 
+@pytest.mark.long
 def test_largest_value_where_the_limit_holds_at_small_ones(pulses, capsys):
     vary = ("motion.scale", "0.1:2.1")
     assert design(pulses, "scale", "--steps", "16", vary=vary) == 0
@@ -111,11 +114,13 @@ def test_largest_value_where_the_limit_holds_at_small_ones(pulses, capsys):
     assert "of at most" in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_range_that_holds_no_size_is_said(pulses, capsys):
     assert design(pulses, "wide", "--steps", "4", vary=("block.width_m", "1.5:2")) == 0
     assert "kept at both ends" in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_what_was_killed_goes_on_to_the_same_answer(pulses):
     command = [
         *(sys.executable, "-m", "fecolumn.cli", "design", str(pulses / "block.toml"), "--vary"),
@@ -134,6 +139,7 @@ def test_what_was_killed_goes_on_to_the_same_answer(pulses):
     assert answers[0] == answers[1]
 
 
+@pytest.mark.long
 def test_of_two_values_neither_is_looked_at_twice(pulses, capsys):
     assert grid_of(2, 3, int, 64) == [2, 3] and grid_of(0.5, 0.500001, float, 8) == [0.5, 0.500001]
     assert design(pulses, "two", "--steps", "8", vary=("block.width_m", "0.5:0.500001")) == 0
@@ -141,6 +147,7 @@ def test_of_two_values_neither_is_looked_at_twice(pulses, capsys):
     assert told.count("beyond tilt") == 2 and told.count("= 0.500001 m: ") == 1
 
 
+@pytest.mark.long
 def test_folder_of_another_question_is_refused(pulses, capsys):
     assert design(pulses, "taken", "--steps", "2") == 0
     capsys.readouterr()
@@ -149,6 +156,7 @@ def test_folder_of_another_question_is_refused(pulses, capsys):
     assert "holds another study" in told and told.count("\n") == 1
 
 
+@pytest.mark.long
 def test_motions_that_tell_nothing_of_the_size_are_said_to(pulses, capsys):
     """Of six motions two more or less are chance."""
     motions = ("--motions", f"{pulses / 'p.h5'}#17-22")

@@ -171,6 +171,7 @@ def told(file):
     return {key: float(value) for key, value in row.items() if key not in ("setting",)}
 
 
+@pytest.mark.long
 def test_risk_and_fragility_reach_over_what_failed_analyses_might_have_been(
     pulsed, tmp_path, capsys
 ):

@@ -48,6 +48,7 @@ def test_a_design_is_that_of_the_command(designed):
     assert "data:image/png;base64," in page and 'class="dataframe"' in page
 
 
+@pytest.mark.long
 def test_a_design_runs_in_a_thread_and_takes_what_is_there(designed):
     case, answer = designed
     found = []
@@ -62,6 +63,7 @@ def test_a_design_runs_in_a_thread_and_takes_what_is_there(designed):
 AXES = {"motion.scale": np.array([1.0, 2.0]), "motion.source": ("lick:1", "lick:2")}
 
 
+@pytest.mark.long
 def test_a_study_of_a_case_is_a_table_of_its_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     fecolumn.motion_file("own.csv", 4.0 * np.sin(np.arange(0, 6, 0.05)), 0.05)
@@ -75,6 +77,7 @@ def test_a_study_of_a_case_is_a_table_of_its_runs(tmp_path, monkeypatch):
     assert (tmp_path / "deep" / "study-study.toml").exists()
 
 
+@pytest.mark.long
 def test_a_list_of_objects_is_a_table_too(tmp_path):
     objects = pandas.DataFrame(
         {
@@ -106,6 +109,7 @@ def test_a_list_that_cannot_be_written_leaves_the_older_one(tmp_path):
     assert (tmp_path / "m-list.csv").read_text() == "older"
 
 
+@pytest.mark.long
 def test_a_calibration_and_a_risk(tmp_path):
     time = np.arange(0, 1.5, 0.05)
     truth = fecolumn.case_from_tables(
@@ -190,6 +194,7 @@ def test_an_answer_counts_what_failed_and_is_given_all_the_same(designed, tmp_pa
     assert [row["reason"] for row in study.rows if row["state"] == "failed"] != [""]
 
 
+@pytest.mark.long
 def test_where_nothing_is_done_there_is_no_answer_but_a_reason(tmp_path):
     asked = dict(motions="lick:1-5", event="overturn", scale=3, engine="housner")
     objects = pandas.DataFrame(
@@ -202,6 +207,7 @@ def test_where_nothing_is_done_there_is_no_answer_but_a_reason(tmp_path):
         fecolumn.screen(objects, tmp_path / "m", **asked)
 
 
+@pytest.mark.long
 def test_a_study_counts_what_failed_and_tries_it_again_where_asked(tmp_path):
     case = fecolumn.case_from_tables(CABINET)
 

@@ -44,6 +44,7 @@ def fail(folder, count):
             )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("command", ["design", "screen"])
 def test_what_failed_is_told_and_tried_again(asked, tmp_path, capsys, command):
     words = [command, *asked[command], "-o", str(tmp_path / "out")]
@@ -59,6 +60,7 @@ def test_what_failed_is_told_and_tried_again(asked, tmp_path, capsys, command):
     assert "failed: " not in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_design_tries_once_in_all_its_looks(asked, tmp_path, monkeypatch):
     words = ["design", *asked["design"], "-o", str(tmp_path / "out"), "--retry-failed"]
     tried, whole = [], fecolumn.study.run.complete_study
@@ -72,6 +74,7 @@ def test_design_tries_once_in_all_its_looks(asked, tmp_path, monkeypatch):
     assert len(tried) > 1 and tried == [True] + [False] * (len(tried) - 1)
 
 
+@pytest.mark.long
 def test_value_at_which_all_failed_is_told_with_the_way_out(asked, tmp_path, capsys):
     words = ["design", *asked["design"], "-o", str(tmp_path / "out")]
     assert main(words) == 0
@@ -85,6 +88,7 @@ def test_value_at_which_all_failed_is_told_with_the_way_out(asked, tmp_path, cap
     assert main([*words, "--retry-failed", "-q"]) == 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("command", ["design", "screen"])
 def test_quiet_command_tells_no_progress(asked, tmp_path, capsys, command):
     words = [command, *asked[command], "-o", str(tmp_path / "out")]
@@ -95,6 +99,7 @@ def test_quiet_command_tells_no_progress(asked, tmp_path, capsys, command):
     assert " analyses, " in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_event_of_a_screening_may_be_given_by_its_older_name(asked, tmp_path, capsys):
     warn_of_older_name.cache_clear()
     words = ["screen", *asked["screen"], "-o", str(tmp_path / "out")]
@@ -115,6 +120,7 @@ def test_help_tells_the_events_and_the_fewest_motions(capsys):
     assert "--limit" not in told
 
 
+@pytest.mark.long
 def test_stages_of_a_study_try_once_what_failed(tmp_path, monkeypatch, capsys):
     (tmp_path / "study.toml").write_text(
         "[case.block]\nwidth_m = 0.3\nheight_m = 2.0\n[case.integration]\ndt_s = 0.01\n"

@@ -146,6 +146,7 @@ def test_a_fragility_of_an_earlier_version_gives_the_same_risk(tmp_path):
     assert older != FRAGILITY and found[0] == found[1]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "old, new, said",
     [
@@ -171,6 +172,7 @@ def test_fragility_table_of_impossible_counts_is_refused(tmp_path, capsys, old, 
     assert said in told and told.count("\n") == 1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("n, median, beta", [(40, 3.0, 0.5), (150, 3.0, 0.5), (115, 8.0, 0.5)])
 def test_interval_holds_the_true_frequency_as_often_as_it_says(n, median, beta):
     """A bootstrap of whole runs held it in 82 of 100 ensembles of 40 runs."""
@@ -391,6 +393,7 @@ def test_frequency_from_intensities_that_no_run_had_is_told(tmp_path, capsys):
     assert float(row["outside_runs_share"]) > 0.1
 
 
+@pytest.mark.long
 def test_folder_of_a_study_is_asked_for_any_limit_state(tmp_path, capsys):
     """Runs of pulses of two periods: the fragility and the frequency of the folder are those of
     its own runs.

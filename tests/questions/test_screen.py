@@ -34,6 +34,7 @@ def rows(file):
         return list(csv.DictReader(text))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("engine", ["housner", "rigid"])
 def test_shares_are_those_of_the_closed_form_and_rank_the_list(tmp_path, pulses, engine, capsys):
     """A block lifts where the peak of the ground exceeds g width / height."""
@@ -133,6 +134,7 @@ def test_an_object_without_friction_is_taken(tmp_path):
     assert read_objects(tmp_path / "list.csv")[0].friction == 0.0
 
 
+@pytest.mark.long
 def test_time_of_the_motions_is_scaled_as_the_key_does(tmp_path, pulses):
     """A pulse twice as long overturns what the short one does not."""
     found = {}

@@ -56,6 +56,7 @@ def on_pad():
     return system_of(pad(damping_ratio=0.05), integration={"dt_s": 5e-4})
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("times", [3.0, 300.0])
 def test_column_stands_on_any_pad_that_holds_it_upright(on_pad, times):
     upright = (

@@ -9,6 +9,7 @@ from fecolumn.verification.models import shaking
 from fecolumn.verification.trial import RigidRocking
 
 
+@pytest.mark.long
 def test_free_rocking_is_that_of_the_full_engine():
     """Released at 0.4 of the critical tilt, over the first impact: top within 1e-4 of its peak,
     same loss within 0.5 %.

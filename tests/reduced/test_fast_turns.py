@@ -8,6 +8,7 @@ from fecolumn.contact.bodies import BODY
 from fecolumn.engines.reduced.rotation import Turning, turning
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("slender", [1.0, 0.1, 1 / 128])
 @pytest.mark.parametrize("angle", [0.01, 0.3, 1.0])
 def test_a_free_body_keeps_its_energy_whatever_its_turn(slender, angle):

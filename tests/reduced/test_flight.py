@@ -8,6 +8,7 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.reduced import start
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("density, dt", [(7850.0, 2.5e-5), (78.5, 1e-6)])
 def test_a_column_that_leaves_a_stiff_base_flies_free_of_force(density, dt):
     """From its rest upwards at 0.1 m/s on a base of 1e15 Pa, which the weight of the light one

@@ -45,6 +45,7 @@ def lost(rows):
     return mechanical[len(rows) // 8] - mechanical[-1]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("spin", [0.01, 0.002, 0.0006])
 def test_a_stiff_column_passes_upright_as_one_that_rolls_and_loses_nothing(spin):
     """At tilts down to 1e-4 rad in steps of 1 ms, in which the lowest point would run half around
@@ -76,6 +77,7 @@ def test_planar_rocking_over_is_an_impact_and_one_step():
     assert engine.record.impacts > 0 and engine.record.parts == 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("share", [1.0, 0.5, 0.2])
 def test_a_steel_column_that_wobbles_at_a_small_tilt_loses_next_to_nothing(share):
     """Three revolutions from a tilt of 5 mrad, steadily or down to 0.7 mrad, at the share of the

@@ -57,6 +57,7 @@ def history(folder):
         }
 
 
+@pytest.mark.long
 def test_interrupted_analysis_goes_on_to_the_last_digit(tmp_path, monkeypatch):
     # looks do not hang on the clock
     monkeypatch.setattr("fecolumn.engines.pace.Pace.chunk", lambda pace, most: most)
@@ -136,6 +137,7 @@ def test_result_has_what_a_full_order_one_has(tmp_path):
     assert names[0] == names[1]
 
 
+@pytest.mark.long
 def test_slide_beyond_the_allowance_extends_the_base_and_off_the_plate_is_an_outcome(tmp_path):
     """mu = 0.02 on a base pushed by 2 m/s2 slides until its foot leaves a plate 14 mm wider than it
     to each side.
@@ -177,6 +179,7 @@ def test_literal_hht_is_refused():
         case_of(contact={"impact": "none"})
 
 
+@pytest.mark.long
 def test_what_is_made_once_is_no_cost_of_the_analysis_that_makes_it(tmp_path, monkeypatch):
     real, slow = Drawing.model, 1.5
 
@@ -197,6 +200,7 @@ def test_what_is_made_once_is_no_cost_of_the_analysis_that_makes_it(tmp_path, mo
     )
 
 
+@pytest.mark.long
 def test_a_base_that_is_extended_is_no_cost_of_the_analysis_that_needs_it(tmp_path, monkeypatch):
     real, slow = KnownBase._extend, 1.5
 
@@ -217,6 +221,7 @@ def test_a_base_that_is_extended_is_no_cost_of_the_analysis_that_needs_it(tmp_pa
     assert summary["residual_slide_m"] > 0.01 and summary["cpu_s"] < slow
 
 
+@pytest.mark.long
 def test_a_thrown_column_with_damping_restitution_and_rolling_moves_the_same_in_both_engines(
     tmp_path,
 ):

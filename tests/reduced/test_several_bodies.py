@@ -307,6 +307,7 @@ def test_a_mass_that_a_yielding_spring_stops_has_lost_all_but_what_the_spring_th
     assert np.abs(rows[:, WIDTH - 1]).max() < 1e-12 * block.mass * speed**2 / 2
 
 
+@pytest.mark.long
 def test_a_tendon_that_a_lean_has_stretched_is_loaded_from_the_start():
     """A block that leans about its edge, tied to the ground by a tendon through its foot: k e^2 /
     2, which contact must not make.

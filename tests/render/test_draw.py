@@ -68,6 +68,7 @@ def test_movie_of_fields_is_as_slow_as_asked_and_comes_as_gif(drum):
     assert len(_pictures(file)) == 5
 
 
+@pytest.mark.long
 def test_stills_and_sequence_of_the_instants_asked_for(drum):
     files = render(drum, RenderOptions(only="pictures", instants=(0.0, 0.11)), quiet=True)
     # the fields' instants
@@ -152,6 +153,7 @@ def test_folders_that_hold_no_finished_analysis_say_what_they_are(block, tmp_pat
         render(unfinished)
 
 
+@pytest.mark.long
 def test_interrupted_movie_leaves_what_was_there(tmp_path, monkeypatch, capsys):
     folder = analysed(BLOCK, tmp_path / "run")
     render(folder, RenderOptions(only="movie", **SMALL), quiet=True)

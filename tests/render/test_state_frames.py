@@ -54,6 +54,7 @@ def test_states_of_the_rigid_engine_give_the_fields_that_it_wrote(tmp_path):
     assert 1e3 < peak and difference < 1e-6 * peak
 
 
+@pytest.mark.long
 def test_pictures_without_field_files_show_stress_and_pressure(stateful_block):
     assert not (stateful_block / "fields").exists()
     result = read_result(stateful_block)
@@ -84,6 +85,7 @@ def test_paraview_opens_what_the_states_give(stateful_block):
     assert reader.time_values == pytest.approx(np.arange(0, 0.21, 0.04))
 
 
+@pytest.mark.long
 def test_states_of_other_modes_are_refused_and_the_history_still_drawn(drum, tmp_path):
     folder = shutil.copytree(
         drum, tmp_path / "run", ignore=shutil.ignore_patterns("fields", "render")

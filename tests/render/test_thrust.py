@@ -142,6 +142,7 @@ def test_force_of_the_legend_is_a_round_one():
     assert legend_force(1e5, 900.0) == 500.0
 
 
+@pytest.mark.long
 def test_command_draws_forces_into_movie_stills_and_sequence(arch, tmp_path, capsys):
     folder = shutil.copytree(arch, tmp_path / "run")
     line = ["render", str(folder), "--forces", "--view", "front", "-q"]
@@ -151,6 +152,7 @@ def test_command_draws_forces_into_movie_stills_and_sequence(arch, tmp_path, cap
     assert names >= {"motion.mp4", "sequence.png", "sequence.pdf", "still_0.000s.png"}
 
 
+@pytest.mark.long
 def test_forces_are_seen(arch, tmp_path):
     from PIL import Image
 

@@ -47,6 +47,7 @@ def test_a_trend_of_the_coarse_step_alone_is_told_as_such(chaotic):
     )
 
 
+@pytest.mark.long
 def test_a_strong_effect_of_alpha_is_found(tmp_path):
     found = claims(tmp_path, motions=60, effect=lambda v: 1 + 3 * -v[ALPHA])
     assert found["a2, α"].verdict == found["c"].verdict == NOT_SUPPORTED
@@ -54,6 +55,7 @@ def test_a_strong_effect_of_alpha_is_found(tmp_path):
     assert "Here ours disagrees" in found["c"].ours and "P(overturn) goes from" in found["c"].ours
 
 
+@pytest.mark.long
 def test_an_effect_of_small_steps_is_found(tmp_path):
     found = claims(tmp_path, motions=60, effect=lambda v: 2.0 if v[DT] < 5e-4 else 1.0)
     assert found["b2"].verdict == NOT_SUPPORTED and found["c"].verdict != NOT_SUPPORTED
@@ -65,6 +67,7 @@ def test_few_motions_leave_the_equality_of_distributions_undecided(tmp_path):
     assert "cannot exclude" in found["c"].ours
 
 
+@pytest.mark.long
 def test_peaks_that_do_not_depend_on_the_setting_contradict_the_paper(tmp_path):
     found = claims(tmp_path, motions=40, scatter=0.0)
     assert found["a1"].verdict == NOT_SUPPORTED and "0 of 40 motions" in found["a1"].ours

@@ -96,6 +96,7 @@ def test_band_over_two_measures_is_wider_where_records_repeat_alike(table):
     )
 
 
+@pytest.mark.long
 def test_study_gives_a_curve_for_each_setting(tmp_path, capsys):
     peaks = np.linspace(0.5, 5.0, 30)
     pulses = tmp_path / "p30.h5"
@@ -156,6 +157,7 @@ def test_table_that_cannot_be_used_is_refused_in_a_line(tmp_path, capsys, text, 
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("fails", [(), (0, 31)])  # a motion at rest and another
 def test_motions_at_scale_0_have_no_intensity_and_are_left_out(tmp_path, capsys, fails):
     pulses, hazard = tmp_path / "p12.h5", tmp_path / "hazard.csv"

@@ -59,6 +59,7 @@ def rows_of(out):
         return list(csv.DictReader(file))
 
 
+@pytest.mark.long
 def test_fragility_is_that_of_the_motions_over_all_scales(tmp_path, pulses):
     out = write_synthetic(
         tmp_path,
@@ -86,6 +87,7 @@ def test_fragility_is_that_of_the_motions_over_all_scales(tmp_path, pulses):
     assert all(row["pga_p"] == "" for row in rows), "peaks of pulses of one shape tell the same"
 
 
+@pytest.mark.long
 def test_no_fragility_where_the_motions_are_not_to_be_found(tmp_path):
     page = page_alone(write_synthetic(tmp_path, {"contact.friction_coefficient": [0.3, 0.8]}, 25))
     assert "Fragility" not in page.text

@@ -149,6 +149,7 @@ def both_ways(tmp_path_factory, study):
     )
 
 
+@pytest.mark.long
 def test_scales_of_both_signs_are_two_motions_of_a_record(both_ways):
     page = report(both_ways)
     assert "each of 40 motions of 20 records scaled to 3 levels" in page.text

@@ -126,6 +126,7 @@ def test_samples_of_a_study_hold_no_peak_of_what_is_lost(studies):
         np.testing.assert_array_equal(np.isnan(sample.u_max), sample.lost)
 
 
+@pytest.mark.long
 def test_the_report_does_not_read_it_in_any_table_figure_or_sentence(studies):
     def read(folder):
         page = write_report(folder, files=())
@@ -142,6 +143,7 @@ def test_the_report_does_not_read_it_in_any_table_figure_or_sentence(studies):
     )
 
 
+@pytest.mark.long
 def test_the_report_calls_lost_what_it_counts_as_lost(studies):
     page = (write_report(studies[0], files=()).parent / "index.html").read_text()
     words = re.sub(r"<[^>]+>", "", page)
@@ -186,6 +188,7 @@ def test_statistics_do_not_read_it(name):
     assert repr(READERS[name](U)) == repr(READERS[name](OTHER))
 
 
+@pytest.mark.long
 def test_a_study_that_cuts_its_motions_short_says_so_wherever_it_is_read(tmp_path, capsys):
     folder = write_synthetic(
         tmp_path / "study",

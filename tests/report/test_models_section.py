@@ -15,6 +15,7 @@ def rows_of(page):
         return list(csv.DictReader(file))
 
 
+@pytest.mark.long
 def test_engines_are_measured_against_the_finite_elements(tmp_path):
     cpu = {"reduced": 3.0, "rigid": 2.0, "housner": 0.01}
     kept = {}
@@ -65,6 +66,7 @@ def test_a_study_of_one_engine_has_no_such_section(tmp_path):
     )
 
 
+@pytest.mark.long
 def test_an_engine_with_fewer_motions_is_measured_on_those_and_its_number_is_told(tmp_path):
     engines, kept = ["housner", "reduced", "full"], {}
 

@@ -215,6 +215,7 @@ def test_table_of_overturning_agrees_with_the_summaries(unfinished):
     assert float(found["wilson_low"]) < float(found["p_overturn"]) < float(found["wilson_high"])
 
 
+@pytest.mark.long
 def test_the_same_study_gives_the_same_tables(unfinished, tmp_path):
     out, _ = unfinished
     write_report(out, tmp_path, files=())
@@ -222,6 +223,7 @@ def test_the_same_study_gives_the_same_tables(unfinished, tmp_path):
         assert (tmp_path / "tables" / path.name).read_bytes() == path.read_bytes()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "axes, motions",
     [
@@ -243,6 +245,7 @@ def test_any_study_has_a_report_and_the_claims_only_where_they_can_be_put(tmp_pa
     assert "Provenance" in page.text and not re.search(r"\bnan\b|\bNone\b|\binf\b", page.text)
 
 
+@pytest.mark.long
 def test_sampled_parameters_have_a_ranking(tmp_path):
     """As of a Latin hypercube: every sample has values of its own."""
     import json

@@ -5,6 +5,7 @@ judged.
 import math
 import random
 
+import pytest
 from synthetic_study import write_synthetic
 
 from fecolumn.study.report.gallery import Gallery
@@ -76,6 +77,7 @@ def test_studies_before_version_0_11_are_read(tmp_path):
     assert found[0] == found[1] and found[0]
 
 
+@pytest.mark.long
 def test_claims_of_the_podium_paper_are_judged(tmp_path):
     section = podium(read_sweep(study(tmp_path, AXES, 60)), Gallery(tmp_path, False, ()))
     blocks = {
@@ -102,6 +104,7 @@ def test_claims_of_the_podium_paper_are_judged(tmp_path):
     assert (tmp_path / "tilts.svg").exists() and (tmp_path / "shears.svg").exists()
 
 
+@pytest.mark.long
 def test_page_of_two_laws_names_what_was_analysed_and_whose_claims_are_judged(tmp_path):
     page = write_report(study(tmp_path, {"podium.impact": ["CRV", "CAV"]}, 6), files=())
     text = page.read_text()

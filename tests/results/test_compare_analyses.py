@@ -211,6 +211,7 @@ def test_what_does_not_fit_is_one_line(folders, tmp_path, capsys, arguments, tol
     assert told.format(**places) in error and error.count("\n") == 1
 
 
+@pytest.mark.long
 def test_two_analyses_of_a_structure_are_compared_by_what_they_observe(tmp_path, capsys):
     block = dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.8)
     tables = dict(

@@ -128,6 +128,7 @@ def test_analysis_knows_its_case_and_how_it_ended(analysis, drum):
     assert "<caption>Drum</caption>" in page and "still rocking" in page
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["top", "path", "energy"])
 def test_figures_are_pictures_that_can_be_saved(analysis, name, tmp_path):
     picture = getattr(analysis.plot, name)()
@@ -146,6 +147,7 @@ def test_frames_hold_the_history(analysis):
     assert data.attrs["case_id"] == analysis.case.id
 
 
+@pytest.mark.long
 def test_axes_of_a_figure_may_be_changed_before_it_is_saved(analysis, tmp_path):
     picture = analysis.plot.energy()
     before = picture.png
@@ -155,6 +157,7 @@ def test_axes_of_a_figure_may_be_changed_before_it_is_saved(analysis, tmp_path):
     assert (tmp_path / "energy.png").read_bytes() == picture.png
 
 
+@pytest.mark.long
 def test_analysis_can_be_rendered(analysis):
     files = analysis.render(only="pictures", instants=(0.05,))
     assert {"sequence.png", "sequence.pdf"} <= {file.name for file in files} and all(

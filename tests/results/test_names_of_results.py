@@ -39,6 +39,7 @@ def glued(tmp_path):
     return fecolumn.AnalysisResult(tmp_path)
 
 
+@pytest.mark.long
 def test_joints_are_drawn_by_their_name_in_the_case(glued):
     assert glued.plot.joints("foot").png.startswith(b"\x89PNG")
     warn_of_older_name.cache_clear()

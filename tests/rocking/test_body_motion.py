@@ -101,6 +101,7 @@ def test_what_is_let_go_beyond_its_critical_tilt_has_overturned_however_long_it_
     assert summary["outcome"] == "overturned" and summary["overturn_time_s"] < 1e-2
 
 
+@pytest.mark.long
 def test_forces_of_a_rocking_model_are_drawn(tmp_path):
     made = case("wobbling", dict(body=DRUM), FOOT, initial=dict(body=dict(tilt_rad=0.05)))
     run(made, tmp_path / "run", quiet=True)
@@ -133,6 +134,7 @@ def test_a_slab_lies_on_the_upper_edges_of_all_columns(engine, column):
         )
 
 
+@pytest.mark.long
 def test_floors_of_a_podium_are_in_its_history_and_drawn(tmp_path):
     """The roof is the top that the model tells; a run is drawn from its history alone."""
     table = [f"{time:.3f},{value:.6f}" for time, value in zip(TIME, SHAKEN[:, 0])]

@@ -100,6 +100,7 @@ def test_a_model_of_is_that_of_its_own_table(made, stated):
         assert found[name] == (pytest.approx(value, rel=1e-12), unit)
 
 
+@pytest.mark.long
 def test_one_file_runs_with_every_engine(tmp_path):
     """A block let go from 0.05 rad: its tilt until it lands, and how much later it lands again."""
     (tmp_path / "block.toml").write_text(

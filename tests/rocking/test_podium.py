@@ -193,6 +193,7 @@ def answers(motions):
     return found
 
 
+@pytest.mark.long
 def test_claims_follow_the_numbers():
     found = answers(600)
     told = {claim.key: claim.verdict for claim in podium_claims(compared(found, resamples=99))}

@@ -82,6 +82,7 @@ def test_free_rocking_of_a_frame_writes_table_history_and_figure(tmp_path, capsy
     assert "mass ratio gamma" in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_ensemble_counts_what_overturns_as_the_motions_grow(tmp_path, ensemble, capsys):
     (tmp_path / "block.toml").write_text(BLOCK + f'motion.source = "{ensemble}#*"\n')
     assert (
@@ -184,6 +185,7 @@ def test_help_waits_for_no_library():
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "words", ["block.toml -o out", "housner -o out block.toml", "-o out -q housner block.toml"]
 )

@@ -71,6 +71,7 @@ def test_elastic_impacts_lose_no_energy():
     assert energy - lowest == pytest.approx((energy[0] - lowest) * np.ones(len(energy)), rel=1e-5)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("slenderness", [0.05, 0.2, 0.6])
 def test_block_uplifts_at_g_tan_alpha_and_not_below(slenderness):
     time = np.arange(0, 2, 0.01)

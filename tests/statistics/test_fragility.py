@@ -233,6 +233,7 @@ def test_line_too_flat_for_a_median_is_refused():
         lognormal(np.repeat([1.0, 10.0], 4000), overturned)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("n, median, beta", [(40, 0.4, 0.4), (115, 1.0, 0.4), (115, 1.5, 0.5)])
 def test_intervals_of_few_runs_hold_the_truth_as_often_as_they_say(n, median, beta):
     """A normal interval of the logarithm of the median held it in 92, 92 and 87 of 100."""

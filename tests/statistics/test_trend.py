@@ -29,6 +29,7 @@ def test_overturning_is_the_largest_peak_and_ties_with_overturning():
     assert trend([[0.1] * 8] * 3, np.ones((3, 8), bool)).tau == 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("levels", [2, 5])
 def test_without_a_trend_it_is_found_no_oftener_than_its_level(levels):
     rng = np.random.default_rng(2)

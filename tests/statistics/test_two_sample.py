@@ -97,6 +97,7 @@ def test_permutation_p_without_overturns_is_scipys():
     assert 0.001 < expected < 0.25 and anderson_darling(a, b).p == pytest.approx(expected, abs=0.02)
 
 
+@pytest.mark.long
 @SHARES
 @pytest.mark.parametrize("test", [anderson_darling, cramer_von_mises])
 def test_p_is_uniform_where_the_settings_are_one(test, share):
@@ -108,6 +109,7 @@ def test_p_is_uniform_where_the_settings_are_one(test, share):
     assert_uniform(p, 0.03 if share == 0.9 else 0.005)
 
 
+@pytest.mark.long
 @SHARES
 def test_kolmogorov_smirnovs_p_never_promises_too_much_and_keeps_most_of_its_level(share):
     """D has few values, so p jumps: P(p <= level) is at most the level; scipy's p for continuous

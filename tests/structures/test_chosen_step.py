@@ -94,6 +94,7 @@ def test_rattling_before_the_impacts_that_count_is_none():
     assert window_of(rows, 100.0).lands == pytest.approx(1.0)
 
 
+@pytest.mark.long
 def test_bodies_without_give_lose_the_same_at_every_step_and_take_the_longest(tmp_path, capsys):
     summary = simulation.run(_case(), tmp_path / "auto")
     chosen = summary["dt_chosen"]

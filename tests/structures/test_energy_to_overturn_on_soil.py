@@ -63,6 +63,7 @@ def on_soil(stiffness: float, **tables):
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("share, outcome", [(0.95, "still rocking"), (1.1, "overturned")])
 def test_a_spin_of_more_than_that_energy_overturns_a_block_on_soil(share, outcome, tmp_path):
     def spun(spin: float, seconds: float):
@@ -96,6 +97,7 @@ def test_soil_on_which_nothing_can_stand_is_refused_in_a_line(stiffness, said):
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.long
 def test_rest_waits_for_what_still_falls_beside_a_large_body(tmp_path):
     vase = STONE | dict(kind="block", length_m=0.06, width_m=0.06, height_m=0.2)
     times = "\n".join(f"{0.01 * n:.2f},0.0" for n in range(20))

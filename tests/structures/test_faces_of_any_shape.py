@@ -108,6 +108,7 @@ def hull(low, up, angle, place, middle):
     return found[ConvexHull(found).vertices] - middle
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "low, up, angle, place",
     [
@@ -136,6 +137,7 @@ def test_a_body_lifts_about_the_hull_of_the_region(tmp_path, low, up, angle, pla
     assert np.abs(errors).max() < 1e-4
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("angle", [0.0, 20.0, 32.0, 58.0, 90.0])
 def test_a_drum_over_the_corner_of_a_block_lifts_about_its_edges(angle):
     """The corner lies 0.07 m to both sides of the drum's middle, within its circle of 0.15 m."""

@@ -4,6 +4,8 @@ energy.
 
 import json
 
+import pytest
+
 from fecolumn.cli import main
 
 TABLE = """
@@ -73,6 +75,7 @@ def _summary(text, tmp_path):
     return json.loads((out / "summary.json").read_text())
 
 
+@pytest.mark.long
 def test_a_table_rocks_to_the_other_side_and_no_further(tmp_path):
     """Within half a second it has passed upright, and leans by no more than it was let go from."""
     found = _summary(TABLE, tmp_path)
@@ -80,6 +83,7 @@ def test_a_table_rocks_to_the_other_side_and_no_further(tmp_path):
     assert found["energy_j"]["contact"] < 0.0
 
 
+@pytest.mark.long
 def test_a_stone_on_two_others_stands(tmp_path):
     """Their points move by fewer ways than they have."""
     assert _summary(STONES, tmp_path)["u_max_m"] < 1e-5

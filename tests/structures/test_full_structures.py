@@ -292,6 +292,7 @@ def test_bodies_without_elements_are_refused_by_name_in_full_order(tmp_path, bod
     assert refused.value.key == key and "engine" in str(refused.value)
 
 
+@pytest.mark.long
 def test_engine_is_an_axis_of_a_study_of_structures(tmp_path):
     from fecolumn.cli import main
 

@@ -134,6 +134,7 @@ def test_glue_holds_what_hangs_until_its_weight_is_too_much():
         structure_model(hanging(0.8 * weight))
 
 
+@pytest.mark.long
 def test_summary_history_figure_and_tables_tell_of_it(tmp_path):
     summary = run(waxed(), tmp_path / "run", quiet=True)
     ((name, bond),) = summary["bonds"].items()
@@ -150,6 +151,7 @@ def test_summary_history_figure_and_tables_tell_of_it(tmp_path):
     assert told["n"] == told["began"] == 2 and told["failed_share_50"] == bond["failed_share"]
 
 
+@pytest.mark.long
 def test_a_study_writes_a_table_and_a_section_of_glued_joints(tmp_path):
     from fecolumn.cli import main
 

@@ -50,6 +50,7 @@ def settlements(folder, places, ground):
     return [rows[f"interface/foot{k}: block{k} on soil/rise"][0] for k in range(len(places))]
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:.*resolves the ground's own vibration")
 @pytest.mark.parametrize("kind", ["unbounded", "plate"])
 def test_each_of_two_blocks_settles_as_alone_and_by_what_the_other_one_adds(tmp_path, kind):
@@ -75,6 +76,7 @@ def test_each_of_two_blocks_settles_as_alone_and_by_what_the_other_one_adds(tmp_
     assert near[0] - alone == pytest.approx(added, rel=0.15)
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:.*resolves the ground's own vibration")
 @pytest.mark.parametrize("kind", ["unbounded", "plate"])
 def test_blocks_far_apart_settle_as_alone(tmp_path, kind):
@@ -169,6 +171,7 @@ def test_a_block_slides_on_a_ground_that_moves_by_itself_as_by_the_motion_of_all
     assert rows["energy/friction"][-1] == pytest.approx(alone["energy/friction"][-1], rel=2e-3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("substeps", ["rolling", "impacts"])
 def test_an_analysis_on_two_grounds_that_was_stopped_goes_on_to_the_last_digit(
     tmp_path, shaken, substeps

@@ -95,6 +95,7 @@ def test_a_body_on_soil_that_a_firm_bar_holds_rests_as_its_springs_bear(tmp_path
     assert rows["energy/kinetic"].max() < 1e-12 * WEIGHT * SETTLED
 
 
+@pytest.mark.long
 def test_a_pad_that_yields_bears_no_more_and_keeps_its_settlement(tmp_path):
     """As of the rigid engine: springs hold what they do at the yield force, the flow takes the
     rest.
@@ -193,6 +194,7 @@ def test_a_bridge_on_unlike_supports_is_stretched_by_their_relative_displacement
     assert abs(summary["energy_j"]["contact"]) < 1e-3 * MASS * 1e-4
 
 
+@pytest.mark.long
 def test_a_block_slides_on_a_ground_that_moves_by_itself_as_by_the_motion_of_all(tmp_path, shaken):
     """On the second ground, the first at rest, it does what it does on the only one."""
     motion = dict(source=str(shaken[0]), units="m/s2", free_vibration_s=0.1, scale=15.0)

@@ -56,6 +56,7 @@ def heavy_on_light(engine: str, density: float, modulus: float):
     )
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:.*density_kg_m3")
 @pytest.mark.parametrize(
     "engine, density, modulus",
@@ -126,6 +127,7 @@ def test_a_tendon_between_a_post_on_a_pad_and_a_lintel_is_in_balance():
     assert feet == pytest.approx(left + right + lintel, rel=EXACT)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("modulus, layer", [(1e9, 1e10), (2e7, 1e10), (5e7, 1e11)])
 def test_a_soft_post_stands_on_stiff_glue(modulus, layer):
     """Pressure goes through the contact, whatever the glue: it carries both weights, and the post
@@ -157,6 +159,7 @@ SECTIONS = dict(
 )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("layer, interior", [(1e10, 0), (1e10, 9), (3e12, 9)])
 @pytest.mark.parametrize("section", SECTIONS)
 def test_stone_stands_on_stone_and_a_thin_layer_of_glue(section, layer, interior):
@@ -224,6 +227,7 @@ def test_bodies_as_far_apart_as_they_may_be_placed_come_to_rest(engine):
         assert carried(made, joint) == pytest.approx(weight, rel=EXACT)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("body, stiffness", [("column", 1e8), ("column 1", 1e8), ("column 1", 1e9)])
 def test_friction_dampers_that_slip_while_a_bent_settles_hold_their_slip_force(body, stiffness):
     """On soil that settles by millimetres stiff dampers slip all the way: with their force of

@@ -86,6 +86,7 @@ def _equal(case, folder, places, slid):
         assert all(np.array_equal(values, again[name]) for name, values in whole.items()), asked
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:.*cuts the motion short")
 def test_reduced_structure_goes_on_to_the_last_digit(shake, tmp_path):
     # asked each time that a state is kept, every 20 steps
@@ -103,6 +104,7 @@ def test_reduced_structure_goes_on_to_the_last_digit(shake, tmp_path):
     )
 
 
+@pytest.mark.long
 @pytest.mark.filterwarnings("ignore:.*cuts the motion short")
 def test_full_order_structure_goes_on_to_the_last_digit(shake, tmp_path):
     # asked after each step; sliding along x the nodes stay on the sides of the elements below them

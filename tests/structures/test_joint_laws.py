@@ -79,6 +79,7 @@ def leaning(folder, pull, **soil):
     return angle, WEIGHT * HEIGHT / 2 * (pull + angle)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("pull", [0.12, 0.22, 0.3])
 def test_moment_and_rotation_of_a_footing_that_lifts(tmp_path, pull):
     """A rectangle on springs that push only: beyond W B / 6 the length in contact is c = 3 (B / 2 -
@@ -94,6 +95,7 @@ def test_moment_and_rotation_of_a_footing_that_lifts(tmp_path, pull):
     assert angle == pytest.approx(exact, rel=0.02)
 
 
+@pytest.mark.long
 def test_moment_and_rotation_of_a_footing_that_lifts_and_yields(tmp_path):
     """Pressure min(k theta (x - x0), q) above the weight's: where it lifts and yields, with l the
     length from there to where it yields, W = q B (B / 2 - x0 - l / 2) and so on.

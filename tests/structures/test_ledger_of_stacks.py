@@ -57,6 +57,7 @@ def motion(seed: int, steps: int) -> np.ndarray:
     return (2 * GRAVITY * WIDTHS[0] / (6 * HEIGHT) * ground / np.abs(ground).max())[:steps]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "kind, engine, seed, steps",
     [

@@ -186,6 +186,7 @@ def test_interrupted_analysis_goes_on_with_what_its_links_have_taken(rocking, tm
             ), f"{name} {entry}"
 
 
+@pytest.mark.long
 def test_figures_have_a_panel_of_each_link(rocking):
     folder, _, _ = rocking
     assert not has_figures(folder)

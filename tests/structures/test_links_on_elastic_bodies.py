@@ -85,6 +85,7 @@ def test_a_spring_at_the_end_of_a_rod_swings_at_the_frequency_of_the_elastic_rod
     assert np.abs(end).max() > 0.1 * np.abs(columns["link/spring/elongation"]).max()
 
 
+@pytest.mark.long
 def test_a_glued_post_pulled_at_its_top_bends_as_a_cantilever():
     """F L^3 / 3 E I + F L / (5/6 G A), and the turn of its foot on a layer of k, F L^2 / k I; with
     the weight's own moment and what the modes leave out within a tenth.

@@ -52,6 +52,7 @@ def _slid(engine, **more):
     return made
 
 
+@pytest.mark.long
 def test_no_point_of_a_pressed_face_is_left_out():
     made = _slid("reduced")
     points, force = made.work.points, made.motion.contact["force"][:, 2]

@@ -275,6 +275,7 @@ def test_names_beside_an_arch_are_told():
         _arch().replace({"links.tie": link})
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("count, least", [(9, 0.102134), (11, 0.104910), (17, 0.105593)])
 def test_an_arch_stands_from_the_thickness_of_limit_analysis_on(count, least):
     """Least thickness over mean radius of a semicircular arch on springers, by a linear programme
@@ -294,6 +295,7 @@ def _differing(**own):
     return _arch().replace({"bodies": {"ring": RING | STONE, "ring 3": own}})
 
 
+@pytest.mark.long
 def test_a_voussoir_may_have_a_material_of_its_own_and_the_case_is_written_so():
     case = _differing(density_kg_m3=1500.0, youngs_modulus_pa=5e9)
     plain = _arch()

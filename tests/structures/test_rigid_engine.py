@@ -70,6 +70,7 @@ def lost(engine: str, dt: float, cap_kg: float, **keys) -> float:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "dt, cap_kg, keys",
     [(1e-3, 400e3, {}), (2.5e-4, 400e3, dict(rigid=True)), (1e-3, 6e3, {}), (1e-3, 1.15e6, {})],

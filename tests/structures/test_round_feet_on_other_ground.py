@@ -62,6 +62,7 @@ def test_on_soil_a_dome_is_overturned_over_its_edge():
     assert foot.critical == pytest.approx(tilts[int(np.argmax(energy))], abs=5e-3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ground", [SOIL, PLATE])
 def test_a_rounded_edge_stands_and_rolls_on_ground_that_gives(ground):
     rows, columns = columns_and_rows(

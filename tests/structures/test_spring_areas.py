@@ -57,6 +57,7 @@ SECOND["tube"] = np.pi / 64 * (1 - 0.9**4) * np.ones(2)
 AREA = {"block": 0.24, "drum": np.pi / 4, "tube": np.pi / 4 * (1 - 0.9**2)}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("interior", [9, 81])
 @pytest.mark.parametrize("name", BODIES)
 def test_second_moments_are_those_of_the_section(name, interior):

@@ -74,6 +74,7 @@ def test_columns_that_land_together_or_apart_and_one_body_are_as_the_step_has_th
     assert joined_landings(one, 1e-3) is None
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("dt, told", [(0.05, True), (1e-3, False)])
 def test_summary_says_of_a_released_block_whether_its_step_is_long(tmp_path, dt, told):
     """Half periods of rocking from 0.05 rad of 0.32 are 0.3 s and less."""

@@ -78,6 +78,7 @@ def test_what_a_call_takes_is_no_part_of_its_step(tmp_path):
     assert read_step_times(tmp_path / STEP_TIMES_FILE)[:, 1] == pytest.approx([5.0, 0.0])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("engine", ["rigid", "full"])
 def test_profile_of_a_run_has_each_step_and_all_its_counts(engine, tmp_path, capsys):
     case, out = tmp_path / "case.toml", tmp_path / "out"
@@ -99,6 +100,7 @@ def test_profile_of_a_run_has_each_step_and_all_its_counts(engine, tmp_path, cap
         assert {step_times.WITH_IMPACT, "9 to 40 carry"} <= {name for name, _ in kinds_of(rows)}
 
 
+@pytest.mark.long
 def test_the_same_motion_with_and_without_profile(tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(BLOCK.format(engine="rigid"))
@@ -109,6 +111,7 @@ def test_the_same_motion_with_and_without_profile(tmp_path):
     assert not (tmp_path / "without" / STEP_TIMES_FILE).exists()
 
 
+@pytest.mark.long
 def test_a_folder_analysed_without_profile_says_so(tmp_path, capsys):
     case = tmp_path / "case.toml"
     case.write_text(BLOCK.format(engine="rigid"))

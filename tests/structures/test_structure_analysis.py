@@ -141,6 +141,7 @@ def test_drift_of_a_pushed_building_is_shear_over_stiffness(tmp_path):
     ]["shear_max_n"] == pytest.approx(1e4, rel=0.1)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "allowance, stops, engine", [(None, True, "rigid"), (1.6, False, "rigid"), (None, True, "full")]
 )

@@ -48,6 +48,7 @@ BODIES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("body", BODIES.values(), ids=BODIES)
 def test_estimate_counts_what_is_built(body):
     from fecolumn.case.check_bodies import material_of

@@ -24,6 +24,7 @@ def test_a_displaced_block_rocks_as_its_closed_form_says(displaced):
     assert np.abs(errors_of("rigid", displaced)).max() < 1e-4
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "angle, displaced, corners",
     [
@@ -80,6 +81,7 @@ def test_no_corner_is_lost_where_a_face_sticks_out_by_what_counts_as_the_same_ou
     assert carried[carried > 0] == pytest.approx([2700 * 9.80665 / 4] * 4, rel=1e-3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "dt, below, above",
     [
@@ -100,6 +102,7 @@ def test_rigid_blocks_are_found_at_rest_whatever_the_step_and_where_they_stand(d
     assert made.motion.contact["force"][on, 2].sum() == pytest.approx(weight, rel=1e-6)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "displaced, tilt",
     [
@@ -154,6 +157,7 @@ def test_who_is_named_first_decides_nothing():
     assert np.array_equal(*rows)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("engine", ["rigid", "reduced"])
 def test_a_block_that_slides_over_the_edges_of_another_keeps_its_energy(engine):
     """Shaken along both axes with little friction; points go from one body to the other and back,
@@ -170,6 +174,7 @@ def test_a_block_that_slides_over_the_edges_of_another_keeps_its_energy(engine):
     assert rows[:, 12].max() < 1e-10 and np.abs(rows[:, WIDTH + PER_BODY]).max() > 0.01
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("time, stands, falls", [(0.5, 0.25, 0.26), (1.0, 0.203, 0.207)])
 def test_the_multi_drum_column_overturns_where_three_other_programs_say(
     tmp_path, time, stands, falls
@@ -186,6 +191,7 @@ def test_the_multi_drum_column_overturns_where_three_other_programs_say(
         )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("displaced", [0.0, 1e-6, -1e-2, 1e-2])
 def test_the_full_order_pivots_where_the_region_ends(tmp_path, displaced):
     """Until the first impact; the block's own bending lets it swing a little slower than a rigid

@@ -551,6 +551,7 @@ def test_a_link_at_the_circle_of_a_round_body_drawn_with_few_sides_is_taken():
         assert len(structure_model(case).links) == 1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("wide", [0.5, 1.0])
 @pytest.mark.parametrize("gap", [0.0, 0.02])
 def test_a_slab_beside_a_wall_is_meshed_as_alone(wide, gap):

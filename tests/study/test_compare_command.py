@@ -38,6 +38,7 @@ def compared(capsys, *arguments) -> str:
     return capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_two_settings_of_a_study_are_compared_motion_by_motion(study, tmp_path, capsys):
     a, b = (f"{study}@integration.dt_s={dt},integration.alpha_hht=0" for dt in ("0.02", "5e-3"))
     said = compared(capsys, a, b, "-o", tmp_path / "out")

@@ -219,6 +219,7 @@ def _study(study, out, *more, **environment):
     )
 
 
+@pytest.mark.long
 def test_folder_that_this_locale_cannot_write_is_told_in_escapes(tmp_path):
     file = write_study(tmp_path, dt=[0.02], alpha=[0], pulses=[1])
     ended = _study(file, tmp_path / "säule", LC_ALL="C", PYTHONUTF8="0", PYTHONCOERCECLOCALE="0")

@@ -64,6 +64,7 @@ def expected(tmp_path_factory):
     return _tables(folder / "out")
 
 
+@pytest.mark.long
 def test_ranks_of_mpirun_give_the_tables_of_local_processes(tmp_path, study, expected):
     command = [
         "mpirun",
@@ -87,6 +88,7 @@ def test_ranks_of_mpirun_give_the_tables_of_local_processes(tmp_path, study, exp
     assert len(workers) == 2 and set(_calls(tmp_path / "out").values()) == {1}
 
 
+@pytest.mark.long
 def test_refusal_ends_all_ranks_of_mpirun(tmp_path):
     command = [
         "mpirun",
@@ -102,6 +104,7 @@ def test_refusal_ends_all_ranks_of_mpirun(tmp_path):
     assert done.returncode != 0 and done.stderr.count("no such file") == 1
 
 
+@pytest.mark.long
 def test_a_rank_that_dies_ends_the_job_and_the_next_one_does_the_rest(tmp_path, expected):
     study = write_study(tmp_path, pulses=[*range(6), "diverges"])
     command = list(
@@ -157,6 +160,7 @@ def test_copies_that_do_not_know_of_each_other_are_refused(tmp_path):
     )
 
 
+@pytest.mark.long
 def test_tasks_of_a_job_array_work_in_one_folder_at_once(tmp_path, study, expected):
     command = [*COMMAND, study, "-o", tmp_path / "out", "--entry", ENTRY]
     tasks = [

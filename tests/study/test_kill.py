@@ -145,6 +145,7 @@ def _limit_file_size():
     resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))
 
 
+@pytest.mark.long
 def test_results_that_find_no_room_stop_the_study_cleanly(tmp_path):
     study = write_study(tmp_path, pulses=[*range(3), "full", *range(3, 8)])
     out = tmp_path / "out"
@@ -163,6 +164,7 @@ def test_results_that_find_no_room_stop_the_study_cleanly(tmp_path):
     assert {row["state"] for row in read_study(out).rows} == {"done"}
 
 
+@pytest.mark.long
 def test_ledger_that_finds_no_room_stops_the_study_cleanly(tmp_path):
     study, out = write_study(tmp_path, pulses=range(60)), tmp_path / "out"
     _, err = (driver := _driver(study, out, preexec_fn=_limit_file_size)).communicate(timeout=60)
@@ -171,6 +173,7 @@ def test_ledger_that_finds_no_room_stops_the_study_cleanly(tmp_path):
     assert driver.returncode == 0 and len(list(out.glob("analyses/*/summary.json"))) == 240, err
 
 
+@pytest.mark.long
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root may mount a small disk")
 def test_small_disk_stops_the_study_cleanly_and_more_room_lets_it_go_on(tmp_path):
     study, disk = write_study(tmp_path, pulses=range(100)), tmp_path / "disk"

@@ -56,6 +56,7 @@ def test_study_of_one_code_says_nothing_of_it_and_its_audit_names_it(finished, t
     assert f"All that is done was done by {present}." in _audited(folder, tmp_path)
 
 
+@pytest.mark.long
 def test_results_of_other_code_are_kept_told_and_listed(finished, tmp_path):
     plan, folder = finished[0], tmp_path / "out"
     shutil.copytree(finished[1], folder)

@@ -174,6 +174,7 @@ def test_longer_motions_are_longer_analyses_whatever_their_scale(tmp_path):
     ]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("many", [2, 7])
 def test_what_is_told_of_many_motions_is_told_of_three(tmp_path, many):
     names = [f"{k}.csv" for k in range(many)]

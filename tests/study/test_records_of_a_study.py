@@ -174,6 +174,7 @@ def test_distribution_of_a_result_has_the_band_of_its_records(folder):
     assert found.lost_interval == pytest.approx(proportion_interval(found.lost // 3, 8))
 
 
+@pytest.mark.long
 def test_report_counts_records(folder):
     sweep = read_sweep(folder)
     assert len(sweep.motions) == 24 and len(set(sweep.records)) == 8

@@ -105,6 +105,7 @@ def test_finished_study_is_not_run_again(tmp_path):
     assert second == first and set(_calls(tmp_path / "out").values()) == {1}
 
 
+@pytest.mark.long
 def test_only_a_lost_result_is_done_again(tmp_path):
     study = write_study(tmp_path)
     rows = _run(study, tmp_path / "out")
@@ -120,6 +121,7 @@ def test_only_a_lost_result_is_done_again(tmp_path):
     }
 
 
+@pytest.mark.long
 def test_failures_are_recorded_with_reason_and_the_rest_goes_on(tmp_path):
     study = write_study(
         tmp_path, dt=[1e-3], alpha=[0], pulses=["diverges", 1, "killed", 2, "silent", 3]
@@ -143,6 +145,7 @@ def test_failures_are_recorded_with_reason_and_the_rest_goes_on(tmp_path):
     assert sum(_calls(tmp_path / "out").values()) == sum(calls.values()) + 3
 
 
+@pytest.mark.long
 def test_killed_driver_takes_its_workers_along_and_the_next_one_does_the_rest(tmp_path):
     study, folder = write_study(tmp_path, dt=[1e-3], alpha=[0, -0.1, -0.2]), tmp_path / "out"
     driver = _driver(tmp_path, study, folder, sleep_s=0.3)
@@ -178,6 +181,7 @@ def _alive(pid) -> bool:
         return False
 
 
+@pytest.mark.long
 def test_worker_killed_from_outside_costs_one_analysis(tmp_path):
     study, folder = write_study(tmp_path, dt=[1e-3], alpha=[0, -0.1]), tmp_path / "out"
     driver = _driver(tmp_path, study, folder, sleep_s=1.0)
@@ -193,6 +197,7 @@ def test_worker_killed_from_outside_costs_one_analysis(tmp_path):
     driver.communicate()
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM])
 def test_stop_says_how_to_resume(tmp_path, stop):
     study, folder = write_study(tmp_path), tmp_path / "out"
@@ -211,6 +216,7 @@ def test_stop_says_how_to_resume(tmp_path, stop):
     assert not any("Traceback" in log.read_text() for log in folder.glob("logs/*.log"))
 
 
+@pytest.mark.long
 def test_workers_ignore_the_terminals_interrupt(tmp_path):
     study, folder = write_study(tmp_path, pulses=[0]), tmp_path / "out"
     driver = _driver(tmp_path, study, folder, sleep_s=0.5)
@@ -262,6 +268,7 @@ def test_folder_with_other_things_is_refused_and_left_alone(tmp_path):
     assert [file.name for file in _snapshot(tmp_path / "out")] == ["thesis.tex"]
 
 
+@pytest.mark.long
 def test_second_driver_on_one_folder_is_refused(tmp_path):
     study = write_study(tmp_path)
     with Store(tmp_path / "out", read_plan(study), ENTRY):

@@ -5,6 +5,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 SCRIPT = """
 import sys
 from fecolumn.study.plan import read_plan
@@ -16,6 +18,7 @@ print([row["state"] for row in rows])
 """
 
 
+@pytest.mark.long
 def test_script_runs_once(tmp_path):
     case = Path(__file__).parents[2] / "meshes" / "stout.toml"
     (tmp_path / "study.toml").write_text(

@@ -75,6 +75,7 @@ def test_clear_difference_ends_at_the_first_look(tmp_path):
     assert verdict.word == DIFFER and verdict.pair.n == 40
 
 
+@pytest.mark.long
 def test_equal_settings_need_motions_until_a_distance_is_excluded(tmp_path):
     plan, peak, rule = plan_of(tmp_path, 640), peaks(1.0, scatter=0.05), Rule()
     looks, verdicts, words = stages(plan, rule), [], []
@@ -109,6 +110,7 @@ def test_settings_that_are_decided_get_no_more_motions(tmp_path):
     }
 
 
+@pytest.mark.long
 def test_false_statements_stay_below_the_error_allowed(tmp_path):
     """Two settings that are the same but for chance, looked at three times: "differ" is said in a
     share below 5 % of 100 studies.
@@ -129,6 +131,7 @@ def test_false_statements_stay_below_the_error_allowed(tmp_path):
     assert wrong <= 9  # of 100 at 5 %: 9 or fewer with probability 0.97
 
 
+@pytest.mark.long
 def test_study_that_was_stopped_ends_as_one_that_was_not(tmp_path):
     """What later stages had done before the stop does not count at an earlier look."""
     plan, peak = plan_of(tmp_path, 320), peaks(1.0, scatter=0.05)
@@ -159,6 +162,7 @@ def test_study_that_cannot_be_decided_is_refused(tmp_path, motions, steps, said)
         stages(plan_of(tmp_path, motions, steps), Rule())
 
 
+@pytest.mark.long
 def test_command_goes_on_until_decided(tmp_path):
     names = ", ".join(f'"pulse:{number}"' for number in range(80))
     (tmp_path / "study.toml").write_text(
@@ -198,6 +202,7 @@ def test_command_goes_on_until_decided(tmp_path):
     assert "differ; distance" in done.stdout
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "options, said",
     [

@@ -8,6 +8,7 @@ from fecolumn.verification.hertz import LARGEST, Hertz, press
 from fecolumn.verification.hht_scheme import Mode, amplification
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "exact, bricks",
     [(Hertz(1, 0.0, 64), 4), (Hertz(2, 0.3, 8), 3)],

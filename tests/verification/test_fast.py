@@ -41,6 +41,7 @@ def rocking():
     return tube(1e-3)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "engine, share",
     [

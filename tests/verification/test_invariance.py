@@ -3,11 +3,13 @@ goes on is the uninterrupted one.
 """
 
 import numpy as np
+import pytest
 
 from fecolumn.verification.invariance import SHAKEN_DT, resumed
 from fecolumn.verification.models import shaking
 
 
+@pytest.mark.long
 def test_the_reduced_engine_is_interrupted_at_half_and_goes_on_to_the_same_end():
     motion = shaking(SHAKEN_DT * np.arange(1, 101))
     whole, halves = resumed("reduced", motion, 1), resumed("reduced", motion, 2)
