@@ -271,3 +271,35 @@ def test_finishing_a_finished_case_changes_nothing(tmp_path, column):
     (tmp_path / "case.toml").write_text(f"[column]\n{column}\n")
     case = load_case(tmp_path / "case.toml")
     assert finished(case.short, "case.toml") == case.short
+
+
+def _two_blocks(names, heights=(0.6, 0.6), **others):
+    bodies = {
+        "a": dict(kind="block", length_m=0.2, width_m=0.2, height_m=heights[0]),
+        "b": dict(kind="block", length_m=0.2, width_m=0.2, height_m=heights[1], at_m=[2.0, 0, 0]),
+    }
+    joints = {f"under_{name}": dict(between=[name, others.get(name, "ground")]) for name in names}
+    tables = dict(bodies={name: bodies[name] for name in names}, joints=joints)
+    tables |= {key: value for key, value in others.items() if key not in bodies}
+    return case_from_tables(tables | {"motion": dict(source="lick:1")})
+
+
+def test_an_id_knows_which_of_equally_high_bodies_is_observed():
+    first, other = _two_blocks("ab"), _two_blocks("ba")
+    assert first.id != other.id and first != other
+    assert first.chosen_by_order == {}  # ids of earlier versions stay
+    named = _two_blocks("ab", observed="b"), _two_blocks("ba", observed="b")
+    assert named[0].id == named[1].id and named[0] == named[1]
+    apart = _two_blocks("ab", (0.6, 0.7)), _two_blocks("ba", (0.6, 0.7))
+    assert apart[0].id == apart[1].id and apart[0] == apart[1]
+
+
+def test_an_id_knows_the_ground_to_which_displacements_are_relative():
+    grounds = {"east": {}, "west": dict(motion=dict(source="lick:2"))}
+    made = [
+        _two_blocks("ab", (0.6, 0.7), a="east", b="west", grounds={one: grounds[one] for one in on})
+        for on in (("east", "west"), ("west", "east"))
+    ]
+    assert made[0].id != made[1].id and made[0] != made[1]
+    assert made[0].chosen_by_order == {}
+    assert made[1].chosen_by_order == {"first ground": "west"}

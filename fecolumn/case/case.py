@@ -27,6 +27,7 @@ from fecolumn.case.ground import GROUND_NAME, Ground
 from fecolumn.case.joint import Joint
 from fecolumn.case.link import Link
 from fecolumn.case.mesh_limits import MeshLimits
+from fecolumn.case.order import chosen_by_order
 from fecolumn.case.reading import fields_of_tables, told_of
 from fecolumn.case.sections import (
     Contact,
@@ -134,6 +135,18 @@ class Case:
             object.__setattr__(self, name, sections)
         check(self, "case")
 
+    def __eq__(self, other: object) -> bool:
+        """Whether both say the same, of grounds and bodies also in an order of the same effect."""
+        if not isinstance(other, Case):
+            return NotImplemented
+        compared = (one.name for one in dataclasses.fields(self) if one.compare)
+        return (
+            all(getattr(self, name) == getattr(other, name) for name in compared)
+            and self.chosen_by_order == other.chosen_by_order
+        )
+
+    __hash__ = None  # type: ignore[assignment]  # tables by name have none
+
     def __repr__(self) -> str:
         return case_text(self)
 
@@ -188,7 +201,7 @@ class Case:
     @property
     def id(self) -> str:
         """Twelve hexadecimal digits that name everything but title and output cadence; motions and
-        meshes count by content.
+        meshes count by content, the order of tables where a result depends on it.
         """
         tables: dict[str, Any] = {
             name: {key: identity(section) for key, section in getattr(self, name).items()}
@@ -206,8 +219,14 @@ class Case:
             tables["interior_points"] = self.interior_points  # it was another number before 0.11
         if self.own:
             tables["own"] = {key: section_table("", one) for key, one in self.own.items()}
-        text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
+        tables |= self.chosen_by_order | {"observed": self.observed}
+        text = json.dumps(tables, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+    @property
+    def chosen_by_order(self) -> dict[str, str]:
+        """As of `order.chosen_by_order`."""
+        return chosen_by_order(self)
 
     @property
     def interior_points(self) -> int:

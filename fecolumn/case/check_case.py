@@ -174,6 +174,13 @@ def _check_integration(case: CheckedCase, refuse: Refuse) -> None:
                 value,
                 f"has no effect where integration.engine = {plan.engine!r}: leave it out",
             )
+    if not plan.step_is_chosen and 0 < plan.duration_s < float(plan.dt_s) * (1 - 1e-9):
+        refuse(
+            "integration.duration_s",
+            plan.duration_s,
+            f"must be at least integration.dt_s = {float(plan.dt_s):g} s, or 0 for that of the "
+            "motion",
+        )
     time = plan.duration_s or (
         case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0
     )
