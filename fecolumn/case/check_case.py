@@ -8,6 +8,7 @@ from fecolumn.case.bodies import Storeys
 from fecolumn.case.check_found import check_found
 from fecolumn.case.check_grounds import check_grounds
 from fecolumn.case.check_motion import check_strong_part
+from fecolumn.case.check_rolling import check_rolling
 from fecolumn.case.checked import CheckedCase, Refuse, refuse_in
 from fecolumn.case.sections import (
     DEFAULT,
@@ -128,6 +129,7 @@ def check(case: CheckedCase, file: Path | str) -> None:
                 "are all",
             )
     check_grounds(case, refuse)
+    check_rolling(case, refuse)
     check_found(case, refuse, lambda key, name: _check_name(case, key, name, refuse, ground=False))
     _check_integration(case, refuse)
 

@@ -178,6 +178,12 @@ class _Reader:
                     f"must be left out where integration.engine = {self.engine!r}: a rigid model "
                     "with an impact law of its own, on flat feet along x and y",
                 )
+        for name, body in self.case.bodies.items():
+            if getattr(body, "fixed", False):
+                told = (
+                    f"must be false where integration.engine = {self.engine!r}, whose bodies move"
+                )
+                self._refuse(f"bodies.{name}.fixed", True, told)
         self._refuse_grounds()
         if self.case.links:
             self._lacks("knows no links: leave them out, or choose the reduced or rigid engine")
@@ -312,6 +318,14 @@ class _Reader:
                 f'needs columns of kind = "block"; "{name}" is a {body.kind}'
                 + ("" if self.engine == "podium" else ": wobbling_frame is the model of round ones")
             )
+        for key in ("flange", "cap"):
+            if plate := getattr(body, key):
+                self._refuse(
+                    f"bodies.{name}.{key}.thickness_m",
+                    plate.thickness_m,
+                    f"must be left out where integration.engine = {self.engine!r}, whose columns "
+                    "are plain blocks",
+                )
         if body.length_m > body.width_m:
             self._lacks(
                 f'rocks along x, where "{name}" must be no longer than wide: '
