@@ -206,7 +206,7 @@ class FullAnalysis(OfStructure):
                 due, ended = self._agree(
                     time.perf_counter() - saved > cadence.checkpoint_every_s, stop()
                 )
-                if due or ended:
+                if (due or ended) and not over:  # what is over is no state to go on from
                     self._save()
                     saved = time.perf_counter()
                 if ended and self.step < self.steps and not over:
