@@ -303,3 +303,22 @@ def test_an_id_knows_the_ground_to_which_displacements_are_relative():
     assert made[0].id != made[1].id and made[0] != made[1]
     assert made[0].chosen_by_order == {}
     assert made[1].chosen_by_order == {"first ground": "west"}
+
+
+def test_none_removes_a_key_or_a_section_of_a_body():
+    case = _two_blocks("ab").replace(
+        {"bodies.a.cap": dict(length_m=0.3, width_m=0.3, thickness_m=0.1)}
+    )
+    assert case.replace({"bodies.a.cap": None}) == _two_blocks("ab")
+    assert case.replace({"bodies.b.cap": None}) == case  # has none
+    assert case.replace({"bodies.b.at_m": None, "motion.source": "lick:2"}).bodies["b"].at_m == (
+        0.0,
+        0.0,
+        0.0,
+    )
+    for key in ("bodies.a.hat", "bodies.c.cap", "hat"):
+        with pytest.raises(InputError, match=f"{key}.*no such key"):
+            case.replace({key: None})
+    column = load_case(SPECIMEN)
+    assert column.short.cap and column.replace({"cap": None}).short.cap is None
+    assert column.replace({"flange": None, "mesh.cap_size_m": None}).short.flange is None

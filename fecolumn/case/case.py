@@ -315,7 +315,7 @@ class Case:
         ----------
         changes
             values by dotted key, such as {"contact.friction_coefficient": 0.5}, of the short form
-            where the case was stated in it; None removes a section that may be absent.
+            where the case was stated in it; None removes a key or a section that may be absent.
         sections
             the same by section, such as contact={"friction_coefficient": 0.5}; title="...".
 
@@ -331,10 +331,31 @@ class Case:
         tables = self.short.tables(opened=True) if self.short and not full else self.tables()
         for key, value in changes.items():
             if value is None:
-                tables.pop(key, None)
+                self._remove(tables, key)
             else:
                 tables = merge(tables, nested(key, value))
         return case_from_tables(stated(tables), "case")
+
+    def _remove(self, tables: dict[str, Any], key: str) -> None:
+        """Take a dotted key out of tables of the case; one that may be left out may be so already.
+
+        Raises
+        ------
+        InputError
+            no such key.
+        """
+        *outer, last = key.split(".")
+        section: Any = self.short if tables.keys() & {"column"} else self
+        for word in outer:
+            tables[word] = dict(found) if isinstance(found := tables.get(word), dict) else {}
+            tables = tables[word]
+            inner = section.get(word) if isinstance(section, Mapping) else None
+            section = inner or getattr(section, word, None)
+        is_section = dataclasses.is_dataclass(section)
+        known = [one.name for one in dataclasses.fields(section)] if is_section else []
+        if last not in tables and last not in known:
+            raise InputError("case", key, None, "no such key, which could be removed")
+        tables.pop(last, None)
 
     def tables(self, *, defaults: bool = True, arches: bool = True) -> dict[str, Any]:
         """The case as the tables of its file, in the full form, with keys at their `defaults` or

@@ -212,6 +212,27 @@ def test_the_same_frame_in_bodies_and_as_a_model_is_told_apart_by_the_engine(tmp
     )
 
 
+def test_what_a_model_passes_over_has_its_keys_checked():
+    block = dict(kind="block", length_m=0.2, width_m=0.2, height_m=1.0)
+    tables = dict(
+        block=dict(width_m=0.2, height_m=1.0),
+        bodies=dict(a=block),
+        joints=dict(foot=dict(between=["a", "floor"])),
+        grounds=dict(floor=dict(kind="plate")),
+        initial=dict(a=dict(tilt_rad=0.1)),
+        integration=dict(engine="housner", duration_s=1.0),
+    )
+    assert case_from_tables(tables).own["block"].width_m == 0.2
+    for change, told in (
+        ({"bodies": {"a": {"nonsense": 1}}}, "bodies.a.nonsense"),
+        ({"grounds": {"floor": {"thickness_m": -1}}}, "grounds.floor.thickness_m"),
+        ({"initial": {"a": {"tilt": 1}}}, "initial.a.tilt"),
+        ({"joints": 5}, "joints = 5"),
+    ):
+        with pytest.raises(InputError, match=told):
+            case_from_tables(merge(tables, change))
+
+
 def test_functions_compiled_from_their_own_file_are_kept_for_the_next_tests(tmp_path, monkeypatch):
     """The cache of the tests lives as long as they do; half a minute of compilation of podium,
     block and wobbling column need not.
