@@ -20,9 +20,6 @@ from fecolumn.foundation.schema import (
     meant,
 )
 
-# Displacement [m] that no body has overturned at: any moves by more
-_LEAST_WAY = 1e-6
-
 
 def check(case: CheckedCase, file: Path | str) -> None:
     """What no single key can know: names that tables use of one another, and keys of which only one
@@ -34,9 +31,6 @@ def check(case: CheckedCase, file: Path | str) -> None:
     from fecolumn.case.check_step import check_step
 
     refuse = refuse_in(file)
-    if 0 < (cap := case.overturn.displacement_m) < _LEAST_WAY:
-        told = f"must be 0 for none, or at least {_LEAST_WAY:g} m: less is no overturning"
-        refuse("overturn.displacement_m", cap, told)
     if case.own:  # the rest is checked by the model
         _check_integration(case, refuse)
         return

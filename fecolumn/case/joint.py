@@ -40,7 +40,7 @@ class Joint(Section):
     restitution: float | None = parameter(
         None,
         doc="ratio of the normal velocity after an impact to that before it; left out: that of "
-        "[contact]",
+        "[contact], on a pad 0",
         low=0,
         high=1,
     )

@@ -162,7 +162,7 @@ class FullAnalysis(OfStructure):
     def _fields(self) -> FieldWriter[StructureFields]:
         from fecolumn.engines.scene.fields import FieldWriter
 
-        return FieldWriter(self.folder / "fields", self.drawn())
+        return FieldWriter(self.folder / "fields", self.drawn(), self.dt_s)
 
     def _write_fields(self) -> None:
         from fecolumn.engines.dynamics.static_rest import StaticRest

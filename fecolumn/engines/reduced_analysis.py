@@ -102,7 +102,7 @@ class ReducedAnalysis(OfStructure):
         from fecolumn.engines.scene.fields import FieldWriter
 
         fields = self.scene().fields()
-        return FieldWriter(self.folder / "fields", fields), fields
+        return FieldWriter(self.folder / "fields", fields, self.dt_s), fields
 
     def _states(self) -> States | None:
         every = self.case.output.state_interval_s

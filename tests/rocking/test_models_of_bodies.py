@@ -289,6 +289,15 @@ def test_columns_of_a_frame_with_plates_are_refused(engine, slab, plate):
         model_of(made, "case.toml")
 
 
+def test_a_way_that_is_no_overturning_is_refused_as_of_structures():
+    """0.1 mm of 1 m: of a block of its own table and of bodies."""
+    table = dict(block=dict(width_m=0.4, height_m=1.6), integration=dict(duration_s=1.0))
+    for made in (case("housner", dict(body=BLOCK), FOOT), case_from_tables(table)):
+        with pytest.raises(InputError, match=r"overturn.displacement_m .* 0.0001 of the height"):
+            model_of(made.replace({"overturn.displacement_m": 1.4e-4}), "case.toml")
+        model_of(made.replace({"overturn.displacement_m": 2e-4}), "case.toml")
+
+
 def test_a_fixed_body_of_a_frame_is_refused():
     made = frame("rocking_frame", PIER, SLAB | dict(fixed=True))
     with pytest.raises(InputError, match="bodies.slab.fixed = True: must be false"):

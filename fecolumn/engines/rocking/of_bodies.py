@@ -11,6 +11,8 @@ import numpy as np
 from fecolumn.case.bodies import Block, Cylinder, Storeys, Tube
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
+from fecolumn.case.check_way import check_way
+from fecolumn.case.checked import refuse_in
 from fecolumn.case.ground import GROUND_NAME
 from fecolumn.case.joint import Joint
 from fecolumn.case.model_keys import UNKNOWN_KEYS
@@ -48,9 +50,17 @@ def model_of(case: Case, file: Path | str) -> Model:
     InputError
         the bodies are not those of the model; it says what they lack.
     """
-    for section in case.own.values():
-        return ROCKING_MODELS[case.integration.engine].of_section(section, file)
-    return _Reader(case, file).model()
+    sections = list(case.own.values())
+    model: Model = (
+        ROCKING_MODELS[case.integration.engine].of_section(sections[0], file)
+        if sections
+        else _Reader(case, file).model()
+    )
+    # a top that leans by the critical tilt has gone its height times the sine of that, nearly
+    if model.critical_tilt > 0:
+        height = model.critical_displacement / math.sin(model.critical_tilt)
+        check_way(case.overturn, height, refuse_in(file))
+    return model
 
 
 def start_of(case: Case, file: Path | str) -> Start:
