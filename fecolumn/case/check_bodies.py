@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Mapping
 
@@ -27,6 +28,8 @@ from fecolumn.case.polygon import crossing, signed_area
 from fecolumn.case.sections import Material
 from fecolumn.foundation.schema import meant
 
+# Modes of Rayleigh's damping that are left out
+_MODES = next(one.default for one in dataclasses.fields(Storeys) if one.name == "rayleigh_modes")
 # Of the square of a polygon's longest side: less area is none
 _FLAT = 1e-9
 
@@ -320,6 +323,12 @@ def _check_storeys(key: str, body: Storeys, refuse: Refuse) -> None:
         )
     if body.profile != "uniform" and body.period_s is None:
         refuse(f"{key}.profile", body.profile, "says nothing without period_s")
+    if body.damping != "rayleigh" and body.rayleigh_modes != _MODES:
+        refuse(
+            f"{key}.rayleigh_modes",
+            list(body.rayleigh_modes),
+            f'says nothing without {key}.damping = "rayleigh"',
+        )
     if body.damping == "rayleigh" and body.floors > 1:
         modes = body.rayleigh_modes
         if len(modes) != 2 or not modes[0] < modes[1] <= body.floors:

@@ -14,6 +14,9 @@ from fecolumn.case.sections import (
     DEFAULT,
     FULL_ORDER_KEYS,
     MOST_STEPS,
+    UNTIL_REST,
+    Contact,
+    Motion,
 )
 from fecolumn.foundation.schema import (
     InputError,
@@ -61,8 +64,7 @@ def check(case: CheckedCase, file: Path | str) -> None:
         if all(case.is_held(one) for one in (interface.slave, interface.on)):
             told = f'"{interface.slave}" and "{interface.on}" are both fixed'
             refuse(f"joints.{name}", None, f"must name a body that moves: {told}")
-        own = interface.friction_coefficient
-        friction = case.contact.friction_coefficient if own is None else own
+        friction = interface.own_contact(case.contact).friction_coefficient
         check_bond(f"joints.{name}", interface, friction, refuse)
     for name, link in case.links.items():
         _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
@@ -124,8 +126,24 @@ def check(case: CheckedCase, file: Path | str) -> None:
             )
     check_grounds(case, refuse)
     check_rolling(case, refuse)
+    _check_penalty(case, refuse)
     check_found(case, refuse, lambda key, name: _check_name(case, key, name, refuse, ground=False))
     _check_integration(case, refuse)
+
+
+def _check_penalty(case: CheckedCase, refuse: Refuse) -> None:
+    """Refuse stiffnesses of a contact law that is not chosen."""
+    laws = {name: joint.own_contact(case.contact).law for name, joint in case.joints.items()}
+    for name, joint in case.joints.items():
+        if joint.penalty_factor is not None and laws[name] != "penalty":
+            refuse(
+                f"joints.{name}.penalty_factor",
+                joint.penalty_factor,
+                f'says nothing without joints.{name}.law = "penalty" or that of [contact]',
+            )
+    value = case.contact.penalty_factor
+    if value != Contact().penalty_factor and "penalty" not in laws.values():
+        refuse("contact.penalty_factor", value, 'says nothing without contact.law = "penalty"')
 
 
 def _check_name(
@@ -189,6 +207,11 @@ def _check_integration(case: CheckedCase, refuse: Refuse) -> None:
         )
     if case.motion:
         check_strong_part(case.motion, "motion", refuse)
+        if (value := case.motion.rest_ceiling_s) != Motion(
+            ""
+        ).rest_ceiling_s and case.motion.free_vibration_s != UNTIL_REST:
+            told = f'says nothing without motion.free_vibration_s = "{UNTIL_REST}"'
+            refuse("motion.rest_ceiling_s", value, told)
 
 
 def check_duration(case: CheckedCase, file: Path | str) -> None:

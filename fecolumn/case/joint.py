@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 from typing import Any
 
+from fecolumn.case.sections import Contact
 from fecolumn.foundation.deprecated import warn_of_older_name
 from fecolumn.foundation.schema import InputError, Section, parameter, required
 from fecolumn.foundation.section_class import section_class
@@ -163,6 +165,13 @@ class Joint(Section):
         """The second of the two: a body or a ground."""
         return self.between[1]
 
+    def own_contact(self, contact: Contact) -> Contact:
+        """The [contact] of a case with the keys that the joint has of its own, in their place."""
+        own = {key: getattr(self, key) for key in _OF_CONTACT}
+        return dataclasses.replace(
+            contact, **{key: value for key, value in own.items() if value is not None}
+        )
+
     @classmethod
     def _by_newer_names(cls, keys: dict[str, Any], file: Path | str, prefix: str) -> dict[str, Any]:
         """Keys of a joint by their names in this version: `between` for `slave` and `on`.
@@ -186,3 +195,9 @@ class Joint(Section):
             warn_of_older_name(str(file), "slave with on", "between")
         others = {key: value for key, value in keys.items() if key not in (*older, "between")}
         return {"between": (keys["slave"], keys["on"]), **others}
+
+
+# Keys of [contact] that a joint may have of its own
+_OF_CONTACT = {one.name for one in dataclasses.fields(Contact)} & {
+    one.name for one in dataclasses.fields(Joint)
+} - {"between"}

@@ -215,7 +215,7 @@ class Analysis(Resumable):
         """
         from fecolumn.contact.overturning import CAPPED, NO_RETURN
 
-        last, dt = self.history.last(), self.dt_s
+        last = self.history.last()
         if fallen == CAPPED:
             return Ending(
                 OVERTURNED,
@@ -227,20 +227,26 @@ class Analysis(Resumable):
                 OVERTURNED,
                 f"point of no return: {self.no_return(last, rotation)}, at {last['time']:.3f} s",
             )
-        outcome = AT_REST if self.energy_left() <= self.still_j else STILL_ROCKING
+        return self.ending_in_time(self.energy_left() <= self.still_j, float(last["time"]))
+
+    def ending_in_time(self, still: bool, end_s: float) -> Ending:
+        """How an analysis ends that nothing was lost in, at a time [s]; still: whether it is at
+        rest then.
+        """
+        outcome = AT_REST if still else STILL_ROCKING
         if not self.until_rest:
-            return Ending(outcome, f"end of the analysed time, {last['time']:.3f} s")
-        if outcome == AT_REST:
+            return Ending(outcome, f"end of the analysed time, {end_s:.3f} s")
+        if still:
             return Ending(
                 outcome,
-                f"at rest {last['time'] - self.motion_steps * dt:.3f} s after the "
-                f"motion's end, at {last['time']:.3f} s",
+                f"at rest {end_s - self.motion_steps * self.dt_s:.3f} s after the "
+                f"motion's end, at {end_s:.3f} s",
             )
         assert self.case.motion  # after which there is free vibration until rest
         return Ending(
             outcome,
             f"motion.rest_ceiling_s = {self.case.motion.rest_ceiling_s:g} s after the "
-            f"motion's end, at {last['time']:.3f} s",
+            f"motion's end, at {end_s:.3f} s",
         )
 
     def rigid_loss_share(self) -> float | None:

@@ -44,5 +44,4 @@ def _ends(case: Case, end: str) -> tuple[tuple[str, int], ...]:
 
 
 def _friction(case: Case, joint: Joint) -> float:
-    own = joint.friction_coefficient
-    return case.contact.friction_coefficient if own is None else own
+    return joint.own_contact(case.contact).friction_coefficient

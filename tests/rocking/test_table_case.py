@@ -14,7 +14,7 @@ from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.case.model_names import TABLES
 from fecolumn.case.model_sections import SECTIONS
 from fecolumn.cli import main
-from fecolumn.engines.ending import AT_REST
+from fecolumn.engines.ending import AT_REST, STILL_ROCKING
 from fecolumn.engines.rocking.case import read_model_case
 from fecolumn.engines.rocking.models import ROCKING_MODELS
 from fecolumn.engines.rocking.podium import Podium
@@ -99,6 +99,18 @@ def test_the_rocking_command_goes_on_until_rest_as_a_run_does(folder):
     assert response.outcome(one.model.energy_to_overturn) == summary["outcome"] == AT_REST
     assert response.time[-1] == pytest.approx(summary["duration_s"]) and response.time[-1] > 3
     assert len(response.impact_times) == summary["impacts"]
+
+
+def test_a_model_that_is_not_at_rest_by_then_ends_with_its_ceiling(folder):
+    file = folder / "block.toml"
+    file.write_text(
+        "block.width_m = 0.3\nblock.height_m = 1.8\ninitial.tilt_rad = 0.1\n"
+        'motion.free_vibration_s = "rest"\nmotion.rest_ceiling_s = 0.1\n'
+        + PULSE.replace('"g"', '"mm/s2"')
+    )
+    summary = run(load_case(file), folder / "run", quiet=True)
+    assert summary["outcome"] == STILL_ROCKING
+    assert summary["ended_by"].startswith("motion.rest_ceiling_s = 0.1 s after the motion's end")
 
 
 def test_a_models_own_coordinates_have_the_units_that_the_model_states(folder, monkeypatch):

@@ -10,6 +10,8 @@ DRUM = dict(kind="cylinder", outer_diameter_m=0.4, height_m=0.6)
 WIDE = dict(length_m=0.6, width_m=0.6, thickness_m=0.1)
 PAD = dict(kind="pad", stiffness_n_m3=1e8)
 COLUMN = dict(shape="block", length_m=0.2, width_m=0.3, height_m=1.0)
+STOREYS = dict(kind="storeys", length_m=1.0, width_m=1.0, thickness_m=0.2, floors=3)
+STOREYS |= dict(floor_masses_kg=[1.0], storey_heights_m=[1.0], period_s=1.0)
 SHAKEN = dict(source="lick:1")
 
 
@@ -94,6 +96,24 @@ def on_pad(**tables):
             ),
             "bodies.block.cap.width_m = 0.3: must be at least outer_diameter_m = 0.4 m",
         ),
+        (
+            lambda: one(contact=dict(penalty_factor=5.0)),
+            "contact.penalty_factor = 5.0: says nothing without contact.law",
+        ),
+        (
+            lambda: one(joint=dict(penalty_factor=5.0)),
+            "joints.foot.penalty_factor = 5.0: says nothing without joints.foot.law",
+        ),
+        (
+            lambda: one(motion=SHAKEN | dict(rest_ceiling_s=5.0)),
+            "motion.rest_ceiling_s = 5.0: says nothing without motion.free_vibration_s",
+        ),
+        (
+            lambda: structure(
+                bodies=dict(block=STOREYS | dict(rayleigh_modes=[1, 3])), joints=dict(foot=FOOT)
+            ),
+            "bodies.block.rayleigh_modes = .1, 3.: says nothing without bodies.block.damping",
+        ),
     ],
 )
 def test_what_says_nothing_or_does_not_fit_is_refused_by_its_key(made, told):
@@ -106,5 +126,9 @@ def test_what_has_an_effect_is_taken():
     assert one(round_foot, contact=dict(rolling_resistance=1e-3)).contact.rolling_resistance
     layer = dict(kind="unbounded", youngs_modulus_pa=3e10, thickness_m=0.1)
     assert one(grounds=dict(ground=layer)).grounds["ground"].youngs_modulus_pa == 3e10
+    own = dict(law="penalty")
+    assert one(contact=dict(penalty_factor=5.0), joint=own).contact.penalty_factor == 5.0
+    until_rest = SHAKEN | dict(rest_ceiling_s=5.0, free_vibration_s="rest")
+    assert one(motion=until_rest, integration=dict(duration_s=0.0)).motion.rest_ceiling_s == 5.0
     motion = SHAKEN | dict(free_vibration_s=1.0)
     assert one(motion=SHAKEN, grounds=dict(ground=dict(motion=motion))).motions

@@ -15,7 +15,7 @@ import numpy as np
 
 from fecolumn.case.case import Case
 from fecolumn.engines.analysis import Analysis
-from fecolumn.engines.ending import AT_REST, OVERTURNED, STILL_ROCKING, Ending
+from fecolumn.engines.ending import OVERTURNED, Ending
 from fecolumn.engines.followed import first_still, until
 from fecolumn.engines.rocking.body_motion import body_motion
 from fecolumn.engines.rocking.model import STATE_TERMS, ModelResponse
@@ -152,12 +152,6 @@ class ModelAnalysis(Analysis):
         if self.until_rest:
             still = first_still(energy[:last], self.still_j, self.motion_steps)
             if still is not None:
-                end = response.time[still]
-                return still + 1, Ending(
-                    AT_REST,
-                    "at rest "
-                    f"{end - self.motion_steps * float(self.case.integration.dt_s):.3f} s "
-                    f"after the motion's end, at {end:.3f} s",
-                )
-        outcome = AT_REST if energy[last - 1] <= self.still_j else STILL_ROCKING
-        return last, Ending(outcome, f"end of the analysed time, {response.time[last - 1]:.3f} s")
+                return still + 1, self.ending_in_time(True, float(response.time[still]))
+        is_still = bool(energy[last - 1] <= self.still_j)
+        return last, self.ending_in_time(is_still, float(response.time[last - 1]))

@@ -383,8 +383,7 @@ class _Reader:
         """Coefficient of friction between a body and the ground."""
         for joint in self.case.joints.values():
             if {name, GROUND_NAME} <= set().union(*self._sides(joint)):
-                stated = joint.friction_coefficient
-                return self.case.contact.friction_coefficient if stated is None else stated
+                return joint.own_contact(self.case.contact).friction_coefficient
         return self.case.contact.friction_coefficient
 
     def _mass(self, name: str) -> float:
