@@ -140,10 +140,9 @@ class Case:
         if not isinstance(other, Case):
             return NotImplemented
         compared = (one.name for one in dataclasses.fields(self) if one.compare)
-        return (
-            all(getattr(self, name) == getattr(other, name) for name in compared)
-            and self.chosen_by_order == other.chosen_by_order
-        )
+        return all(
+            getattr(self, name) == getattr(other, name) for name in compared
+        ) and chosen_by_order(self) == chosen_by_order(other)
 
     __hash__ = None  # type: ignore[assignment]  # tables by name have none
 
@@ -219,14 +218,9 @@ class Case:
             tables["interior_points"] = self.interior_points  # it was another number before 0.11
         if self.own:
             tables["own"] = {key: section_table("", one) for key, one in self.own.items()}
-        tables |= self.chosen_by_order | {"observed": self.observed}
+        tables |= chosen_by_order(self) | {"observed": self.observed}
         text = json.dumps(tables, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:12]
-
-    @property
-    def chosen_by_order(self) -> dict[str, str]:
-        """As of `order.chosen_by_order`."""
-        return chosen_by_order(self)
 
     @property
     def interior_points(self) -> int:

@@ -10,6 +10,7 @@ from fecolumn.case.check_grounds import check_grounds
 from fecolumn.case.check_motion import check_strong_part
 from fecolumn.case.check_rolling import check_rolling
 from fecolumn.case.checked import CheckedCase, Refuse, refuse_in
+from fecolumn.case.joint import own_contact
 from fecolumn.case.sections import (
     DEFAULT,
     FULL_ORDER_KEYS,
@@ -64,7 +65,7 @@ def check(case: CheckedCase, file: Path | str) -> None:
         if all(case.is_held(one) for one in (interface.slave, interface.on)):
             told = f'"{interface.slave}" and "{interface.on}" are both fixed'
             refuse(f"joints.{name}", None, f"must name a body that moves: {told}")
-        friction = interface.own_contact(case.contact).friction_coefficient
+        friction = own_contact(interface, case.contact).friction_coefficient
         check_bond(f"joints.{name}", interface, friction, refuse)
     for name, link in case.links.items():
         _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
@@ -133,7 +134,7 @@ def check(case: CheckedCase, file: Path | str) -> None:
 
 def _check_penalty(case: CheckedCase, refuse: Refuse) -> None:
     """Refuse stiffnesses of a contact law that is not chosen."""
-    laws = {name: joint.own_contact(case.contact).law for name, joint in case.joints.items()}
+    laws = {name: own_contact(joint, case.contact).law for name, joint in case.joints.items()}
     for name, joint in case.joints.items():
         if joint.penalty_factor is not None and laws[name] != "penalty":
             refuse(

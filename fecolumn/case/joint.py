@@ -165,13 +165,6 @@ class Joint(Section):
         """The second of the two: a body or a ground."""
         return self.between[1]
 
-    def own_contact(self, contact: Contact) -> Contact:
-        """The [contact] of a case with the keys that the joint has of its own, in their place."""
-        own = {key: getattr(self, key) for key in _OF_CONTACT}
-        return dataclasses.replace(
-            contact, **{key: value for key, value in own.items() if value is not None}
-        )
-
     @classmethod
     def _by_newer_names(cls, keys: dict[str, Any], file: Path | str, prefix: str) -> dict[str, Any]:
         """Keys of a joint by their names in this version: `between` for `slave` and `on`.
@@ -201,3 +194,11 @@ class Joint(Section):
 _OF_CONTACT = {one.name for one in dataclasses.fields(Contact)} & {
     one.name for one in dataclasses.fields(Joint)
 } - {"between"}
+
+
+def own_contact(joint: Joint, contact: Contact) -> Contact:
+    """The [contact] of a case with the keys that a joint has of its own, in their place."""
+    own = {key: getattr(joint, key) for key in _OF_CONTACT}
+    return dataclasses.replace(
+        contact, **{key: value for key, value in own.items() if value is not None}
+    )

@@ -18,7 +18,7 @@ from fecolumn.engines.fallen_bodies import FallenBodies
 from fecolumn.engines.left_part import way_out
 from fecolumn.engines.peaks import peaks
 from fecolumn.engines.resume import CHECKPOINT
-from fecolumn.engines.summary_entries import azimuth
+from fecolumn.engines.summary_entries import direction_deg
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import feet_on_springs, least_barrier, stances
@@ -288,10 +288,10 @@ class OfStructure(Analysis):
         found = peaks(self.history.arrays(), self.structure)
         if ending.outcome == SLID_OFF:
             way = self.history.last()[f"body/{self._off or self._lowest()}/displacement"]
-            found["slid_off_direction_deg"] = azimuth(way)
+            found["slid_off_direction_deg"] = direction_deg(way)
         if ending.outcome == OVERTURNED and self._fell and len(self.structure.parts) > 1:
             # the observed body may stand yet: the axis of that which fell
             turn = self.history.last()[f"body/{self._fell}/rotation"]
             axis = rotation_matrix(np.asarray(turn, float))[:, 2]
-            found["overturn_direction_deg"] = azimuth(axis)
+            found["overturn_direction_deg"] = direction_deg(axis)
         return found

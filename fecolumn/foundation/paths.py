@@ -10,15 +10,17 @@ OF_SECTIONS = {"column": ("mesh_file",), "motion": ("source", "source_y", "sourc
 OF_BODIES = {"mesh": ("mesh_file",), "matrices": ("mass_file", "stiffness_file", "nodes_file")}
 #: What names of records begin with that are no files
 LICK_PREFIX, FEMA_PREFIX = "lick:", "fema-p695:"
+# The same of motions that a study's own function makes
+_PULSE_PREFIX = "pulse:"
 # Of a study: the case of all its analyses, and what its table [case] takes over
 _OF_STUDY = (("case",), ("case", "extends"))
 
 
 def names_record(source: str) -> bool:
-    """Whether a text names a record that fecolumn knows, such as "lick:12", and no file; names of
-    files may have colons, too.
+    """Whether a text names a record, such as "lick:12", and no file, whose name may have a colon,
+    too.
     """
-    return source.startswith((LICK_PREFIX, FEMA_PREFIX))
+    return source.startswith((LICK_PREFIX, FEMA_PREFIX, _PULSE_PREFIX))
 
 
 def absolute(path: str, folder: Path) -> str:

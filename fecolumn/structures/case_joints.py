@@ -12,6 +12,7 @@ import numpy as np
 from fecolumn.case.body_keys import WithMaterial
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
+from fecolumn.case.joint import own_contact
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.rim import Rim
@@ -50,7 +51,7 @@ def joint_of(
     """
     name, (body, number) = contact["interface"], contact["slave"]
     keys, model, master = case.joints[name], bodies[body], contact["master"]
-    contact_keys = keys.own_contact(case.contact)
+    contact_keys = own_contact(keys, case.contact)
     surface = model.surfaces[contact["slave_surface"]]
     outlines = tuple(
         np.array(own) - bodies[of[0]].center

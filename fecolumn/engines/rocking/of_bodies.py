@@ -14,7 +14,7 @@ from fecolumn.case.check_bodies import material_of
 from fecolumn.case.check_way import check_way
 from fecolumn.case.checked import refuse_in
 from fecolumn.case.ground import GROUND_NAME
-from fecolumn.case.joint import Joint
+from fecolumn.case.joint import Joint, own_contact
 from fecolumn.case.model_keys import UNKNOWN_KEYS
 from fecolumn.case.model_table import Start
 from fecolumn.case.sections import Initial
@@ -383,7 +383,7 @@ class _Reader:
         """Coefficient of friction between a body and the ground."""
         for joint in self.case.joints.values():
             if {name, GROUND_NAME} <= set().union(*self._sides(joint)):
-                return joint.own_contact(self.case.contact).friction_coefficient
+                return own_contact(joint, self.case.contact).friction_coefficient
         return self.case.contact.friction_coefficient
 
     def _mass(self, name: str) -> float:
