@@ -60,11 +60,16 @@ def loaded_libraries(pattern: str) -> list[str]:
     )
 
 
+OS_RELEASE = Path("/etc/os-release")
+
+
 def look_at_machine() -> list[LibraryFinding]:
     """System, Python, compiler, cores, memory and environment variables."""
-    release = dict(
-        re.findall(r'^(\w+)="?(.*?)"?$', Path("/etc/os-release").read_text(), re.MULTILINE)
-    )
+    try:
+        text = OS_RELEASE.read_text(encoding="utf-8", errors="replace")
+    except OSError:  # not every system has one
+        text = ""
+    release = dict(re.findall(r'^(\w+)="?(.*?)"?$', text, re.MULTILINE))
     known = release.get("VERSION_CODENAME") in ("bookworm", "trixie")
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
     threads = os.environ.get("OMP_NUM_THREADS")
@@ -281,6 +286,12 @@ LIBRARIES = {
     "numba": lambda: look_at_other("numba"), "meshio": lambda: look_at_other("meshio"),
     "matplotlib": lambda: look_at_other("matplotlib"), "pyvista": look_at_pyvista,
 }  # fmt: skip
+#: What to import to see why one crashes, where it is not its name
+MODULES = {
+    "MPI": "mpi4py.MPI", "PETSc": "petsc4py.PETSc", "MUMPS": "petsc4py.PETSc",
+    "CHOLMOD": "petsc4py.PETSc", "BLAS": "petsc4py.PETSc", "dolfinx": "dolfinx.io",
+    "Gmsh": "gmsh",
+}  # fmt: skip
 OPTIONAL = {"matplotlib", "pyvista", "CHOLMOD"}
 
 
@@ -322,7 +333,7 @@ def look_at_libraries() -> list[LibraryFinding]:
             name = left.pop(0)
             remedy = (
                 f"ends the process with exit code {child.returncode}; to see why: python -c "
-                f"'import {name.lower()}'"
+                f"'import {MODULES.get(name, name)}'"
             )
             findings.append(LibraryFinding(name, "crashes", "", remedy, fit=name in OPTIONAL))
     return findings

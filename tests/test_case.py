@@ -10,6 +10,7 @@ import pytest
 from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.case.case_tables import type_of
 from fecolumn.case.joint import Joint
+from fecolumn.case.order import chosen_by_order
 from fecolumn.case.sections import DEFAULT
 from fecolumn.case.short_form import finished
 from fecolumn.cli import main
@@ -271,3 +272,54 @@ def test_finishing_a_finished_case_changes_nothing(tmp_path, column):
     (tmp_path / "case.toml").write_text(f"[column]\n{column}\n")
     case = load_case(tmp_path / "case.toml")
     assert finished(case.short, "case.toml") == case.short
+
+
+def _two_blocks(names, heights=(0.6, 0.6), **others):
+    bodies = {
+        "a": dict(kind="block", length_m=0.2, width_m=0.2, height_m=heights[0]),
+        "b": dict(kind="block", length_m=0.2, width_m=0.2, height_m=heights[1], at_m=[2.0, 0, 0]),
+    }
+    joints = {f"under_{name}": dict(between=[name, others.get(name, "ground")]) for name in names}
+    tables = dict(bodies={name: bodies[name] for name in names}, joints=joints)
+    tables |= {key: value for key, value in others.items() if key not in bodies}
+    return case_from_tables(tables | {"motion": dict(source="lick:1")})
+
+
+def test_an_id_knows_which_of_equally_high_bodies_is_observed():
+    first, other = _two_blocks("ab"), _two_blocks("ba")
+    assert first.id != other.id and first != other
+    assert chosen_by_order(first) == {}  # ids of earlier versions stay
+    named = _two_blocks("ab", observed="b"), _two_blocks("ba", observed="b")
+    assert named[0].id == named[1].id and named[0] == named[1]
+    apart = _two_blocks("ab", (0.6, 0.7)), _two_blocks("ba", (0.6, 0.7))
+    assert apart[0].id == apart[1].id and apart[0] == apart[1]
+
+
+def test_an_id_knows_the_ground_to_which_displacements_are_relative():
+    grounds = {"east": {}, "west": dict(motion=dict(source="lick:2"))}
+    made = [
+        _two_blocks("ab", (0.6, 0.7), a="east", b="west", grounds={one: grounds[one] for one in on})
+        for on in (("east", "west"), ("west", "east"))
+    ]
+    assert made[0].id != made[1].id and made[0] != made[1]
+    assert chosen_by_order(made[0]) == {}
+    assert chosen_by_order(made[1]) == {"first ground": "west"}
+
+
+def test_none_removes_a_key_or_a_section_of_a_body():
+    case = _two_blocks("ab").replace(
+        {"bodies.a.cap": dict(length_m=0.3, width_m=0.3, thickness_m=0.1)}
+    )
+    assert case.replace({"bodies.a.cap": None}) == _two_blocks("ab")
+    assert case.replace({"bodies.b.cap": None}) == case  # has none
+    assert case.replace({"bodies.b.at_m": None, "motion.source": "lick:2"}).bodies["b"].at_m == (
+        0.0,
+        0.0,
+        0.0,
+    )
+    for key in ("bodies.a.hat", "bodies.c.cap", "hat"):
+        with pytest.raises(InputError, match=f"{key}.*no such key"):
+            case.replace({key: None})
+    column = load_case(SPECIMEN)
+    assert column.short.cap and column.replace({"cap": None}).short.cap is None
+    assert column.replace({"flange": None, "mesh.cap_size_m": None}).short.flange is None

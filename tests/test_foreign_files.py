@@ -165,3 +165,13 @@ def test_fitted_model_is_not_written_over_a_case(tmp_path, capsys):
         "no model of motions fit" in capsys.readouterr().err
         and (tmp_path / "case.toml").read_text() == "title = 'mine'\n"
     )
+
+
+def test_a_command_that_ends_within_another_keeps_its_mark(tmp_path):
+    with written(tmp_path, "mesh") as draft:
+        (draft / "a.txt").write_text("a")
+        with written(tmp_path, "render") as other:
+            (other / "b.txt").write_text("b")
+    with written(tmp_path, "render") as other:
+        (other / "b.txt").write_text("again")
+    assert _files(tmp_path) == [MARK_FILE, "a.txt", "b.txt"]

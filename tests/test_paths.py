@@ -126,3 +126,18 @@ def test_circle_over_folders_is_told(three):
         InputError, match="goes in a circle: case.toml -> case.toml -> case.toml -> case.toml"
     ):
         load_case(three / "c" / "case.toml")
+
+
+def test_a_file_name_may_have_a_colon(tmp_path):
+    _write(tmp_path / "a" / "2011:03.csv", "time [s],ax [g]\n0,0\n0.01,0.1\n0.02,0\n")
+    _write(tmp_path / "a" / "case.toml", COLUMN + '[motion]\nsource = "2011:03.csv"\n')
+    assert load_case(tmp_path / "a" / "case.toml").motion.source == str(
+        tmp_path / "a" / "2011:03.csv"
+    )
+    _cube(tmp_path / "a" / "11:cube.vtk")
+    bodies = BODIES.replace("cube.vtk", "11:cube.vtk")
+    _write(tmp_path / "a" / "bodies.toml", bodies)
+    _write(tmp_path / "b" / "bodies.toml", 'extends = "../a/bodies.toml"\n')
+    assert load_case(tmp_path / "b" / "bodies.toml").bodies["cube"].mesh_file == str(
+        tmp_path / "a" / "11:cube.vtk"
+    )

@@ -12,6 +12,7 @@ import numpy as np
 
 from benchmarks.fragility.motions import drawn_motion
 from fecolumn.case.sections import Motion
+from fecolumn.foundation.paths import LICK_PREFIX
 from fecolumn.foundation.version import __version__
 from fecolumn.motions import lick
 from fecolumn.motions.ensemble import Ensemble
@@ -50,7 +51,7 @@ def motions(near_fault: int) -> list[tuple[GroundMotion, int, float]]:
         made.append((motion, 0, drawn["pulse_period_s"]))
     for time_scale in TIME_SCALES:
         for number in range(1, min(lick.COUNT, near_fault // 15 + 1) + 1):
-            motion = read_motion(Motion(f"{lick.LICK_PREFIX}{number}"), "benchmarks.outcomes")
+            motion = read_motion(Motion(f"{LICK_PREFIX}{number}"), "benchmarks.outcomes")
             made.append((scale_time(motion, time_scale), 1, float("nan")))
     for shape in SHAPES:
         for period in np.geomspace(0.2, 3.0, near_fault // 40 + 1):

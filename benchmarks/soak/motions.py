@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from fecolumn.case.sections import Motion
+from fecolumn.foundation.paths import LICK_PREFIX
 from fecolumn.motions import fema_p695, lick
 from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.ensemble_file import members, write_ensemble
@@ -33,7 +34,7 @@ def write_motions(folder: Path) -> dict[str, list[str]]:
         if not _file(folder, name).exists():
             write_ensemble(maker(), _file(folder, name))
     sources = {name: members(f"{_file(folder, name)}#*") for name in made}
-    sources["lick"] = [f"{lick.LICK_PREFIX}{number}" for number in range(1, lick.COUNT + 1)]
+    sources["lick"] = [f"{LICK_PREFIX}{number}" for number in range(1, lick.COUNT + 1)]
     try:
         sources["records"] = [entry.name for entry in fema_p695.available()]
     except UnusableRecord as error:

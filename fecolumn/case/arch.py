@@ -17,7 +17,13 @@ from fecolumn.foundation.schema import build
 _OWN = tuple(one.name for one in dataclasses.fields(Solid) if one.name not in ("at_m", "copies_m"))
 # What a voussoir does not have from its arch, where it states a key
 _INSTEAD = {
-    "material": ("youngs_modulus_pa", "poissons_ratio", "density_kg_m3", "mass_kg"),
+    "material": (
+        "youngs_modulus_pa",
+        "poissons_ratio",
+        "density_kg_m3",
+        "mass_kg",
+        "damping_ratio",
+    ),
     "density_kg_m3": ("mass_kg",),
     "mass_kg": ("density_kg_m3",),
 }

@@ -27,6 +27,7 @@ from fecolumn.case.ground import GROUND_NAME, Ground
 from fecolumn.case.joint import Joint
 from fecolumn.case.link import Link
 from fecolumn.case.mesh_limits import MeshLimits
+from fecolumn.case.order import chosen_by_order
 from fecolumn.case.reading import fields_of_tables, told_of
 from fecolumn.case.sections import (
     Contact,
@@ -134,6 +135,17 @@ class Case:
             object.__setattr__(self, name, sections)
         check(self, "case")
 
+    def __eq__(self, other: object) -> bool:
+        """Whether both say the same, of grounds and bodies also in an order of the same effect."""
+        if not isinstance(other, Case):
+            return NotImplemented
+        compared = (one.name for one in dataclasses.fields(self) if one.compare)
+        return all(
+            getattr(self, name) == getattr(other, name) for name in compared
+        ) and chosen_by_order(self) == chosen_by_order(other)
+
+    __hash__ = None  # type: ignore[assignment]  # tables by name have none
+
     def __repr__(self) -> str:
         return case_text(self)
 
@@ -188,7 +200,7 @@ class Case:
     @property
     def id(self) -> str:
         """Twelve hexadecimal digits that name everything but title and output cadence; motions and
-        meshes count by content.
+        meshes count by content, the order of tables where a result depends on it.
         """
         tables: dict[str, Any] = {
             name: {key: identity(section) for key, section in getattr(self, name).items()}
@@ -206,7 +218,8 @@ class Case:
             tables["interior_points"] = self.interior_points  # it was another number before 0.11
         if self.own:
             tables["own"] = {key: section_table("", one) for key, one in self.own.items()}
-        text = json.dumps(tables | {"observed": self.observed}, sort_keys=True)
+        tables |= chosen_by_order(self) | {"observed": self.observed}
+        text = json.dumps(tables, sort_keys=True)
         return hashlib.sha256(text.encode()).hexdigest()[:12]
 
     @property
@@ -296,7 +309,7 @@ class Case:
         ----------
         changes
             values by dotted key, such as {"contact.friction_coefficient": 0.5}, of the short form
-            where the case was stated in it; None removes a section that may be absent.
+            where the case was stated in it; None removes a key or a section that may be absent.
         sections
             the same by section, such as contact={"friction_coefficient": 0.5}; title="...".
 
@@ -312,10 +325,31 @@ class Case:
         tables = self.short.tables(opened=True) if self.short and not full else self.tables()
         for key, value in changes.items():
             if value is None:
-                tables.pop(key, None)
+                self._remove(tables, key)
             else:
                 tables = merge(tables, nested(key, value))
         return case_from_tables(stated(tables), "case")
+
+    def _remove(self, tables: dict[str, Any], key: str) -> None:
+        """Take a dotted key out of tables of the case; one that may be left out may be so already.
+
+        Raises
+        ------
+        InputError
+            no such key.
+        """
+        *outer, last = key.split(".")
+        section: Any = self.short if tables.keys() & {"column"} else self
+        for word in outer:
+            tables[word] = dict(found) if isinstance(found := tables.get(word), dict) else {}
+            tables = tables[word]
+            inner = section.get(word) if isinstance(section, Mapping) else None
+            section = inner or getattr(section, word, None)
+        is_section = dataclasses.is_dataclass(section)
+        known = [one.name for one in dataclasses.fields(section)] if is_section else []
+        if last not in tables and last not in known:
+            raise InputError("case", key, None, "no such key, which could be removed")
+        tables.pop(last, None)
 
     def tables(self, *, defaults: bool = True, arches: bool = True) -> dict[str, Any]:
         """The case as the tables of its file, in the full form, with keys at their `defaults` or

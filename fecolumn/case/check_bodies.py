@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Mapping
 
@@ -20,12 +21,15 @@ from fecolumn.case.bodies import (
     rise,
 )
 from fecolumn.case.body_keys import Placed, Solid, WithMaterial
+from fecolumn.case.check_plates import OwnSize, check_fine_height, check_plates
 from fecolumn.case.check_thin import check_thin
 from fecolumn.case.checked import Refuse
 from fecolumn.case.polygon import crossing, signed_area
 from fecolumn.case.sections import Material
 from fecolumn.foundation.schema import meant
 
+# Modes of Rayleigh's damping that are left out
+_MODES = next(one.default for one in dataclasses.fields(Storeys) if one.name == "rayleigh_modes")
 # Of the square of a polygon's longest side: less area is none
 _FLAT = 1e-9
 
@@ -130,6 +134,8 @@ def _check_solid(key: str, body: Solid, refuse: Refuse) -> None:
         )
     if isinstance(body, (Tube, Cylinder, Block)):
         _check_foot(key, body, refuse)
+        check_fine_height(f"{key}.fine_height_m", body.fine_height_m, body.height_m, refuse)
+        check_plates(f"{key}.", _own_size(body), body.flange, body.cap, refuse)
     if isinstance(body, (Block, Plate)):
         shorter = min(body.length_m, body.width_m)
         if (size := body.element_size_m) is not None and size > shorter:
@@ -141,26 +147,15 @@ def _check_solid(key: str, body: Solid, refuse: Refuse) -> None:
         _check_round(key, body, refuse)
 
 
+def _own_size(body: Tube | Cylinder | Block) -> OwnSize:
+    if isinstance(body, Block):
+        return OwnSize((body.length_m, body.width_m), ("length_m", "width_m"), 0.0)
+    bore = body.outer_diameter_m - 2 * body.wall_m if isinstance(body, Tube) else 0.0
+    return OwnSize((body.outer_diameter_m,) * 2, ("outer_diameter_m",) * 2, bore)
+
+
 def _check_round(key: str, body: Tube | Cylinder | Cone, refuse: Refuse) -> None:
-    """Refuse plates narrower than the body, and elements that do not make it round."""
-    for name in ("flange", "cap"):
-        if (part := getattr(body, name, None)) is None:
-            continue
-        side = part.outer_diameter_m if name == "flange" else min(part.length_m, part.width_m)
-        if side < body.outer_diameter_m:
-            refuse(
-                f"{key}.{name}.{'outer_diameter_m' if name == 'flange' else 'length_m'}",
-                side,
-                f"must be at least the body's own {body.outer_diameter_m:g} m",
-            )
-    hole = body.outer_diameter_m - 2 * body.wall_m if isinstance(body, Tube) else 0.0
-    flange = None if isinstance(body, Cone) else body.flange
-    if flange and flange.inner_diameter_m > hole:
-        refuse(
-            f"{key}.flange.inner_diameter_m",
-            flange.inner_diameter_m,
-            f"must be at most the body's own {hole:g} m",
-        )
+    """Refuse elements that do not make a body round."""
     around = math.pi * body.outer_diameter_m
     if (size := body.element_size_m) is not None and size > around / 12:
         refuse(
@@ -328,6 +323,12 @@ def _check_storeys(key: str, body: Storeys, refuse: Refuse) -> None:
         )
     if body.profile != "uniform" and body.period_s is None:
         refuse(f"{key}.profile", body.profile, "says nothing without period_s")
+    if body.damping != "rayleigh" and body.rayleigh_modes != _MODES:
+        refuse(
+            f"{key}.rayleigh_modes",
+            list(body.rayleigh_modes),
+            f'says nothing without {key}.damping = "rayleigh"',
+        )
     if body.damping == "rayleigh" and body.floors > 1:
         modes = body.rayleigh_modes
         if len(modes) != 2 or not modes[0] < modes[1] <= body.floors:

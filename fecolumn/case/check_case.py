@@ -8,19 +8,21 @@ from fecolumn.case.bodies import Storeys
 from fecolumn.case.check_found import check_found
 from fecolumn.case.check_grounds import check_grounds
 from fecolumn.case.check_motion import check_strong_part
+from fecolumn.case.check_rolling import check_rolling
 from fecolumn.case.checked import CheckedCase, Refuse, refuse_in
+from fecolumn.case.joint import own_contact
 from fecolumn.case.sections import (
     DEFAULT,
     FULL_ORDER_KEYS,
     MOST_STEPS,
+    UNTIL_REST,
+    Contact,
+    Motion,
 )
 from fecolumn.foundation.schema import (
     InputError,
     meant,
 )
-
-# Displacement [m] that no body has overturned at: any moves by more
-_LEAST_WAY = 1e-6
 
 
 def check(case: CheckedCase, file: Path | str) -> None:
@@ -33,9 +35,6 @@ def check(case: CheckedCase, file: Path | str) -> None:
     from fecolumn.case.check_step import check_step
 
     refuse = refuse_in(file)
-    if 0 < (cap := case.overturn.displacement_m) < _LEAST_WAY:
-        told = f"must be 0 for none, or at least {_LEAST_WAY:g} m: less is no overturning"
-        refuse("overturn.displacement_m", cap, told)
     if case.own:  # the rest is checked by the model
         _check_integration(case, refuse)
         return
@@ -66,8 +65,7 @@ def check(case: CheckedCase, file: Path | str) -> None:
         if all(case.is_held(one) for one in (interface.slave, interface.on)):
             told = f'"{interface.slave}" and "{interface.on}" are both fixed'
             refuse(f"joints.{name}", None, f"must name a body that moves: {told}")
-        own = interface.friction_coefficient
-        friction = case.contact.friction_coefficient if own is None else own
+        friction = own_contact(interface, case.contact).friction_coefficient
         check_bond(f"joints.{name}", interface, friction, refuse)
     for name, link in case.links.items():
         _check_name(case, f"links.{name}.body", link.body, refuse, ground=False)
@@ -128,8 +126,25 @@ def check(case: CheckedCase, file: Path | str) -> None:
                 "are all",
             )
     check_grounds(case, refuse)
+    check_rolling(case, refuse)
+    _check_penalty(case, refuse)
     check_found(case, refuse, lambda key, name: _check_name(case, key, name, refuse, ground=False))
     _check_integration(case, refuse)
+
+
+def _check_penalty(case: CheckedCase, refuse: Refuse) -> None:
+    """Refuse stiffnesses of a contact law that is not chosen."""
+    laws = {name: own_contact(joint, case.contact).law for name, joint in case.joints.items()}
+    for name, joint in case.joints.items():
+        if joint.penalty_factor is not None and laws[name] != "penalty":
+            refuse(
+                f"joints.{name}.penalty_factor",
+                joint.penalty_factor,
+                f'says nothing without joints.{name}.law = "penalty" or that of [contact]',
+            )
+    value = case.contact.penalty_factor
+    if value != Contact().penalty_factor and "penalty" not in laws.values():
+        refuse("contact.penalty_factor", value, 'says nothing without contact.law = "penalty"')
 
 
 def _check_name(
@@ -174,6 +189,13 @@ def _check_integration(case: CheckedCase, refuse: Refuse) -> None:
                 value,
                 f"has no effect where integration.engine = {plan.engine!r}: leave it out",
             )
+    if not plan.step_is_chosen and 0 < plan.duration_s < float(plan.dt_s) * (1 - 1e-9):
+        refuse(
+            "integration.duration_s",
+            plan.duration_s,
+            f"must be at least integration.dt_s = {float(plan.dt_s):g} s, or 0 for that of the "
+            "motion",
+        )
     time = plan.duration_s or (
         case.motion.delay_s + case.motion.longest_free_vibration_s if case.motion else 0.0
     )
@@ -186,6 +208,11 @@ def _check_integration(case: CheckedCase, refuse: Refuse) -> None:
         )
     if case.motion:
         check_strong_part(case.motion, "motion", refuse)
+        if (value := case.motion.rest_ceiling_s) != Motion(
+            ""
+        ).rest_ceiling_s and case.motion.free_vibration_s != UNTIL_REST:
+            told = f'says nothing without motion.free_vibration_s = "{UNTIL_REST}"'
+            refuse("motion.rest_ceiling_s", value, told)
 
 
 def check_duration(case: CheckedCase, file: Path | str) -> None:

@@ -22,12 +22,13 @@ def check_full(case: CheckedCase, refuse: Refuse) -> None:
                     "the nodes that carry it, where elements say nothing of how much they give; "
                     "the reduced and the rigid engine compute it",
                 )
-        ratio = body.damping_ratio
+        ratio, where = body.damping_ratio, f"bodies.{name}"
         if ratio is None:
             ratio = material_of(body, case.materials).damping_ratio
+            where = f"materials.{body.material}"
         if ratio and case.integration.kinematics != "corotated":
             refuse(
-                f"bodies.{name}.damping_ratio",
+                f"{where}.damping_ratio",
                 ratio,
                 "must be 0 where integration.kinematics is not 'corotated': modes are those of "
                 "the unstrained body",

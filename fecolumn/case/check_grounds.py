@@ -6,24 +6,28 @@ from fecolumn.case.check_motion import check_strong_part
 from fecolumn.case.checked import CheckedCase, Refuse
 from fecolumn.case.ground import Ground
 from fecolumn.case.joint import Joint
+from fecolumn.case.sections import Motion
 
+# Sizes of a plate or layer
+_SIZES = ("thickness_m", "slide_allowance_m", "element_size_m", "coarse_size_m")
 #: Keys that say something of some kinds of ground alone, and these.
 OF_KINDS = {
     **dict.fromkeys(("length_m", "width_m"), ("plate",)),
     **dict.fromkeys(
-        ("thickness_m", "slide_allowance_m", "element_size_m", "coarse_size_m"),
-        ("plate", "unbounded"),
+        (*_SIZES, "youngs_modulus_pa", "poissons_ratio", "density_kg_m3"), ("plate", "unbounded")
     ),
     **dict.fromkeys(
         ("stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio", "yield_pa"), ("pad",)
     ),
 }
+#: Those of them that a short form has of its own accord
+SIZES = ("length_m", "width_m", *_SIZES)
+# Keys of [motion] that are of the whole analysis
+_OF_ANALYSIS = "free_vibration_s", "rest_ceiling_s"
 # Keys of impacts, and why they are 0 on a pad
 _OF_IMPACTS = "restitution", "rolling_resistance"
-_ON_PAD = (
-    "must be 0 on a pad, whose springs take the place of impacts: its damping_ratio takes energy "
-    "there"
-)
+_INSTEAD = "on a pad, whose springs take the place of impacts"
+_ON_PAD = f"must be 0 {_INSTEAD}: its damping_ratio takes energy there"
 
 
 def check_grounds(case: CheckedCase, refuse: Refuse) -> None:
@@ -37,9 +41,22 @@ def check_grounds(case: CheckedCase, refuse: Refuse) -> None:
     for name, interface in case.joints.items():
         _check_interface(case, f"joints.{name}", interface, refuse)
     if case.joints and all(_is_on_pad(case, one) for one in case.joints.values()):
-        for key in _OF_IMPACTS:
-            if (value := getattr(case.contact, key)) and not case.contact.between:
-                refuse(f"contact.{key}", value, _ON_PAD)
+        _check_on_pads(case, refuse)
+
+
+def _check_on_pads(case: CheckedCase, refuse: Refuse) -> None:
+    """Refuse keys of impacts in a case of pads alone; bodies that are found while they move meet in
+    impacts.
+    """
+    if case.contact.between:
+        return
+    for key in _OF_IMPACTS:
+        if value := getattr(case.contact, key):
+            refuse(f"contact.{key}", value, _ON_PAD)
+    if case.contact.impact != "plastic":
+        refuse("contact.impact", case.contact.impact, f"must be plastic {_INSTEAD}")
+    if (value := case.integration.substeps) == "impacts":
+        refuse("integration.substeps", value, f"must be rolling or none {_INSTEAD}")
 
 
 def _is_on_pad(case: CheckedCase, joint: Joint) -> bool:
@@ -49,14 +66,12 @@ def _is_on_pad(case: CheckedCase, joint: Joint) -> bool:
 
 
 def _check_keys(case: CheckedCase, key: str, ground: Ground, refuse: Refuse) -> None:
+    plain = Ground()
     for one, kinds in OF_KINDS.items():
-        if (value := getattr(ground, one)) and ground.kind not in kinds:
-            refuse(
-                f"{key}.{one}",
-                value,
-                f"is of a ground of kind {' or '.join(kinds)}; {key}.kind = {ground.kind!r} "
-                "has none",
-            )
+        value, left_out = getattr(ground, one), getattr(plain, one)
+        if ground.kind not in kinds and value != left_out and (value or left_out):
+            meant = "a pad" if kinds == ("pad",) else f"a ground of kind {' or '.join(kinds)}"
+            refuse(f"{key}.{one}", value, f"is of {meant}; {key}.kind = {ground.kind!r} has none")
     if ground.kind == "pad" and not ground.stiffness_n_m3:
         refuse(
             f"{key}.stiffness_n_m3",
@@ -65,6 +80,9 @@ def _check_keys(case: CheckedCase, key: str, ground: Ground, refuse: Refuse) -> 
         )
     if ground.motion and case.motion is None:
         refuse(f"{key}.motion", None, "needs a table [motion] as well, that of the other grounds")
+    for one in _OF_ANALYSIS if ground.motion else ():
+        if (value := getattr(ground.motion, one)) != getattr(Motion(""), one):
+            refuse(f"{key}.motion.{one}", value, f"has no effect: motion.{one} is of all grounds")
     if ground.motion:
         check_strong_part(ground.motion, f"{key}.motion", refuse)
 

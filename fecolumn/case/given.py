@@ -18,7 +18,7 @@ from fecolumn.case.joint import Joint
 from fecolumn.case.link import Link
 from fecolumn.case.sections import located
 from fecolumn.foundation.files import is_file
-from fecolumn.foundation.paths import OF_BODIES
+from fecolumn.foundation.paths import OF_BODIES, absolute
 from fecolumn.foundation.schema import InputError, Section, a_section
 
 _Body = TypeVar("_Body", bound=Section)
@@ -122,7 +122,7 @@ def with_files(body: _Body, file: Path | str, prefix: str) -> _Body:
     found = {}
     for key in OF_BODIES.get(getattr(body, "kind", ""), ()):
         path = getattr(body, key)
-        found[key] = path if Path(path).is_absolute() else str(folder / path)
+        found[key] = absolute(path, folder)
         if not is_file(found[key]):
             raise InputError(file, prefix + key, path, "no such file")
     same = all(getattr(body, key) == path for key, path in found.items())

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
 from typing import Any
 
+from fecolumn.case.sections import Contact
 from fecolumn.foundation.deprecated import warn_of_older_name
 from fecolumn.foundation.schema import InputError, Section, parameter, required
 from fecolumn.foundation.section_class import section_class
@@ -40,7 +42,7 @@ class Joint(Section):
     restitution: float | None = parameter(
         None,
         doc="ratio of the normal velocity after an impact to that before it; left out: that of "
-        "[contact]",
+        "[contact], on a pad 0",
         low=0,
         high=1,
     )
@@ -186,3 +188,17 @@ class Joint(Section):
             warn_of_older_name(str(file), "slave with on", "between")
         others = {key: value for key, value in keys.items() if key not in (*older, "between")}
         return {"between": (keys["slave"], keys["on"]), **others}
+
+
+# Keys of [contact] that a joint may have of its own
+_OF_CONTACT = {one.name for one in dataclasses.fields(Contact)} & {
+    one.name for one in dataclasses.fields(Joint)
+} - {"between"}
+
+
+def own_contact(joint: Joint, contact: Contact) -> Contact:
+    """The [contact] of a case with the keys that a joint has of its own, in their place."""
+    own = {key: getattr(joint, key) for key in _OF_CONTACT}
+    return dataclasses.replace(
+        contact, **{key: value for key, value in own.items() if value is not None}
+    )

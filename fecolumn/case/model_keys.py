@@ -1,6 +1,4 @@
-"""What a case must leave out where its engine is a rocking model of rigid bodies, and where there
-is nothing to make a step in parts for.
-"""
+"""What a case must leave out where its engine is a rocking model of rigid bodies."""
 
 from __future__ import annotations
 
@@ -35,9 +33,12 @@ class _OnBase(Protocol):
 
 def check_model(case: _OnBase, models: Sequence[str], refuse: Refuse) -> None:
     """Keys that a rocking model of rigid bodies, an engine of `models`, knows nothing of."""
-    engine = case.integration.engine
+    engine, substeps = case.integration.engine, case.integration.substeps
     if engine not in models:
         return
+    if substeps != "rolling":
+        told = f"has no effect where integration.engine = {engine!r}: leave it out"
+        refuse("integration.substeps", substeps, told)
     if engine not in OF_COLUMN:
         refuse(
             "integration.engine",
@@ -66,24 +67,4 @@ def check_model(case: _OnBase, models: Sequence[str], refuse: Refuse) -> None:
             f"initial.{key}",
             list(getattr(case.initial, key)),
             f"must be 0 where integration.engine = {engine!r}; it starts from initial.tilt_rad",
-        )
-
-
-def check_substeps(case: _OnBase, models: Sequence[str], refuse: Refuse) -> None:
-    """integration.substeps where it would say nothing: of a rocking model, an engine of `models`,
-    and of a pad.
-    """
-    value, engine = case.integration.substeps, case.integration.engine
-    if value != "rolling" and engine in models:
-        refuse(
-            "integration.substeps",
-            value,
-            f"has no effect where integration.engine = {engine!r}: leave it out",
-        )
-    if value == "impacts" and case.base.kind == "pad":
-        refuse(
-            "integration.substeps",
-            value,
-            "must be rolling or none where base.kind = 'pad', whose springs take the "
-            "place of impacts",
         )

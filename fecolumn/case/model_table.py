@@ -18,13 +18,24 @@ from fecolumn.case.check_step import check_step
 from fecolumn.case.checked import refuse_in
 from fecolumn.case.model_names import TABLES, model_engine_of
 from fecolumn.case.model_sections import SECTIONS
+from fecolumn.case.reading import fields_of_tables
 from fecolumn.case.sections import Contact, Initial, Integration, Motion, Output, Overturn, located
 from fecolumn.foundation.schema import InputError, Section, build, parameter, table_of
 from fecolumn.foundation.section_class import section_class
 
 #: Tables of a structure of [bodies] that a model of the same file passes over, [interfaces] as the
 #: older name of [joints]
-_OF_BODIES = ("bodies", "materials", "joints", "interfaces", "links", "contact", "observed", "mesh")
+_OF_BODIES = (
+    "bodies",
+    "materials",
+    "grounds",
+    "joints",
+    "interfaces",
+    "links",
+    "contact",
+    "observed",
+    "mesh",
+)
 
 
 @section_class()
@@ -64,6 +75,15 @@ def check_others(tables: dict[str, Any], file: Path | str, but: str = "") -> Non
             build(SECTIONS[name], tables[name], file, f"{name}.")
 
 
+def _check_structure(tables: dict[str, Any], file: Path | str) -> None:
+    """As `check_others`, of the tables of a structure that a model passes over."""
+    found = {name: tables[name] for name in _OF_BODIES if name in tables}
+    start = tables.get("initial")
+    if isinstance(start, dict):
+        found["initial"] = {name: one for name, one in start.items() if isinstance(one, dict)}
+    fields_of_tables(found, file)
+
+
 def fields_of_table(
     tables: dict[str, Any], file: Path | str, engine: str | None = None
 ) -> dict[str, Any]:
@@ -84,6 +104,8 @@ def fields_of_table(
     table = next(name for name, model in TABLES.items() if model == engine)
     structure = "bodies" in tables
     check_others(tables, file, table)
+    if structure:
+        _check_structure(tables, file)
     tables = {
         key: value
         for key, value in tables.items()

@@ -11,15 +11,17 @@
 from __future__ import annotations
 
 import dataclasses
+import re
+import warnings
 from pathlib import Path
 from typing import Any, ClassVar
 
 from fecolumn.case import sizes
-from fecolumn.case.check_grounds import OF_KINDS
+from fecolumn.case.check_grounds import OF_KINDS, SIZES
 from fecolumn.case.check_thin import check_thin_column
-from fecolumn.case.checked import Refuse, refuse_in
+from fecolumn.case.checked import refuse_in
 from fecolumn.case.column_keys import Base, Column, ColumnSections, MeshSizes
-from fecolumn.case.model_keys import check_model, check_substeps
+from fecolumn.case.model_keys import check_model
 from fecolumn.case.sections import (
     MODEL_ENGINES,
     Cap,
@@ -99,8 +101,6 @@ def short_form(tables: dict[str, Any], file: Path | str) -> ShortForm:
 
 # Tables of the full form alone
 _OF_FULL_FORM = "materials", "grounds", "joints", "links"
-# keys of [base] that a pad alone has
-PAD_KEYS = "stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio"
 
 
 def finished(case: ShortForm, file: Path | str) -> ShortForm:
@@ -114,68 +114,33 @@ def finished(case: ShortForm, file: Path | str) -> ShortForm:
     sizes.check_shape(case, file)
     check_thin_column(case, refuse_in(file))
     case = sizes.with_sizes(case)
+    _tell_of_idle(case, file)
     sizes.check_sizes(case, file)
-    check_short_form(case, file)
+    check_model(case, MODEL_ENGINES, refuse_in(file))
     return case
 
 
-def check_short_form(case: ShortForm, file: Path | str) -> None:
-    """What keys of the short form alone say together, but for sizes (`fecolumn.case.sizes`); the
-    full form has the rest.
+# Keys of which nothing may depend where column.mesh_file gives the column
+_IDLE = {"column": ("wall_m", "fine_height_m"), "mesh": ("coarse_size_m", "cap_size_m")}
+
+
+def _tell_of_idle(case: ShortForm, file: Path | str) -> None:
+    """Warn of sizes that a case with a mesh of its own states, perhaps with what it `extends`, and
+    that change nothing.
     """
-    refuse = refuse_in(file)
-    check_base(case, refuse)
-    if (
-        case.contact.rolling_resistance
-        and case.column.shape == "block"
-        and not case.column.mesh_file
-    ):
-        refuse(
-            "contact.rolling_resistance",
-            case.contact.rolling_resistance,
-            "must be 0 for a block: only a round foot rolls",
-        )
-    if (
-        case.material.damping_ratio
-        and case.integration.engine == "full"
-        and case.integration.kinematics != "corotated"
-    ):
-        refuse(
-            "material.damping_ratio",
-            case.material.damping_ratio,
-            "must be 0 where integration.kinematics is not 'corotated'",
-        )
-    check_model(case, MODEL_ENGINES, refuse)
-    check_substeps(case, MODEL_ENGINES, refuse)
-
-
-def check_base(case: ShortForm, refuse: Refuse) -> None:
-    """Keys of a pad, where there is one and where there is none."""
-    base = case.base
-    if base.kind != "pad":
-        for key in PAD_KEYS:
-            if value := getattr(base, key):
-                refuse(f"base.{key}", value, f"is of a pad; base.kind = {base.kind!r} has none")
-        return
-    if not base.stiffness_n_m3:
-        refuse(
-            "base.stiffness_n_m3",
-            base.stiffness_n_m3,
-            "must be greater than 0 N/m3 where base.kind = 'pad'",
-        )
-    if case.contact.impact != "plastic":
-        refuse(
-            "contact.impact",
-            case.contact.impact,
-            "must be plastic where base.kind = 'pad', whose springs take the place of impacts",
-        )
-    for key in ("restitution", "rolling_resistance"):
-        if value := getattr(case.contact, key):
-            refuse(
-                f"contact.{key}",
-                value,
-                "must be 0 where base.kind = 'pad'; base.damping_ratio takes energy there",
-            )
+    for name, keys in _IDLE.items() if case.column.mesh_file else ():
+        for key in keys:
+            section = getattr(case, name)
+            left_out = dataclasses.replace(section, **{key: None})
+            other = sizes.with_sizes(dataclasses.replace(case, **{name: left_out}))
+            value = getattr(section, key)
+            if value != getattr(getattr(other, name), key) and full_tables(other) == full_tables(
+                case
+            ):
+                told = (
+                    f"{file}: {name}.{key} = {value} says nothing of the mesh in column.mesh_file"
+                )
+                warnings.warn(f"{told}: leave it out", stacklevel=2)
 
 
 #: Keys of the short form and where they stand in the full one.
@@ -234,17 +199,16 @@ def full_tables(form: ShortForm) -> dict[str, Any]:
     full["grounds"]["ground"] = {
         key: value
         for key, value in ground.items()
-        if form.base.kind in OF_KINDS.get(key, form.base.kind)
+        if key not in SIZES or form.base.kind in OF_KINDS[key]
     }
     full["joints"] = {"foot": {"between": ["column", "ground"]}}
     return full
 
 
-def in_short_form(key: str) -> str:
-    """A dotted key of the full form of a column, such as "bodies.column.height_m", as the short one
-    says it; keys that stand alike in both stay.
+def in_short_form(text: str) -> str:
+    """A dotted key of the full form of a column, such as "bodies.column.height_m", or a text with
+    some, as the short one says it; keys that stand alike in both stay.
     """
     for place, other in PLACES.items():
-        if key == other or key.startswith(f"{other}."):
-            return place + key[len(other) :]
-    return key
+        text = re.sub(rf"(?<![\w.]){re.escape(other)}(?!\w)", place, text)
+    return text

@@ -20,6 +20,7 @@ import math
 from pathlib import Path
 from typing import TypeVar
 
+from fecolumn.case.check_plates import OwnSize, check_fine_height, check_plates
 from fecolumn.case.checked import refuse_in
 from fecolumn.case.column_keys import Base, Column, ColumnSections, MeshSizes
 from fecolumn.case.ground_sizes import least_side, open_allowance, open_side, open_thickness
@@ -267,12 +268,9 @@ def check_sizes(case: ColumnSections, file: Path | str) -> None:
                 column.wall_m,
                 f"must be at most the outer radius, {radius:g} m",
             )
-        if _known(column.fine_height_m) > (height := _known(column.height_m)):
-            refuse(
-                "column.fine_height_m",
-                column.fine_height_m,
-                f"must lie in [0, height_m = {height:g}] m",
-            )
+        check_fine_height(
+            "column.fine_height_m", column.fine_height_m, _known(column.height_m), refuse
+        )
         if (
             column.shape == "tube"
             and not flange
@@ -309,38 +307,13 @@ def check_sizes(case: ColumnSections, file: Path | str) -> None:
                 getattr(mesh, key),
                 f"must be at least mesh.fine_size_m = {fine:g} m",
             )
-    if flange:
-        across = math.hypot(*outline) if column.shape == "block" else outline[0]
-        if flange.outer_diameter_m < across:
-            refuse(
-                "flange.outer_diameter_m",
-                flange.outer_diameter_m,
-                f"must be at least the column's own {across:g} m",
-            )
-        hole = (
-            min(outline) - 2 * _known(column.wall_m)
-            if column.shape == "tube" and not is_solid(column)
-            else min(outline)
-        )
-        if (
-            flange.inner_diameter_m > max(hole, 0) * (1 + 1e-9)
-            or column.shape != "tube"
-            and flange.inner_diameter_m
-        ):
-            refuse(
-                "flange.inner_diameter_m",
-                flange.inner_diameter_m,
-                f"must be at most the tube's bore, {hole:g} m"
-                if column.shape == "tube"
-                else f"must be 0 below a column of shape = {column.shape!r}",
-            )
     if not column.mesh_file:
-        for key, side in zip(("length_m", "width_m"), outline):
-            if cap and getattr(cap, key) < side * (1 - 1e-9):
-                named = key if column.shape == "block" else "outer_diameter_m"
-                refuse(
-                    f"cap.{key}", getattr(cap, key), f"must be at least column.{named} = {side:g} m"
-                )
+        sides = ("length_m", "width_m") if column.shape == "block" else ("outer_diameter_m",) * 2
+        bore = 0.0
+        if column.shape == "tube" and not is_solid(column):
+            bore = outline[0] - 2 * _known(column.wall_m)
+        own = OwnSize(outline, (f"column.{sides[0]}", f"column.{sides[1]}"), bore)
+        check_plates("", own, flange, cap, refuse)
     for key, side in zip(("length_m", "width_m"), foot_sides(case)) if base.kind == "plate" else ():
         least = least_side(side, _known(base.slide_allowance_m))
         if getattr(base, key) < least * (1 - 1e-9):

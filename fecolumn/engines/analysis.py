@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.case.case import Case
-from fecolumn.case.sections import GRAVITY, MODEL_ENGINES, UNTIL_REST
+from fecolumn.case.sections import GRAVITY, MODEL_ENGINES
 from fecolumn.engines.ending import (
     AT_REST,
     EDGE_SHARE,
@@ -22,6 +22,7 @@ from fecolumn.engines.ending import (
     STILL_ROCKING,
     Ending,
 )
+from fecolumn.engines.followed import ends_at_rest, followed_s
 from fecolumn.engines.resume import CHECKPOINT, Resumable
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.summary import write_sealed
@@ -73,14 +74,10 @@ class Analysis(Resumable):
         self.file = file
         self.began, self.cpu_began, self.code = time.perf_counter(), time.process_time(), code()
         self.motion = self._load_motion(file)
-        self.steps = int(round(self._duration() / self.dt_s))
+        stated_s = case.integration.duration_s
+        self.steps = int(round(followed_s(self.motion, case.motion, stated_s) / self.dt_s))
         self.motion_steps = len(self.motion.acceleration) if self.motion else 0
-        self.until_rest = (
-            self.motion is not None
-            and case.motion is not None
-            and case.motion.free_vibration_s == UNTIL_REST
-            and not case.integration.duration_s
-        )
+        self.until_rest = ends_at_rest(case.motion, stated_s)
         self.cut_at_s = self._cut(file)
         if case.integration.engine not in MODEL_ENGINES and not (folder / CHECKPOINT).is_file():
             self.say(self.expected())
@@ -140,15 +137,6 @@ class Analysis(Resumable):
     def dt_s(self) -> float:
         """Step [s], which is a number by now."""
         return float(self.case.integration.dt_s)
-
-    def _duration(self) -> float:
-        if self.case.integration.duration_s:
-            return self.case.integration.duration_s
-        assert self.motion and self.case.motion  # `check_duration` asks for one of the two
-        return (
-            len(self.motion.acceleration) * self.motion.dt
-            + self.case.motion.longest_free_vibration_s
-        )
 
     def _cut(self, file: str) -> float | None:
         """Where the analysis cuts the motion short [s], which is told; None where it does not."""
@@ -227,7 +215,7 @@ class Analysis(Resumable):
         """
         from fecolumn.contact.overturning import CAPPED, NO_RETURN
 
-        last, dt = self.history.last(), self.dt_s
+        last = self.history.last()
         if fallen == CAPPED:
             return Ending(
                 OVERTURNED,
@@ -239,20 +227,26 @@ class Analysis(Resumable):
                 OVERTURNED,
                 f"point of no return: {self.no_return(last, rotation)}, at {last['time']:.3f} s",
             )
-        outcome = AT_REST if self.energy_left() <= self.still_j else STILL_ROCKING
+        return self.ending_in_time(self.energy_left() <= self.still_j, float(last["time"]))
+
+    def ending_in_time(self, still: bool, end_s: float) -> Ending:
+        """How an analysis ends that nothing was lost in, at a time [s]; still: whether it is at
+        rest then.
+        """
+        outcome = AT_REST if still else STILL_ROCKING
         if not self.until_rest:
-            return Ending(outcome, f"end of the analysed time, {last['time']:.3f} s")
-        if outcome == AT_REST:
+            return Ending(outcome, f"end of the analysed time, {end_s:.3f} s")
+        if still:
             return Ending(
                 outcome,
-                f"at rest {last['time'] - self.motion_steps * dt:.3f} s after the "
-                f"motion's end, at {last['time']:.3f} s",
+                f"at rest {end_s - self.motion_steps * self.dt_s:.3f} s after the "
+                f"motion's end, at {end_s:.3f} s",
             )
         assert self.case.motion  # after which there is free vibration until rest
         return Ending(
             outcome,
             f"motion.rest_ceiling_s = {self.case.motion.rest_ceiling_s:g} s after the "
-            f"motion's end, at {last['time']:.3f} s",
+            f"motion's end, at {end_s:.3f} s",
         )
 
     def rigid_loss_share(self) -> float | None:

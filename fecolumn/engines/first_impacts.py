@@ -33,8 +33,8 @@ _COUNTS = 1e-2
 # Tilt after the impacts over the largest, below which it counts as that much: of what is at rest by
 # then nothing but rounding is left
 _TILT_COUNTS = 0.1
-# Time [s] without a landing after which the next is of another impact: ten of the longest steps
-_APART_S = 10 * max(TRIAL_STEPS)
+#: Time [s] without a landing after which the next is of another impact: ten of the longest steps
+APART_S = 10 * max(TRIAL_STEPS)
 # Part of the time between impacts that is left out at either end, where trials may still land
 _LEFT_OUT = 0.25
 
@@ -130,12 +130,16 @@ def window_of(rows: dict[str, NDArray[Any]], barrier_j: float) -> Window | None:
 
 
 def landings(
-    rows: dict[str, NDArray[Any]], barrier_j: float, until_s: float = np.inf
+    rows: dict[str, NDArray[Any]],
+    barrier_j: float,
+    until_s: float = np.inf,
+    apart_s: float = APART_S,
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """Times (n,), (n,) [s] at which impacts begin and end; what is less than a hundredth of the
     largest until a time counts for none.
 
-    barrier_j: energy to overturn [J].
+    barrier_j: energy to overturn [J]. apart_s: time [s] without a landing after which the next is
+    of another impact.
     """
     now = rows["time"]
     took = np.diff(-rows["energy/impact"], prepend=-rows["energy/impact"][0])
@@ -143,6 +147,6 @@ def landings(
     lands = now[took > max(_LANDS * barrier_j, _COUNTS * largest)]
     if not lands.size:
         return lands, lands
-    first = np.flatnonzero(np.diff(lands, prepend=-np.inf) > _APART_S)
+    first = np.flatnonzero(np.diff(lands, prepend=-np.inf) > apart_s)
     last = np.append(first[1:], lands.size) - 1
     return lands[first], lands[last]

@@ -162,7 +162,7 @@ class FullAnalysis(OfStructure):
     def _fields(self) -> FieldWriter[StructureFields]:
         from fecolumn.engines.scene.fields import FieldWriter
 
-        return FieldWriter(self.folder / "fields", self.drawn())
+        return FieldWriter(self.folder / "fields", self.drawn(), self.dt_s)
 
     def _write_fields(self) -> None:
         from fecolumn.engines.dynamics.static_rest import StaticRest
@@ -206,7 +206,7 @@ class FullAnalysis(OfStructure):
                 due, ended = self._agree(
                     time.perf_counter() - saved > cadence.checkpoint_every_s, stop()
                 )
-                if due or ended:
+                if (due or ended) and not over:  # what is over is no state to go on from
                     self._save()
                     saved = time.perf_counter()
                 if ended and self.step < self.steps and not over:

@@ -5,7 +5,7 @@ keys that may help.
 from __future__ import annotations
 
 from fecolumn.case.case import Case
-from fecolumn.case.joint import Joint
+from fecolumn.case.joint import Joint, own_contact
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 
 # Names of joints that are told, at most
@@ -44,5 +44,4 @@ def _ends(case: Case, end: str) -> tuple[tuple[str, int], ...]:
 
 
 def _friction(case: Case, joint: Joint) -> float:
-    own = joint.friction_coefficient
-    return case.contact.friction_coefficient if own is None else own
+    return own_contact(joint, case.contact).friction_coefficient

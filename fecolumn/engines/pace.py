@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from fecolumn.case.sections import POINTS_OF_SEVERAL
+from fecolumn.case.sections import POINTS_OF_SEVERAL, Integration
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.progress import clock
 
@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from fecolumn.engines.structure_analysis import OfStructure
     from fecolumn.structures.model import StructureModel
 
+# Longest step that may be stated [s]
+_LONGEST_S = next(
+    one.metadata["high"] for one in dataclasses.fields(Integration) if one.name == "dt_s"
+)
 #: File of a running analysis with its pace, from which a study knows how long it will take
 PACE_FILE = "pace.json"
 # Wall time of steps [s], and their least number, after which the pace is known; the same between
@@ -242,7 +246,9 @@ def cheaper(case: Case) -> dict[str, dict[str, Any]]:
         if case.n_modes > 5:
             found["integration.n_modes"] = {"integration.n_modes": 5}
         found["integration.engine"] = {"integration.engine": "rigid"}
-    found["integration.dt_s"] = {"integration.dt_s": 2 * float(plan.dt_s)}
+    longer = 2 * float(plan.dt_s)
+    if longer <= min(_LONGEST_S, plan.duration_s or _LONGEST_S):
+        found["integration.dt_s"] = {"integration.dt_s": longer}
     return found
 
 

@@ -12,12 +12,29 @@ from numpy.typing import NDArray
 HALF_WINDOW_S = 5e-3
 
 
+def window_s(time: NDArray[Any]) -> float | None:
+    """Time [s] over which `peak_acceleration` takes its mean: 10 ms, as near as an even number of
+    the steps of `time` (n,) [s] comes to it, two at least; None of a shorter history.
+    """
+    half, dt = _half_steps(time)
+    return 2 * half * dt if half else None
+
+
+def _half_steps(time: NDArray[Any]) -> tuple[int, float]:
+    """Steps in half of the window, 0 of a history that is shorter than that, and a step [s]."""
+    if len(time) < 3:
+        return 0, 0.0
+    dt = float(time[-1] - time[0]) / (len(time) - 1)
+    half = max(1, round(HALF_WINDOW_S / dt))
+    return (half if len(time) > 2 * half else 0), dt
+
+
 def peak_acceleration(
     time: NDArray[Any], displacement: NDArray[Any], ground: NDArray[Any]
 ) -> float | None:
-    """Largest horizontal acceleration [m/s2] in space of a point, its mean over 10 ms with the
-    weights of a triangle: the second difference of its places 5 ms apart, and as much of the
-    ground's. None of a history that is shorter than that.
+    """Largest horizontal acceleration [m/s2] in space of a point, its mean over `window_s` with the
+    weights of a triangle: the second difference of its places half of that apart, and as much of
+    the ground's. None of a history that is shorter than that.
 
     Parameters
     ----------
@@ -28,11 +45,8 @@ def peak_acceleration(
     ground
         (n, 3) acceleration of the ground [m/s2].
     """
-    if len(time) < 3:
-        return None
-    dt = float(time[-1] - time[0]) / (len(time) - 1)
-    half = max(1, round(HALF_WINDOW_S / dt))
-    if len(time) < 2 * half + 1:
+    half, dt = _half_steps(time)
+    if not half:
         return None
     moved, shaken = (np.asarray(each)[:, :2] for each in (displacement, ground))
     relative = (moved[2 * half :] - 2 * moved[half:-half] + moved[: -2 * half]) / (half * dt) ** 2

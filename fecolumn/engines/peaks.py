@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.engines.history_columns import glued_names
-from fecolumn.engines.peak_acceleration import peak_acceleration
+from fecolumn.engines.peak_acceleration import peak_acceleration, window_s
 from fecolumn.engines.reduced.observe import OF_BOND, OF_LINK
 from fecolumn.structures.model import LinkModel, StructureModel
 
@@ -36,6 +36,7 @@ def peaks(rows: dict[str, NDArray[Any]], structure: StructureModel) -> dict[str,
             acceleration_max_m_s2=peak_acceleration(
                 rows["time"], rows[f"body/{part.name}/displacement"], rows["ground"]
             ),
+            acceleration_window_s=window_s(rows["time"]),
         )
         for part in structure.parts
     }

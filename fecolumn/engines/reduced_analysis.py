@@ -102,7 +102,7 @@ class ReducedAnalysis(OfStructure):
         from fecolumn.engines.scene.fields import FieldWriter
 
         fields = self.scene().fields()
-        return FieldWriter(self.folder / "fields", fields), fields
+        return FieldWriter(self.folder / "fields", fields, self.dt_s), fields
 
     def _states(self) -> States | None:
         every = self.case.output.state_interval_s
@@ -156,7 +156,9 @@ class ReducedAnalysis(OfStructure):
                 )
                 self._keep()
                 ended = stop()
-                if ended or time.perf_counter() - saved > cadence.checkpoint_every_s:
+                # what is over is no state to go on from
+                due = ended or time.perf_counter() - saved > cadence.checkpoint_every_s
+                if due and not over:
                     self._save()
                     saved = time.perf_counter()
                 if ended and self.step < self.steps and not over:

@@ -15,13 +15,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.engines.first_impacts import landings
+from fecolumn.engines.first_impacts import APART_S, landings
 
 # Steps between landings below which the period is off by more than 1 %
 _STEPS = math.pi / math.sqrt(12 * 0.01)
 # Loss of impacts over that of rigid bodies above which the step is doubted: by the scatter of
 # releases beside each other at converged steps (theory, section 4)
 _SHARE = 1.25
+# Steps without a landing after which the next is of another one, and not of the same impact
+_APART = 2.5
 # Landings that the median needs
 _LEAST = 4
 # Tilt over the critical one from which on landings count: less is rattling, which decides nothing
@@ -60,7 +62,8 @@ def step_doubt(
     if max(float(one.max()) for one in (rows["tilt"], *tilts)) < _ROCKS * (critical or 0.0):
         return None
     said = []
-    between = np.diff(landings(rows, barrier_j)[0]) if alone else np.empty(0)
+    apart_s = min(APART_S, _APART * dt)
+    between = np.diff(landings(rows, barrier_j, apart_s=apart_s)[0]) if alone else np.empty(0)
     if len(between) >= _LEAST and (steps := float(np.median(between)) / dt) < _STEPS:
         off = (math.pi / steps) ** 2 / 12
         said.append(

@@ -18,6 +18,7 @@ from fecolumn.engines.fallen_bodies import FallenBodies
 from fecolumn.engines.left_part import way_out
 from fecolumn.engines.peaks import peaks
 from fecolumn.engines.resume import CHECKPOINT
+from fecolumn.engines.summary_entries import direction_deg
 from fecolumn.fem.rotation import rotation_matrix
 from fecolumn.foundation.progress import Progress
 from fecolumn.structures.barrier import feet_on_springs, least_barrier, stances
@@ -48,6 +49,7 @@ class OfStructure(Analysis):
     _barrier_j: float | None = None
     _still_j: float | None = None
     _off: str | None = None
+    _fell: str | None = None
     _collapse: FallenBodies | None = None
 
     def expected(self) -> str:
@@ -239,6 +241,7 @@ class OfStructure(Analysis):
         limits = limits_of(self.structure, standing)
         far, critical = tilts > limits.tilts, limits.standing["critical"]
         b = int(np.argmax(np.where(far, tilts, 0.0) if far.any() else tilts - critical))
+        self._fell = parts[b].name
         told = f"limit {limits.tilts[b]:.3g} rad"
         if not far.any():
             turn = rotation_matrix(np.asarray(last[f"body/{parts[b].name}/rotation"], float))
@@ -254,6 +257,7 @@ class OfStructure(Analysis):
             lie = collapse.fallen(self.history.arrays()) if collapse else {}
             if not collapse or not lie or found.outcome == OVERTURNED:
                 return found
+            self._fell = next(iter(lie))
             told = f"{collapse.told(lie)}; {self._how_it_lies(found)}"
             return Ending(OVERTURNED, told, next(iter(lie.values())))
         return Ending(
@@ -284,5 +288,10 @@ class OfStructure(Analysis):
         found = peaks(self.history.arrays(), self.structure)
         if ending.outcome == SLID_OFF:
             way = self.history.last()[f"body/{self._off or self._lowest()}/displacement"]
-            found["slid_off_direction_deg"] = float(np.degrees(np.arctan2(way[1], way[0])))
+            found["slid_off_direction_deg"] = direction_deg(way)
+        if ending.outcome == OVERTURNED and self._fell and len(self.structure.parts) > 1:
+            # the observed body may stand yet: the axis of that which fell
+            turn = self.history.last()[f"body/{self._fell}/rotation"]
+            axis = rotation_matrix(np.asarray(turn, float))[:, 2]
+            found["overturn_direction_deg"] = direction_deg(axis)
         return found

@@ -37,11 +37,11 @@ def entries_of(rows: dict[str, Any], ending: Ending) -> dict[str, Any]:
         overturned=overturned,
         overturned_at_s=overturned_at,
         overturn_time_s=overturned_at,  # its older name
-        overturn_direction_deg=_azimuth(top[-1]) if overturned else None,
+        overturn_direction_deg=direction_deg(top[-1]) if overturned else None,
         slid_off=slid_off,
         slid_off_at_s=slid_off_at,
         slid_off_time_s=slid_off_at,  # its older name
-        slid_off_direction_deg=_azimuth(slide) if slid_off else None,
+        slid_off_direction_deg=direction_deg(slide) if slid_off else None,
         tilt_max_rad=float(rows["tilt"].max()),
         residual_slide_m=float(np.hypot(*slide)),
         **({"penetration_max_m": float(deep.max())} if deep is not None else {}),
@@ -49,7 +49,7 @@ def entries_of(rows: dict[str, Any], ending: Ending) -> dict[str, Any]:
     )
 
 
-def _azimuth(way: NDArray[Any]) -> float:
+def direction_deg(way: NDArray[Any]) -> float:
     """Direction of a horizontal displacement from x to y [degrees]."""
     return float(np.degrees(np.arctan2(way[1], way[0])))
 

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from fecolumn.foundation import lock
 from fecolumn.foundation.atomic import UNFINISHED, write_json
 from fecolumn.foundation.files import Unreadable, read_json
 from fecolumn.foundation.schema import InputError
@@ -53,8 +54,49 @@ def written(
         raise InputError(
             "fecolumn " + work, "-o", str(folder), "is a file, or lies in one; a folder is needed"
         ) from None
+    with _alone_with(folder):
+        mark = _mark_of(folder, work, alone)
+        _refuse_foreign(folder, work, names, mark)
+        write_json(folder / MARK_FILE, {"written": mark})
+    draft = Path(tempfile.mkdtemp(prefix=UNFINISHED, dir=folder))
+    try:
+        yield draft
+        new = sorted(
+            file.relative_to(draft).as_posix() for file in draft.rglob("*") if not file.is_dir()
+        )
+        with _alone_with(folder):
+            _take_place(folder, work, draft, new)
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)
+
+
+def _alone_with(folder: Path) -> contextlib.AbstractContextManager[None]:
+    """The right to read and to write the mark of a folder, which other commands may write into."""
+    return lock.alone(folder / MARK_FILE)
+
+
+def _take_place(folder: Path, work: str, draft: Path, new: list[str]) -> None:
+    """Move files of a draft into a folder, and remove what the work wrote there before."""
+    mark = _read_mark(folder) if os.path.lexists(folder / MARK_FILE) else {}
+    _refuse_foreign(folder, work, new, mark)
+    old = mark.get(work, [])
+    # first claimed, then written: a process that is killed between leaves no file that looks like
+    # the user's
+    write_json(folder / MARK_FILE, {"written": {**mark, work: sorted({*old, *new})}})
+    for name in new:
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        os.replace(draft / name, folder / name)
+    others = {name for key, files in mark.items() if key != work for name in files}
+    for name in {*old} - {*new} - others:
+        _remove(folder, name)
+    write_json(folder / MARK_FILE, {"written": {**mark, work: new}})
+
+
+def _mark_of(folder: Path, work: str, alone: bool) -> dict[str, list[str]]:
+    """Files that each work wrote; arguments as of `written`."""
     marked = os.path.lexists(folder / MARK_FILE)
-    if alone and not marked and any(folder.iterdir()):
+    found = {entry.name for entry in folder.iterdir()} - {f".{MARK_FILE}.lock"}
+    if alone and not marked and found:
         raise InputError(
             "fecolumn " + work,
             "-o",
@@ -62,29 +104,7 @@ def written(
             f"is not empty and holds nothing that fecolumn wrote (no {MARK_FILE}); give a "
             "new or an empty folder",
         )
-    mark = _read_mark(folder) if marked else {}
-    _refuse_foreign(folder, work, names, mark)
-    write_json(folder / MARK_FILE, {"written": mark})
-    draft = Path(tempfile.mkdtemp(prefix=UNFINISHED, dir=folder))
-    try:
-        yield draft
-        new = sorted(
-            file.relative_to(draft).as_posix() for file in draft.rglob("*") if not file.is_dir()
-        )
-        _refuse_foreign(folder, work, new, mark)
-        old = mark.get(work, [])
-        # first claimed, then written: a process that is killed between leaves no file that looks
-        # like the user's
-        write_json(folder / MARK_FILE, {"written": {**mark, work: sorted({*old, *new})}})
-        for name in new:
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            os.replace(draft / name, folder / name)
-        others = {name for key, files in mark.items() if key != work for name in files}
-        for name in {*old} - {*new} - others:
-            _remove(folder, name)
-        write_json(folder / MARK_FILE, {"written": {**mark, work: new}})
-    finally:
-        shutil.rmtree(draft, ignore_errors=True)
+    return _read_mark(folder) if marked else {}
 
 
 def _read_mark(folder: Path) -> dict[str, list[str]]:

@@ -2,21 +2,35 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 #: Keys of a case that may name files, by section; of bodies by their kind.
 OF_SECTIONS = {"column": ("mesh_file",), "motion": ("source", "source_y", "source_z")}
 OF_BODIES = {"mesh": ("mesh_file",), "matrices": ("mass_file", "stiffness_file", "nodes_file")}
+#: What names of records begin with that are no files
+LICK_PREFIX, FEMA_PREFIX = "lick:", "fema-p695:"
+# The same of motions that a study's own function makes: a word, a colon, and no ending of a file
+_OWN_NAME = re.compile(r"[a-z][a-z0-9-]*:[^.]*")
 # Of a study: the case of all its analyses, and what its table [case] takes over
 _OF_STUDY = (("case",), ("case", "extends"))
+
+
+def names_record(source: str) -> bool:
+    """Whether a text names a record, such as "lick:12", and no file, whose name may have a colon,
+    too.
+    """
+    known = source.startswith((LICK_PREFIX, FEMA_PREFIX))
+    return known or _OWN_NAME.fullmatch(source) is not None
 
 
 def absolute(path: str, folder: Path) -> str:
     """A path that a file in `folder` states, for files elsewhere; names of records, such as
     "lick:12", stay.
     """
-    return path if not path or ":" in path or Path(path).is_absolute() else str(folder / path)
+    same = not path or names_record(path) or Path(path).is_absolute()
+    return path if same else str(folder / path)
 
 
 def taken_over(tables: dict[str, Any], file: Path | str) -> dict[str, Any]:

@@ -6,10 +6,11 @@ import re
 from pathlib import Path
 from typing import Any
 
+from fecolumn.foundation.paths import FEMA_PREFIX, LICK_PREFIX
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions import lick
 from fecolumn.motions.ensemble_file import ALL_MOTIONS, file_and_number, members
-from fecolumn.motions.fema_p695 import FEMA_PREFIX, indices
+from fecolumn.motions.fema_p695 import indices
 from fecolumn.motions.record import UnusableRecord
 
 _SPAN = re.compile(r"([0-9]{1,6})-([0-9]{1,6})")  # of motions, both ends included
@@ -36,8 +37,8 @@ def chosen_motions(source: Any, key: str, file: Path | str) -> list[Any]:
     if not isinstance(source, str):
         return [source]
     place = ""
-    if source.startswith(lick.LICK_PREFIX):
-        mark, wanted = lick.LICK_PREFIX, source.removeprefix(lick.LICK_PREFIX)
+    if source.startswith(LICK_PREFIX):
+        mark, wanted = LICK_PREFIX, source.removeprefix(LICK_PREFIX)
     elif source.startswith(FEMA_PREFIX):
         before, _, wanted = source.partition("/")
         mark = f"{before}/"
@@ -51,7 +52,7 @@ def chosen_motions(source: Any, key: str, file: Path | str) -> list[Any]:
         if place:
             whole = str(Path(file).resolve().parent / f"{place}#{ALL_MOTIONS}")
             numbers = list(range(1, len(members(whole)) + 1))
-        elif mark == lick.LICK_PREFIX:
+        elif mark == LICK_PREFIX:
             numbers = list(range(1, lick.COUNT + 1))
         else:
             numbers = indices(mark.removeprefix(FEMA_PREFIX).removesuffix("/"))

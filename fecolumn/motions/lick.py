@@ -9,7 +9,9 @@ from __future__ import annotations
 import functools
 from pathlib import Path
 
-LICK_PREFIX, COUNT, SEED, TIME_SCALE = "lick:", 115, 810, 0.5
+from fecolumn.foundation.paths import LICK_PREFIX
+
+COUNT, SEED, TIME_SCALE = 115, 810, 0.5
 
 
 def lick_source(source: str) -> str:

@@ -16,6 +16,7 @@ from fecolumn.case.check_motion import check_strong_part
 from fecolumn.case.checked import refuse_in
 from fecolumn.case.sections import GRAVITY, Motion
 from fecolumn.foundation.deprecated import renamed
+from fecolumn.foundation.paths import FEMA_PREFIX, LICK_PREFIX
 from fecolumn.foundation.schema import InputError
 from fecolumn.motions import lick
 from fecolumn.motions.afad import looks_like_afad, read_afad
@@ -25,7 +26,7 @@ from fecolumn.motions.cosmos import looks_like_cosmos, read_cosmos
 from fecolumn.motions.csmip import looks_like_csmip, read_csmip
 from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, file_and_number, read_member
 from fecolumn.motions.esm import looks_like_esm, read_esm
-from fecolumn.motions.fema_p695 import FEMA_PREFIX, read_fema_p695
+from fecolumn.motions.fema_p695 import read_fema_p695
 from fecolumn.motions.formats import FORMATS
 from fecolumn.motions.geonet import looks_like_geonet, read_geonet
 from fecolumn.motions.hdf5_record import read_hdf5_record
@@ -267,7 +268,7 @@ def recording_of(motion: Motion, key: str, file: Path | str) -> Recording:
     """
     source = getattr(motion, key)
     try:
-        if source.startswith(lick.LICK_PREFIX):
+        if source.startswith(LICK_PREFIX):
             source = lick.lick_source(source)
         if source.startswith(FEMA_PREFIX):
             recording = read_fema_p695(source)

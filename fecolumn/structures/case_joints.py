@@ -12,8 +12,7 @@ import numpy as np
 from fecolumn.case.body_keys import WithMaterial
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
-from fecolumn.case.joint import Joint
-from fecolumn.case.sections import Contact
+from fecolumn.case.joint import own_contact
 from fecolumn.contact.law import interface_compliance
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.rim import Rim
@@ -22,11 +21,6 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.model import BodyModel, JointModel
 from fecolumn.structures.place import Standing, dome_load, loads
-
-# Keys of [contact] that a joint may have of its own, in their place
-_OWN = {field.name for field in dataclasses.fields(Contact)} & {
-    field.name for field in dataclasses.fields(Joint)
-} - {"between"}
 
 
 def joint_of(
@@ -57,10 +51,7 @@ def joint_of(
     """
     name, (body, number) = contact["interface"], contact["slave"]
     keys, model, master = case.joints[name], bodies[body], contact["master"]
-    own = {key: getattr(keys, key) for key in _OWN}
-    contact_keys = dataclasses.replace(
-        case.contact, **{key: value for key, value in own.items() if value is not None}
-    )
+    contact_keys = own_contact(keys, case.contact)
     surface = model.surfaces[contact["slave_surface"]]
     outlines = tuple(
         np.array(own) - bodies[of[0]].center

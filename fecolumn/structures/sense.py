@@ -16,6 +16,8 @@ from fecolumn.case.bodies import Prism
 from fecolumn.case.body_keys import Solid
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
+from fecolumn.case.check_way import check_way
+from fecolumn.case.checked import refuse_in
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
@@ -25,8 +27,6 @@ from fecolumn.structures.size import LARGE, largest_side
 
 # Mean strain of a body at rest below one of its faces: what elements are made for is a tenth of it
 _STRAIN = 0.1
-# Over the height of a structure: way of its top that is no overturning; 0.1 mm of 1 m
-_WAY = 1e-4
 # [kg/m3]: densities of what is as stiff as stone or metal lie between
 _LIGHT, _HEAVY = 5.0, 25_000.0
 # [Pa]: Young's modulus from which on a body is as stiff as stone or metal
@@ -54,14 +54,7 @@ def check_sense(
     """
     tops = [one.center[2] + own[:, 2] for one, own in zip(standing, extents)]
     height = float(np.ptp(np.concatenate(tops)))
-    if 0 < (cap := case.overturn.displacement_m) < _WAY * height:
-        raise InputError(
-            file,
-            "overturn.displacement_m",
-            cap,
-            f"must be 0 for none, or at least {_WAY * height:.3g} m, {_WAY:g} of the height: less "
-            "is no overturning",
-        )
+    check_way(case.overturn, height, refuse_in(file))
     _check_forces(case, structure, file)
     if case.integration.engine != "rigid":
         _check_strains(case, structure, standing, file)

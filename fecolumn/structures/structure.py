@@ -26,6 +26,7 @@ from fecolumn.structures.check import (
     tell_of_gaps,
 )
 from fecolumn.structures.check_soil import check_soil
+from fecolumn.structures.far_places import tell_of_far_places
 from fecolumn.structures.ground import bases_of
 from fecolumn.structures.hulls import found_contact
 from fecolumn.structures.made_layout import layout_on_disk
@@ -148,6 +149,7 @@ def assembled(
     met = [one for n, one in enumerate(joints) if n not in replaced]
     tell_of_gaps(met, standing, list(case.grounds), file)
     tell_of_lengths(case, file)
+    tell_of_far_places(case, standing, extents, file)
     tell_of_restitution(case, met, standing, file)
     tell_of_densities(case, bodies, layout["outlines"], file)
     check_sense(case, structure, standing, extents, file)

@@ -27,7 +27,7 @@ from fecolumn.case.check_step import check_stated
 from fecolumn.case.sections import Motion
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.files import is_file
-from fecolumn.foundation.paths import taken_over
+from fecolumn.foundation.paths import names_record, taken_over
 from fecolumn.foundation.schema import InputError, shown
 from fecolumn.foundation.toml_file import merge, nested, read_toml
 from fecolumn.motions.ensemble_file import file_and_number
@@ -272,7 +272,7 @@ class _Maker:
         for key in ("source", "source_y", "source_z"):
             source = getattr(motion, key)
             file = (file_and_number(source) or (source,))[0]
-            if source and ":" not in source and not is_file(file):
+            if source and not names_record(source) and not is_file(file):
                 raise InputError(self.path, f"motion.{key}", source, "no such file")
 
     def _refuse(self, error: InputError, levels: tuple[Any, ...]) -> typing.NoReturn:

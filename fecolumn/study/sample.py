@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from fecolumn.engines.ending import cut_short, lost
+from fecolumn.foundation.paths import names_record
 from fecolumn.foundation.schema import InputError
 from fecolumn.statistics.experiment import read_maxima
 from fecolumn.statistics.sample import Sample
@@ -135,7 +136,7 @@ def _motion_name(axes: dict[str, Any]) -> str:
         value if isinstance(value, str) else json.dumps(value, sort_keys=True) for value in values
     ]
     return " ".join(
-        text if ":" in text else text.replace("\\", "/").rpartition("/")[2] for text in texts
+        text if names_record(text) else text.replace("\\", "/").rpartition("/")[2] for text in texts
     )
 
 

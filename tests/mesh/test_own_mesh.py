@@ -1,9 +1,12 @@
 """A column of one's own mesh needs no dimensions: all is read from the mesh."""
 
+import warnings
+
 import numpy as np
 import pytest
 from own_meshes import SIDES, bricks, own_case, tetrahedra, write
 
+from fecolumn.case.short_form import short_form
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.estimate import estimate
 from fecolumn.mesh.quality import quality_table
@@ -55,6 +58,24 @@ def test_second_order_tetrahedra_of_a_file_are_read_by_their_corners(tmp_path):
     ten = np.hstack([cells, len(points) + where.reshape(-1, 6)])
     case = own_case(write(tmp_path, "ten.vtu", "tetra10", np.vstack([points, middles]), ten))
     assert len(specimen_mesh(case).body.points) == len(points)
+
+
+def test_sizes_that_a_mesh_file_makes_idle_are_told(tmp_path):
+    file = write(tmp_path, "own.inp", "hexahedron", *bricks())
+    for name, key in (
+        ("column", "wall_m"),
+        ("column", "fine_height_m"),
+        ("mesh", "coarse_size_m"),
+        ("mesh", "cap_size_m"),
+    ):
+        tables = dict(column=dict(mesh_file=str(file)), integration=dict(duration_s=0.1))
+        tables[name] = tables.get(name, {}) | {key: 0.09}
+        with pytest.warns(UserWarning, match=rf"own.toml: {name}.{key} = 0.09 says nothing of the"):
+            made = short_form(tables, "own.toml")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        again = short_form(own_case(file).tables(), "own.toml")  # sizes that it was given itself
+    assert again == own_case(file) and made.column == again.column
 
 
 def test_linear_tetrahedra_are_refused(tmp_path):

@@ -1,4 +1,6 @@
+import dataclasses
 import struct
+from functools import partial
 
 import numpy as np
 import pytest
@@ -14,11 +16,12 @@ from fecolumn.pictures.figures.cdf_figure import (
     overturn_text,
 )
 from fecolumn.pictures.figures.energy_figure import energy_figure
-from fecolumn.pictures.figures.history_curves import HistoryCurves
+from fecolumn.pictures.figures.history_curves import EndingMark, HistoryCurves
 from fecolumn.pictures.figures.history_figures import history_figures
 from fecolumn.pictures.figures.specimen_figure import specimen_figure
 from fecolumn.pictures.figures.specimen_outline import specimen_outline
 from fecolumn.pictures.figures.style import BLUE, PURPLE, VERMILION
+from fecolumn.pictures.figures.top_figure import top_figure
 from fecolumn.statistics.ecdf import ecdf
 
 
@@ -202,11 +205,25 @@ def test_displacement_stands_below_the_ground_motion_and_beside_what_is_critical
     )
 
 
+def test_the_peak_is_that_of_all_steps_and_what_is_lost_is_marked_where_it_stopped(tmp_path):
+    """The history has some of the steps; a body that falls may have been farther out before."""
+    time, top = np.linspace(0.0, 4.0, 5), np.zeros((5, 3))
+    top[:, 0] = [0.0, 0.01, 0.05, 0.02, 0.03]
+    curves = HistoryCurves(time, top, 10 * top[:, 0], np.zeros((5, 3)), {})
+    for lost, words in (
+        (False, "$u_{\\max}$ = 50.12 mm\n2 s"),
+        (True, "overturned, stopped at 30 mm\n4 s"),
+    ):
+        ending = EndingMark("overturned" if lost else "at rest", lost, None, None, 0.05012)
+        assert words in _texts(partial(top_figure, curves, ending, tmp_path / "top"))
+
+
 def test_every_loss_of_energy_has_a_name_and_strain_an_axis(tmp_path):
     write_history(tmp_path)
-    words = _texts(
-        lambda: energy_figure(HistoryCurves.read(tmp_path / "history.h5"), tmp_path / "energy")
-    )
+    history = HistoryCurves.read(tmp_path / "history.h5")
+    more = dict.fromkeys(("damping", "links"), history.energy["impact"])
+    history = dataclasses.replace(history, energy=history.energy | more)
+    words = _texts(lambda: energy_figure(history, tmp_path / "energy"))
     assert all(
         name in words
         for name in (
@@ -215,6 +232,8 @@ def test_every_loss_of_energy_has_a_name_and_strain_an_axis(tmp_path):
             "sliding friction",
             "numerical damping (HHT)",
             "taken so far by",
+            "damping: modes, pads",
+            "links and bonds",
         )
     )
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fecolumn.engines.peak_acceleration import HALF_WINDOW_S, peak_acceleration
+from fecolumn.engines.peak_acceleration import HALF_WINDOW_S, peak_acceleration, window_s
 from fecolumn.foundation.schema import InputError
 from fecolumn.study.questions.limit import read_event, read_limit
 
@@ -36,8 +36,23 @@ def test_a_change_of_velocity_at_once_is_that_over_5_ms_whatever_the_step(dt):
     assert found == pytest.approx(0.3 / HALF_WINDOW_S, rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    "dt, window",
+    [(1e-4, 0.01), (1e-3, 0.01), (2e-3, 8e-3), (4e-3, 8e-3), (0.01, 0.02), (0.02, 0.04)],
+)
+def test_the_window_is_an_even_number_of_steps(dt, window):
+    """A change of velocity at once is that over half of it."""
+    time = dt * np.arange(round(0.4 / dt) + 1)
+    assert window_s(time) == pytest.approx(window, rel=1e-9)
+    moved = np.zeros((len(time), 3))
+    moved[:, 0] = 0.3 * np.maximum(time - dt * round(0.2 / dt), 0.0)
+    found = peak_acceleration(time, moved, np.zeros_like(moved))
+    assert found == pytest.approx(0.3 / (window / 2), rel=1e-9)
+
+
 def test_a_history_that_is_too_short_has_none():
     time = 1e-3 * np.arange(8)
+    assert window_s(time) is None
     assert peak_acceleration(time, np.zeros((8, 3)), np.zeros((8, 3))) is None
 
 

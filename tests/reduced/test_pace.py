@@ -203,6 +203,14 @@ def test_keys_that_are_named_can_be_set(changes, keys):
         assert case.replace(one).id != case.id
 
 
+@pytest.mark.parametrize(
+    "dt, duration, named", [(0.05, 1.0, True), (0.06, 1.0, False), (0.05, 0.06, False)]
+)
+def test_a_longer_step_is_named_where_it_may_be_stated(dt, duration, named):
+    case = _case(("integration.dt_s", dt), ("integration.duration_s", duration))
+    assert ("integration.dt_s" in cheaper(case)) == named
+
+
 def test_joints_with_points_of_their_own_are_named(tmp_path):
     stone = dict(youngs_modulus_pa=50e9, density_kg_m3=2700.0, element_size_m=0.2)
     block = dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.8) | stone

@@ -12,7 +12,7 @@ from rocking_analyses import BLOCK, analysed
 from fecolumn.cli import main
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render import camera, command, movie
-from fecolumn.pictures.render.draw import render
+from fecolumn.pictures.render.draw import digits_of, render
 from fecolumn.pictures.render.instants import chosen_instants
 from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
@@ -81,6 +81,11 @@ def test_stills_and_sequence_of_the_instants_asked_for(drum):
     assert files[0].read_bytes().startswith(b"%PDF") and all(
         file.stat().st_size > 10_000 for file in files
     )
+
+
+def test_names_of_stills_tell_instants_apart():
+    assert digits_of([0.0, 0.0104, 0.0101]) == 4 and digits_of([0.1, 0.1, 2.0]) == 3
+    assert digits_of([1e-9, 2e-9]) == 9
 
 
 def test_every_view_looks_elsewhere_and_shows_the_column(block):

@@ -4,6 +4,7 @@ pressure without field files.
 
 import itertools
 import shutil
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 from rocking_analyses import BLOCK, DRUM, analysed
 
 from fecolumn.case.case import case_from_tables
+from fecolumn.engines.scene.fields import FieldWriter
 from fecolumn.foundation.schema import InputError
 from fecolumn.pictures.render.draw import render
 from fecolumn.pictures.render.frames import Frames
@@ -144,3 +146,15 @@ def test_the_pressure_below_a_standing_drum_adds_up_to_its_weight(tmp_path):
         total += (pressure @ shares) @ np.abs(np.cross(*ways)) / len(steps) ** 2
     model = structure_model(case_from_tables(case, "drum")).parts[0].model
     assert total == pytest.approx(model.mass * 9.80665, rel=1e-3)
+
+
+@pytest.mark.parametrize("interval, names", [(1e-3, "000000001000"), (1e-8, "00000000000001")])
+def test_frames_of_short_steps_have_names_of_their_own(interval, names, tmp_path):
+    corners = np.array(list(itertools.product((0.0, 1.0), repeat=3)))
+    mesh = SimpleNamespace(points=corners, cells=np.arange(8)[None])
+    drawn = SimpleNamespace(meshes=[mesh], of_cells={}, comm=SimpleNamespace(rank=0))
+    writer = FieldWriter(tmp_path / "fields", drawn, interval)
+    for step in range(3):
+        writer.add(step * interval, {"displacement": np.zeros((8, 3))})
+    found = sorted(file.name for file in (tmp_path / "fields").glob("frame_*.h5"))
+    assert len(found) == 3 and found[1] == f"frame_{names}.h5"

@@ -271,6 +271,40 @@ def test_what_a_rigid_model_does_not_know_is_refused_by_its_key(engine, key, val
         model_of(made.replace({key: value}), "case.toml")
 
 
+@pytest.mark.parametrize("engine, slab", [("rocking_frame", SLAB), ("podium", STOREYS)])
+@pytest.mark.parametrize(
+    "plate",
+    [
+        dict(cap=dict(length_m=0.4, width_m=0.4, thickness_m=0.5)),
+        dict(flange=dict(outer_diameter_m=0.8, thickness_m=0.2)),
+    ],
+)
+def test_columns_of_a_frame_with_plates_are_refused(engine, slab, plate):
+    """The model has the height and the foot of a plain block."""
+    ((name, one),), on = plate.items(), 1.6
+    top = on + one["thickness_m"]
+    period = dict(period_s=0.3) if engine == "podium" else {}
+    bodies = dict(body=PIER | {name: one}, slab=slab | period | dict(at_m=[0, 0, top]))
+    made = case(engine, bodies, FRAME)
+    with pytest.raises(InputError, match=rf"bodies.body.{name}.thickness_m .* must be left out"):
+        model_of(made, "case.toml")
+
+
+def test_a_way_that_is_no_overturning_is_refused_as_of_structures():
+    """0.1 mm of 1 m: of a block of its own table and of bodies."""
+    table = dict(block=dict(width_m=0.4, height_m=1.6), integration=dict(duration_s=1.0))
+    for made in (case("housner", dict(body=BLOCK), FOOT), case_from_tables(table)):
+        with pytest.raises(InputError, match=r"overturn.displacement_m .* 0.0001 of the height"):
+            model_of(made.replace({"overturn.displacement_m": 1.4e-4}), "case.toml")
+        model_of(made.replace({"overturn.displacement_m": 2e-4}), "case.toml")
+
+
+def test_a_fixed_body_of_a_frame_is_refused():
+    made = frame("rocking_frame", PIER, SLAB | dict(fixed=True))
+    with pytest.raises(InputError, match="bodies.slab.fixed = True: must be false"):
+        model_of(made, "case.toml")
+
+
 def test_columns_that_lean_across_the_plane_of_a_frame_are_refused():
     made = frame("rocking_frame", PIER, SLAB, initial=dict(body=dict(tilt_rad=0.03)))
     start_of(made, "case.toml")

@@ -14,6 +14,7 @@ from fecolumn.case.case import case_from_tables, load_case
 from fecolumn.case.model_names import TABLES
 from fecolumn.case.model_sections import SECTIONS
 from fecolumn.cli import main
+from fecolumn.engines.ending import AT_REST, STILL_ROCKING
 from fecolumn.engines.rocking.case import read_model_case
 from fecolumn.engines.rocking.models import ROCKING_MODELS
 from fecolumn.engines.rocking.podium import Podium
@@ -51,6 +52,13 @@ def folder(tmp_path):
     return tmp_path
 
 
+def test_an_analysis_of_less_than_a_step_is_refused(folder):
+    case = load_case(folder / "podium.toml")
+    with pytest.raises(InputError, match=r"duration_s = 0.004: must be at least integration.dt_s"):
+        case.replace({"integration.duration_s": 0.004})
+    assert case.replace({"integration.duration_s": 0.005}).integration.duration_s == 0.005
+
+
 def test_tables_are_those_of_the_models():
     assert {one.TABLE: name for name, one in ROCKING_MODELS.items()} == TABLES
     assert set(SECTIONS) == set(TABLES)
@@ -77,6 +85,32 @@ def test_a_podium_runs_as_any_case_and_gives_what_the_rocking_command_gives(fold
         assert main(command) == 2 and said in capsys.readouterr().err
     again, _ = read_folder_case(folder / "run")
     assert again.id == summary["case_id"] and again.own["podium"].storeys == 3
+
+
+def test_the_rocking_command_goes_on_until_rest_as_a_run_does(folder):
+    file = folder / "block.toml"
+    file.write_text(
+        "block.width_m = 0.3\nblock.height_m = 1.8\ninitial.tilt_rad = 0.1\n"
+        'motion.free_vibration_s = "rest"\n' + PULSE.replace('"g"', '"mm/s2"')
+    )
+    summary = run(load_case(file), folder / "run", quiet=True)
+    one = read_model_case("housner", file)
+    _, response = one.response(one.sources[0])
+    assert response.outcome(one.model.energy_to_overturn) == summary["outcome"] == AT_REST
+    assert response.time[-1] == pytest.approx(summary["duration_s"]) and response.time[-1] > 3
+    assert len(response.impact_times) == summary["impacts"]
+
+
+def test_a_model_that_is_not_at_rest_by_then_ends_with_its_ceiling(folder):
+    file = folder / "block.toml"
+    file.write_text(
+        "block.width_m = 0.3\nblock.height_m = 1.8\ninitial.tilt_rad = 0.1\n"
+        'motion.free_vibration_s = "rest"\nmotion.rest_ceiling_s = 0.1\n'
+        + PULSE.replace('"g"', '"mm/s2"')
+    )
+    summary = run(load_case(file), folder / "run", quiet=True)
+    assert summary["outcome"] == STILL_ROCKING
+    assert summary["ended_by"].startswith("motion.rest_ceiling_s = 0.1 s after the motion's end")
 
 
 def test_a_models_own_coordinates_have_the_units_that_the_model_states(folder, monkeypatch):
@@ -188,6 +222,27 @@ def test_the_same_frame_in_bodies_and_as_a_model_is_told_apart_by_the_engine(tmp
     assert summary["engine"] == "wobbling_frame" and summary["u_max_m"] == pytest.approx(
         0.043, rel=0.05
     )
+
+
+def test_what_a_model_passes_over_has_its_keys_checked():
+    block = dict(kind="block", length_m=0.2, width_m=0.2, height_m=1.0)
+    tables = dict(
+        block=dict(width_m=0.2, height_m=1.0),
+        bodies=dict(a=block),
+        joints=dict(foot=dict(between=["a", "floor"])),
+        grounds=dict(floor=dict(kind="plate")),
+        initial=dict(a=dict(tilt_rad=0.1)),
+        integration=dict(engine="housner", duration_s=1.0),
+    )
+    assert case_from_tables(tables).own["block"].width_m == 0.2
+    for change, told in (
+        ({"bodies": {"a": {"nonsense": 1}}}, "bodies.a.nonsense"),
+        ({"grounds": {"floor": {"thickness_m": -1}}}, "grounds.floor.thickness_m"),
+        ({"initial": {"a": {"tilt": 1}}}, "initial.a.tilt"),
+        ({"joints": 5}, "joints = 5"),
+    ):
+        with pytest.raises(InputError, match=told):
+            case_from_tables(merge(tables, change))
 
 
 def test_functions_compiled_from_their_own_file_are_kept_for_the_next_tests(tmp_path, monkeypatch):

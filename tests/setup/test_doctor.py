@@ -2,6 +2,7 @@
 it.
 """
 
+import importlib.util
 import subprocess
 import sys
 from pathlib import Path
@@ -60,6 +61,7 @@ def test_library_that_crashes_does_not_end_the_table(tmp_path):
     report = run_doctor(tmp_path)
     assert report.returncode == 1
     assert "ERROR: Gmsh: ends the process with exit code -9" in report.stdout
+    assert "python -c 'import gmsh'" in report.stdout
     assert any(line.split()[:2] == ["meshio", "5.3.5"] for line in report.stdout.splitlines())
 
 
@@ -78,3 +80,14 @@ def test_numpy_wheel_is_warned_of(tmp_path):
     (tmp_path / "numpy").symlink_to(wheel)
     report = run_doctor(tmp_path)
     assert "warning: numpy: petsc4py was built for Debian's numpy" in report.stdout
+
+
+def test_what_explains_a_crash_is_a_module():
+    for name in doctor.LIBRARIES:
+        module = doctor.MODULES.get(name, name)
+        assert importlib.util.find_spec(module.partition(".")[0]), module
+
+
+def test_a_system_without_its_release_is_unknown(tmp_path, monkeypatch):
+    monkeypatch.setattr(doctor, "OS_RELEASE", tmp_path / "none")
+    assert doctor.look_at_machine()[0].version == "unknown"

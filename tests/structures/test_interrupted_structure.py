@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from small_structures import STONE, stack, structure
 
+from fecolumn.engines.analysis import Analysis
 from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import run
 
@@ -124,3 +125,32 @@ def test_full_order_structure_goes_on_to_the_last_digit(shake, tmp_path):
         (3, 14, 22),
         5e-3,
     )
+
+
+@pytest.mark.parametrize("engine", ["rigid", "full"])
+def test_an_analysis_that_was_killed_at_its_end_ends_as_if_it_had_not_been(
+    engine, tmp_path, monkeypatch
+):
+    """A block that leans beyond its critical tilt; a checkpoint is due after every look."""
+    body = dict(kind="block", length_m=0.2, width_m=0.2, height_m=1.0, element_size_m=0.1) | STONE
+    case = structure(
+        bodies=dict(block=body),
+        joints=dict(foot=dict(between=["block", "ground"])),
+        initial=dict(block=dict(tilt_rad=0.205)),
+        integration=dict(engine=engine, dt_s=1e-3, duration_s=0.3),
+        contact=dict(friction_coefficient=1.0, interior_points=0),
+        output=dict(checkpoint_every_s=1e-9),
+    )
+    whole = run(case, tmp_path / "whole", quiet=True)
+    assert whole["overturned"] and whole["duration_s"] < 0.3
+
+    def killed(*of):
+        raise RuntimeError("killed")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Analysis, "finish", killed)
+        with pytest.raises(RuntimeError, match="killed"):
+            run(case, tmp_path / "run", quiet=True)
+    again = run(case, tmp_path / "run", quiet=True)
+    for key in ("steps", "duration_s", "overturned_at_s", "u_max_m", "ended_by"):
+        assert again[key] == whole[key]

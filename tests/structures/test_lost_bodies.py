@@ -142,3 +142,23 @@ def test_a_wide_slab_beside_another_body_is_not_lost_while_it_may_fall_back(tmp_
     summary = run(case, tmp_path, quiet=True)
     assert not summary["overturned"] and summary["duration_s"] == pytest.approx(1.5)
     assert summary["bodies"]["slab"]["tilt_max_rad"] == pytest.approx(1.3, abs=0.01)
+
+
+def test_the_direction_of_the_fall_is_that_of_the_body_that_fell(tmp_path):
+    """The observed body is the higher one, which leans towards y and stands."""
+    body = dict(kind="block", length_m=0.2, width_m=0.2, element_size_m=0.2) | STONE
+    case = structure(
+        bodies=dict(
+            high=body | dict(height_m=0.8), low=body | dict(height_m=0.6, at_m=[2.0, 0.0, 0.0])
+        ),
+        joints=dict(one=dict(between=["high", "ground"]), other=dict(between=["low", "ground"])),
+        initial=dict(
+            low=dict(tilt_rad=0.5, direction_deg=180.0),
+            high=dict(tilt_rad=0.05, direction_deg=90.0),
+        ),
+        integration=dict(engine="rigid", dt_s=1e-3, duration_s=1.0),
+        contact=dict(interior_points=0),
+    )
+    summary = run(case, tmp_path, quiet=True)
+    assert '"low" has tilted' in summary["ended_by"]
+    assert abs(summary["overturn_direction_deg"]) == pytest.approx(180.0, abs=0.1)

@@ -315,6 +315,19 @@ def test_a_voussoir_may_have_a_material_of_its_own_and_the_case_is_written_so():
     assert len(structure_model(case).parts) == 7
 
 
+def test_a_voussoir_of_another_material_has_the_damping_of_that():
+    case = _arch().replace(
+        {
+            "materials": {"stone": {}, "brick": {"damping_ratio": 0.2}},
+            "bodies.ring.damping_ratio": 0.05,
+            "bodies": {"ring 3": {"material": "brick"}},
+        }
+    )
+    assert case.bodies["ring 3"].damping_ratio is None
+    assert case.bodies["ring 2"].damping_ratio == 0.05
+    assert case_from_tables(full_form(case), "arch.toml") == case
+
+
 def test_a_key_of_a_voussoir_stands_instead_of_those_of_its_arch_that_say_the_same():
     light = _differing(mass_kg=10.0).bodies["ring 3"]
     assert light.mass_kg == 10.0 and light.density_kg_m3 is None

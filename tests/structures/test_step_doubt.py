@@ -26,6 +26,21 @@ def test_landings_a_few_steps_apart_are_told_with_their_error_and_a_step():
     assert step_doubt(_rows(0.08, step), step, 1.0, 100.0, 0.3, True, False) is None
 
 
+def test_landings_a_few_short_steps_apart_are_told_as_those_of_long_ones_are():
+    """At the usual step, too, at which they are nearer than 20 ms."""
+    for every in (4, 8):
+        rows = _rows(every * 1e-3, 1e-3)
+        said = step_doubt(rows, 1e-3, 1.0, 100.0, 0.3, True, False)
+        assert f"less than {every} steps after" in said
+    assert step_doubt(_rows(0.01, 1e-3), 1e-3, 1.0, 100.0, 0.3, True, False) is None
+    # an impact that takes three steps in a row is one landing
+    rows = _rows(0.1, 1e-3)
+    rows["energy/impact"] = -sum(
+        np.floor((rows["time"] - late) / 0.1 + 1e-9) for late in (0.0, 1e-3, 2e-3)
+    )
+    assert step_doubt(rows, 1e-3, 1.0, 100.0, 0.3, True, False) is None
+
+
 def test_impacts_that_take_more_than_rigid_bodies_lose_are_told():
     rows = _rows(0.4, 1e-3)
     assert "impacts took 1.4 of what rigid bodies lose" in step_doubt(

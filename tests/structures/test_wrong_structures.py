@@ -262,7 +262,7 @@ WRONG = [
     (
         stack(overturn=dict(displacement_m=1e-9)),
         "overturn.displacement_m",
-        "must be 0 for none, or at least 1e-06 m",
+        "must be 0 for none, or at least 0.00014 m",
     ),
     (
         stack(overturn=dict(displacement_m=1e-5)),

@@ -15,7 +15,8 @@ import numpy as np
 
 from fecolumn.case.case import Case
 from fecolumn.engines.analysis import Analysis
-from fecolumn.engines.ending import AT_REST, OVERTURNED, STILL_ROCKING, Ending
+from fecolumn.engines.ending import OVERTURNED, Ending
+from fecolumn.engines.followed import first_still, until
 from fecolumn.engines.rocking.body_motion import body_motion
 from fecolumn.engines.rocking.model import STATE_TERMS, ModelResponse
 from fecolumn.engines.rocking.of_bodies import ALONG_X, model_of, start_of
@@ -66,13 +67,11 @@ class ModelAnalysis(Analysis):
     def run(self, stop: Callable[[], bool]) -> dict[str, Any]:
         """The whole response; its summary. `stop` is not asked."""
         dt, initial = float(self.case.integration.dt_s), self.start
-        samples = (
-            np.zeros((2, 3)) if self.motion is None else self.motion.acceleration[: self.steps + 1]
-        )
-        motion = GroundMotion(samples, dt, self.motion.name if self.motion else "", "")
+        motion, free_s = until(self.motion, self.steps, dt)
+        samples = motion.acceleration
         response = self.model.respond(
             motion,
-            free_s=max(0.0, self.steps * dt - motion.duration),
+            free_s=free_s,
             tilt=initial.tilt_rad,
             direction=math.radians(initial.direction_deg),
         )
@@ -151,16 +150,8 @@ class ModelAnalysis(Analysis):
         kinetic, strain, gravity = (response.energy[name] for name in STATE_TERMS)
         energy = kinetic + strain + gravity
         if self.until_rest:
-            still = np.flatnonzero(
-                (energy[:last] <= self.still_j) & (np.arange(last) >= self.motion_steps)
-            )
-            if len(still):
-                end = response.time[still[0]]
-                return int(still[0]) + 1, Ending(
-                    AT_REST,
-                    "at rest "
-                    f"{end - self.motion_steps * float(self.case.integration.dt_s):.3f} s "
-                    f"after the motion's end, at {end:.3f} s",
-                )
-        outcome = AT_REST if energy[last - 1] <= self.still_j else STILL_ROCKING
-        return last, Ending(outcome, f"end of the analysed time, {response.time[last - 1]:.3f} s")
+            still = first_still(energy[:last], self.still_j, self.motion_steps)
+            if still is not None:
+                return still + 1, self.ending_in_time(True, float(response.time[still]))
+        is_still = bool(energy[last - 1] <= self.still_j)
+        return last, self.ending_in_time(is_still, float(response.time[last - 1]))

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from fecolumn.case.case import case_from_tables, case_of_table
 from fecolumn.case.check_case import check_duration
 from fecolumn.case.model_table import Start
-from fecolumn.case.sections import UNTIL_REST, Motion, located
-from fecolumn.engines.rocking.model import Model, ModelResponse
+from fecolumn.case.sections import Motion, located
+from fecolumn.engines.ending import REST_SHARE
+from fecolumn.engines.followed import ends_at_rest, first_still, followed_s, until
+from fecolumn.engines.rocking.model import STATE_TERMS, Model, ModelResponse
 from fecolumn.engines.rocking.models import ROCKING_MODELS
 from fecolumn.engines.rocking.of_bodies import model_of, start_of
 from fecolumn.foundation.schema import InputError, build
@@ -63,37 +63,37 @@ class ModelCase:
     duration_s: float
 
     def response(self, source: str | None = None) -> tuple[GroundMotion, ModelResponse]:
-        """Ground motion and response, to a motion of `sources`, or on a base at rest.
+        """Ground motion and response, to a motion of `sources`, or on a base at rest; as long as
+        that of `fecolumn run`, which ends at rest where the motion says so.
 
         Raises
         ------
         InputError
             the motion cannot be used.
         """
-        dt, duration = self.dt_s, self.duration_s
-        if source is None:
-            ground, free = GroundMotion(np.zeros((2, 3)), dt, "at rest", ""), duration - dt
-        else:
+        loaded = keys = None
+        if source is not None:
             assert self.motion is not None  # of which `source` is
-            ground = load_motion(dataclasses.replace(self.motion, source=source), dt, self.file)
-            # as of Analysis: a step after the last sample, in which the ground comes to rest
-            free = dt + (
-                self.motion.longest_free_vibration_s
-                if self.motion.free_vibration_s != UNTIL_REST
-                else 0.0
-            )
-            if duration:
-                kept = max(2, round(duration / dt) + 1)
-                ground, free = (
-                    GroundMotion(ground.acceleration[:kept], dt, ground.name, ground.source),
-                    max(0.0, duration - ground.duration),
-                )
-        return ground, self.model.respond(
+            keys = dataclasses.replace(self.motion, source=source)
+            loaded = load_motion(keys, self.dt_s, self.file)
+        steps = round(followed_s(loaded, keys, self.duration_s) / self.dt_s)
+        ground, free_s = until(loaded, steps, self.dt_s)
+        response = self.model.respond(
             ground,
-            free_s=free,
+            free_s=free_s,
             tilt=self.start.tilt_rad,
             direction=math.radians(self.start.direction_deg),
         )
+        if response.overturned:
+            return ground, response
+        rows = min(steps + 1, len(response.time))  # a model may follow it for a step more
+        if ends_at_rest(keys, self.duration_s):
+            kinetic, strain, gravity = (response.energy[name] for name in STATE_TERMS)
+            still_j = REST_SHARE * self.model.energy_to_overturn
+            energy = (kinetic + strain + gravity)[:rows]
+            still = first_still(energy, still_j, len(ground.acceleration))
+            rows = rows if still is None else still + 1
+        return ground, response.first(rows)
 
 
 def read_model_case(name: str, path: Path | str) -> ModelCase:

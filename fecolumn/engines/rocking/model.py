@@ -10,7 +10,7 @@ made from a column's case.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
 
@@ -90,6 +90,21 @@ class ModelResponse:
             return OVERTURNED
         left = sum(float(self.energy[name][-1]) for name in STATE_TERMS)
         return AT_REST if left <= REST_SHARE * energy_to_overturn else STILL_ROCKING
+
+    def first(self, rows: int) -> ModelResponse:
+        """The response up to a row; peaks are those of the whole one."""
+        end = float(self.time[rows - 1])
+        return replace(
+            self,
+            time=self.time[:rows],
+            coordinates={name: one[:rows] for name, one in self.coordinates.items()},
+            tilt=self.tilt[:rows],
+            u_top=self.u_top[:rows],
+            impact_times=self.impact_times[self.impact_times <= end],
+            energy={name: one[:rows] for name, one in self.energy.items()},
+            floors=self.floors[:rows],
+            base_force=self.base_force[:rows],
+        )
 
     @property
     def u_max(self) -> float:

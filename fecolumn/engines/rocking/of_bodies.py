@@ -11,8 +11,10 @@ import numpy as np
 from fecolumn.case.bodies import Block, Cylinder, Storeys, Tube
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
+from fecolumn.case.check_way import check_way
+from fecolumn.case.checked import refuse_in
 from fecolumn.case.ground import GROUND_NAME
-from fecolumn.case.joint import Joint
+from fecolumn.case.joint import Joint, own_contact
 from fecolumn.case.model_keys import UNKNOWN_KEYS
 from fecolumn.case.model_table import Start
 from fecolumn.case.sections import Initial
@@ -48,9 +50,17 @@ def model_of(case: Case, file: Path | str) -> Model:
     InputError
         the bodies are not those of the model; it says what they lack.
     """
-    for section in case.own.values():
-        return ROCKING_MODELS[case.integration.engine].of_section(section, file)
-    return _Reader(case, file).model()
+    sections = list(case.own.values())
+    model: Model = (
+        ROCKING_MODELS[case.integration.engine].of_section(sections[0], file)
+        if sections
+        else _Reader(case, file).model()
+    )
+    # a top that leans by the critical tilt has gone its height times the sine of that, nearly
+    if model.critical_tilt > 0:
+        height = model.critical_displacement / math.sin(model.critical_tilt)
+        check_way(case.overturn, height, refuse_in(file))
+    return model
 
 
 def start_of(case: Case, file: Path | str) -> Start:
@@ -178,6 +188,12 @@ class _Reader:
                     f"must be left out where integration.engine = {self.engine!r}: a rigid model "
                     "with an impact law of its own, on flat feet along x and y",
                 )
+        for name, body in self.case.bodies.items():
+            if getattr(body, "fixed", False):
+                told = (
+                    f"must be false where integration.engine = {self.engine!r}, whose bodies move"
+                )
+                self._refuse(f"bodies.{name}.fixed", True, told)
         self._refuse_grounds()
         if self.case.links:
             self._lacks("knows no links: leave them out, or choose the reduced or rigid engine")
@@ -312,6 +328,14 @@ class _Reader:
                 f'needs columns of kind = "block"; "{name}" is a {body.kind}'
                 + ("" if self.engine == "podium" else ": wobbling_frame is the model of round ones")
             )
+        for key in ("flange", "cap"):
+            if plate := getattr(body, key):
+                self._refuse(
+                    f"bodies.{name}.{key}.thickness_m",
+                    plate.thickness_m,
+                    f"must be left out where integration.engine = {self.engine!r}, whose columns "
+                    "are plain blocks",
+                )
         if body.length_m > body.width_m:
             self._lacks(
                 f'rocks along x, where "{name}" must be no longer than wide: '
@@ -359,8 +383,7 @@ class _Reader:
         """Coefficient of friction between a body and the ground."""
         for joint in self.case.joints.values():
             if {name, GROUND_NAME} <= set().union(*self._sides(joint)):
-                stated = joint.friction_coefficient
-                return self.case.contact.friction_coefficient if stated is None else stated
+                return own_contact(joint, self.case.contact).friction_coefficient
         return self.case.contact.friction_coefficient
 
     def _mass(self, name: str) -> float:

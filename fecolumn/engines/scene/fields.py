@@ -4,6 +4,7 @@ file a frame.
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
@@ -61,10 +62,14 @@ class FieldWriter(Generic[_D]):
     ----------
     fields
         what has meshes, of_cells, comm and values as `engines.scene.state_fields.StateFields` has.
+    interval_s
+        least time between frames [s].
     """
 
-    def __init__(self, folder: Path, fields: _D) -> None:
+    def __init__(self, folder: Path, fields: _D, interval_s: float = 1.0) -> None:
         self.folder, self.fields = folder, fields
+        # of the names of frames, which are in microseconds unless these lie nearer
+        self._digits = max(6, math.ceil(-math.log10(interval_s) - 1e-9))
         self._mixed = any(mesh.cells.shape[1] != 8 for mesh in fields.meshes)
         if fields.comm.rank == 0:
             folder.mkdir(parents=True, exist_ok=True)
@@ -96,7 +101,8 @@ class FieldWriter(Generic[_D]):
     def add(self, time: float, values: dict[str, NDArray[Any]] | None) -> None:
         """Add the frame of a time [s] from its `values`, or None of another rank than 0."""
         if values is not None:
-            _write_h5(self.folder / f"frame_{round(time * 1e6):012d}.h5", values)
+            number = f"{round(time * 10**self._digits):0{self._digits + 6}d}"
+            _write_h5(self.folder / f"frame_{number}.h5", values)
             self._write_index()
 
     def _write_index(self) -> None:

@@ -40,9 +40,9 @@ _LOST = {
     "impact": ("impacts", PURPLE, "-"),
     "algorithmic": ("numerical damping (HHT)", SKY, "-."),
     "contact": ("contact between impacts", ORANGE, "--"),
-    "damping": ("damping of modes", BLUE, ":"),
+    "damping": ("damping: modes, pads", BLUE, ":"),
     "rolling": ("rolling resistance", VERMILION, ":"),
-    "links": ("links: yielding, dashpots", BLACK, "-."),
+    "links": ("links and bonds", BLACK, "-."),
 }
 _CLOSURE = {"closure": ("closure error", BLACK, "-")}
 _NIL = 1e-6  # share of the largest term of a panel below which a term is left out

@@ -78,12 +78,16 @@ class EndingMark:
         does not tell.
     outline
         of the specimen; None where the case does not tell.
+    u_max_m
+        largest displacement of the top over all steps [m], of which the history may have fewer;
+        None where the summary does not tell.
     """
 
     words: str
     lost: bool
     u_critical_m: float | None
     outline: Outline | None
+    u_max_m: float | None = None
 
 
 def read_ending(folder: Path) -> EndingMark:
@@ -102,5 +106,9 @@ def read_ending(folder: Path) -> EndingMark:
         outline = None
     words = summary.get("outcome") or ("overturned" if overturned else "end")
     return EndingMark(
-        words, overturned or words == "slid off", summary.get("u_critical_m"), outline
+        words,
+        overturned or words == "slid off",
+        summary.get("u_critical_m"),
+        outline,
+        summary.get("u_max_m"),
     )

@@ -90,21 +90,25 @@ def ground_panel(axes: Axes, time: NDArray[Any], ground: NDArray[Any]) -> None:
 def _magnitude(
     axes: Axes, history: HistoryCurves, ending: EndingMark, magnitude: NDArray[Any]
 ) -> None:
-    peak = int(np.argmax(magnitude))
+    # what is lost goes on: it is marked where it stopped
+    marked = len(magnitude) - 1 if ending.lost else int(np.argmax(magnitude))
+    shown = magnitude[marked]
+    if not ending.lost and ending.u_max_m is not None:
+        shown = 1e3 * ending.u_max_m
     axes.plot(history.time, magnitude, color=BLACK, label=r"$|u| = \sqrt{u_x^2 + u_y^2}$")
     word = f"{ending.words}, stopped at" if ending.lost else r"$u_{\max}$ ="
     axes.plot(
-        history.time[peak],
-        magnitude[peak],
+        history.time[marked],
+        magnitude[marked],
         "X" if ending.lost else "o",
         color=VERMILION,
         markersize=4.5,
         clip_on=False,
         linestyle="none",
-        label=f"{word} {magnitude[peak]:.3g} mm\n{history.time[peak]:.3g} s, tilt "
-        f"{np.degrees(history.tilt[peak]):.2g}°",
+        label=f"{word} {shown:.4g} mm\n{history.time[marked]:.3g} s, tilt "
+        f"{np.degrees(history.tilt[marked]):.2g}°",
     )
-    top, critical = magnitude[peak], 1e3 * (ending.u_critical_m or 0)
+    top, critical = magnitude.max(), 1e3 * (ending.u_critical_m or 0)
     if critical:
         words = f"critical, $u_c$ = {critical:.3g} mm"
         if top > _NEAR * critical:

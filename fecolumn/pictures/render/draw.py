@@ -150,6 +150,7 @@ def _pictures(
                 draft / "sequence",
                 legend=sequence.legend,
             )
+        digits = digits_of([frame.time for frame in drawn])
         size = still_size(natural, _DPI, frames.coloured)
         with scene(size) as still:
             for frame in drawn:
@@ -158,11 +159,18 @@ def _pictures(
                     frame,
                     still.image(frame),
                     _DPI,
-                    draft / f"still_{frame.time:.3f}s",
+                    draft / f"still_{frame.time:.{digits}f}s",
                     legend=still.legend,
                 )
         names = sorted(file.name for file in draft.iterdir())
     return [target / name for name in names]
+
+
+def digits_of(times: list[float]) -> int:
+    """Digits after the point that tell times [s] apart, three at least."""
+    apart = {float(time) for time in times}
+    told = (n for n in range(3, 16) if len({f"{time:.{n}f}" for time in apart}) == len(apart))
+    return next(told, 16)
 
 
 def _movie(

@@ -117,7 +117,8 @@ def write_fields(
     """Write the fields of all states into a folder, as `engines.scene.fields.FieldWriter` does."""
     from fecolumn.engines.scene.fields import FieldWriter
 
-    writer = FieldWriter(folder, frames.drawn)
+    apart = float(np.diff(frames.time).min()) if len(frames.time) > 1 else 1.0
+    writer = FieldWriter(folder, frames.drawn, apart)
     for k, time in enumerate(frames.time):
         writer.add(time, frames.values(k))
         tell(k + 1)

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from typing import Any
 
-from fecolumn.foundation.paths import absolute, taken_over
+from fecolumn.foundation.paths import absolute, names_record, taken_over
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.toml_file import merge, nested, read_toml
 from fecolumn.motions.chosen import chosen_motions
@@ -35,7 +35,7 @@ def motion_sources(texts: list[str], command: str) -> list[str]:
         found += chosen_motions(source, "--motions", command)
     for source in found:
         file = source.partition("#")[0]
-        if ":" not in source and not Path(file).is_file():
+        if not names_record(source) and not Path(file).is_file():
             raise InputError(command, "--motions", source, "no such file")
     found = list(dict.fromkeys(found))
     if len(found) < FEWEST_MOTIONS:

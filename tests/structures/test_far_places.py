@@ -1,0 +1,46 @@
+"""Survey coordinates: how far from the origin bodies may be."""
+
+import warnings
+
+import pytest
+from small_structures import structure
+
+from fecolumn.simulation import run
+from fecolumn.structures.structure import structure_model
+
+
+def released(size, at, engine="rigid"):
+    """A block, let go from a tilt."""
+    side = 0.2 * size
+    block = dict(kind="block", length_m=side, width_m=side, height_m=3 * side)
+    block |= dict(element_size_m=side / 2, at_m=[at, at, 0.0])
+    return structure(
+        bodies=dict(block=block),
+        joints=dict(foot=dict(between=["block", "ground"])),
+        initial=dict(block=dict(tilt_rad=0.1)),
+        integration=dict(engine=engine, duration_s=0.02, dt_s=1e-3 * size**0.5),
+        contact=dict(interior_points=0),
+    )
+
+
+@pytest.mark.parametrize(
+    "size, at, engine, farthest",
+    [
+        (0.1, 1e3, "rigid", "9e+02 m"),
+        (0.001, 10.0, "reduced", "9 m"),
+        (1.0, 1e3, "full", "46 m"),
+        (0.1, 2.0, "full", "0.46 m"),
+    ],
+)
+def test_a_body_too_far_away_is_warned_of_with_its_limit(size, at, engine, farthest):
+    with pytest.warns(UserWarning, match=f'"block" is .* it may be {farthest}'.replace("+", r"\+")):
+        structure_model(released(size, at, engine))
+
+
+@pytest.mark.parametrize("size, at, engine", [(0.1, 800.0, "rigid"), (1.0, 40.0, "full")])
+def test_within_it_nothing_is_said_and_it_moves_as_at_the_origin(size, at, engine, tmp_path):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        far = run(released(size, at, engine), tmp_path / "far", quiet=True)
+        near = run(released(size, 0.0, engine), tmp_path / "near", quiet=True)
+    assert far["u_max_m"] == pytest.approx(near["u_max_m"], rel=1e-6)
