@@ -16,7 +16,6 @@ from fecolumn.case.sections import (
     FULL_ORDER_KEYS,
     MOST_STEPS,
     UNTIL_REST,
-    Contact,
     Motion,
 )
 from fecolumn.foundation.schema import (
@@ -127,24 +126,8 @@ def check(case: CheckedCase, file: Path | str) -> None:
             )
     check_grounds(case, refuse)
     check_rolling(case, refuse)
-    _check_penalty(case, refuse)
     check_found(case, refuse, lambda key, name: _check_name(case, key, name, refuse, ground=False))
     _check_integration(case, refuse)
-
-
-def _check_penalty(case: CheckedCase, refuse: Refuse) -> None:
-    """Refuse stiffnesses of a contact law that is not chosen."""
-    laws = {name: own_contact(joint, case.contact).law for name, joint in case.joints.items()}
-    for name, joint in case.joints.items():
-        if joint.penalty_factor is not None and laws[name] != "penalty":
-            refuse(
-                f"joints.{name}.penalty_factor",
-                joint.penalty_factor,
-                f'says nothing without joints.{name}.law = "penalty" or that of [contact]',
-            )
-    value = case.contact.penalty_factor
-    if value != Contact().penalty_factor and "penalty" not in laws.values():
-        refuse("contact.penalty_factor", value, 'says nothing without contact.law = "penalty"')
 
 
 def _check_name(

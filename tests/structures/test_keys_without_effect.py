@@ -97,14 +97,6 @@ def on_pad(**tables):
             "bodies.block.cap.width_m = 0.3: must be at least outer_diameter_m = 0.4 m",
         ),
         (
-            lambda: one(contact=dict(penalty_factor=5.0)),
-            "contact.penalty_factor = 5.0: says nothing without contact.law",
-        ),
-        (
-            lambda: one(joint=dict(penalty_factor=5.0)),
-            "joints.foot.penalty_factor = 5.0: says nothing without joints.foot.law",
-        ),
-        (
             lambda: one(motion=SHAKEN | dict(rest_ceiling_s=5.0)),
             "motion.rest_ceiling_s = 5.0: says nothing without motion.free_vibration_s",
         ),
@@ -132,3 +124,8 @@ def test_what_has_an_effect_is_taken():
     assert one(motion=until_rest, integration=dict(duration_s=0.0)).motion.rest_ceiling_s == 5.0
     motion = SHAKEN | dict(free_vibration_s=1.0)
     assert one(motion=SHAKEN, grounds=dict(ground=dict(motion=motion))).motions
+
+
+def test_a_study_of_the_laws_of_contact_may_state_the_stiffness_of_one():
+    for law in ("augmented_lagrange", "penalty"):
+        assert one(contact=dict(penalty_factor=5.0, law=law)).contact.law == law
