@@ -6,15 +6,16 @@ from fecolumn.case.check_motion import check_strong_part
 from fecolumn.case.checked import CheckedCase, Refuse
 from fecolumn.case.ground import Ground
 from fecolumn.case.joint import Joint
-from fecolumn.case.sections import Motion
 
 # Sizes of a plate or layer
 _SIZES = ("thickness_m", "slide_allowance_m", "element_size_m", "coarse_size_m")
 #: Keys that say something of some kinds of ground alone, and these.
 OF_KINDS = {
     **dict.fromkeys(("length_m", "width_m"), ("plate",)),
+    **dict.fromkeys(_SIZES, ("plate", "unbounded")),
+    # of a pad as well, where they say nothing: so that a study may go through the kinds of ground
     **dict.fromkeys(
-        (*_SIZES, "youngs_modulus_pa", "poissons_ratio", "density_kg_m3"), ("plate", "unbounded")
+        ("youngs_modulus_pa", "poissons_ratio", "density_kg_m3"), ("plate", "unbounded", "pad")
     ),
     **dict.fromkeys(
         ("stiffness_n_m3", "shear_stiffness_n_m3", "damping_ratio", "yield_pa"), ("pad",)
@@ -22,8 +23,6 @@ OF_KINDS = {
 }
 #: Those of them that a short form has of its own accord
 SIZES = ("length_m", "width_m", *_SIZES)
-# Keys of [motion] that are of the whole analysis
-_OF_ANALYSIS = "free_vibration_s", "rest_ceiling_s"
 # Keys of impacts, and why they are 0 on a pad
 _OF_IMPACTS = "restitution", "rolling_resistance"
 _INSTEAD = "on a pad, whose springs take the place of impacts"
@@ -80,9 +79,6 @@ def _check_keys(case: CheckedCase, key: str, ground: Ground, refuse: Refuse) -> 
         )
     if ground.motion and case.motion is None:
         refuse(f"{key}.motion", None, "needs a table [motion] as well, that of the other grounds")
-    for one in _OF_ANALYSIS if ground.motion else ():
-        if (value := getattr(ground.motion, one)) != getattr(Motion(""), one):
-            refuse(f"{key}.motion.{one}", value, f"has no effect: motion.{one} is of all grounds")
     if ground.motion:
         check_strong_part(ground.motion, f"{key}.motion", refuse)
 

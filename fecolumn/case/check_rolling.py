@@ -10,11 +10,13 @@ _TOLD = "must be 0 for a block: only a round foot rolls"
 
 def check_rolling(case: CheckedCase, refuse: Refuse) -> None:
     """Refuse the rolling resistance of joints neither of whose bodies can have a round rim."""
+    if case.contact.between:  # of which check_found says more
+        return
     rolling = {name: _may_roll(case, joint.between) for name, joint in case.joints.items()}
     for name, joint in case.joints.items():
         if joint.rolling_resistance and not rolling[name]:
             refuse(f"joints.{name}.rolling_resistance", joint.rolling_resistance, _TOLD)
-    if rolling and not any(rolling.values()) and not case.contact.between:
+    if rolling and not any(rolling.values()):
         if value := case.contact.rolling_resistance:
             refuse("contact.rolling_resistance", value, _TOLD)
 

@@ -33,31 +33,9 @@ def on_pad(**tables):
     [
         (
             lambda: one(grounds=dict(ground=dict(youngs_modulus_pa=3e10))),
-            r"grounds.ground.youngs_modulus_pa = 3.*is of a ground of kind plate or unbounded",
-        ),
-        (
-            lambda: one(grounds=dict(ground=PAD | dict(poissons_ratio=0.0))),
-            "grounds.ground.poissons_ratio = 0.0",
-        ),
-        (
-            lambda: short(base=PAD | dict(density_kg_m3=2000.0)),
-            r"base.density_kg_m3 = 2000.0: .*; base.kind = 'pad' has none",
+            r"grounds.ground.youngs_modulus_pa = 3.*is of a ground of kind plate or unbounded or",
         ),
         (lambda: short(base=dict(stiffness_n_m3=1e8)), r"is of a pad; base.kind = 'plate'"),
-        (
-            lambda: one(
-                motion=SHAKEN,
-                grounds=dict(ground=dict(motion=SHAKEN | dict(free_vibration_s=5.0))),
-            ),
-            "grounds.ground.motion.free_vibration_s = 5.0: has no effect",
-        ),
-        (
-            lambda: one(
-                motion=SHAKEN,
-                grounds=dict(ground=dict(motion=SHAKEN | dict(rest_ceiling_s=5.0))),
-            ),
-            "grounds.ground.motion.rest_ceiling_s = 5.0: has no effect",
-        ),
         (lambda: one(contact=dict(rolling_resistance=1e-3)), "contact.rolling_resistance = 0.001"),
         (
             lambda: one(joint=dict(rolling_resistance=1e-3)),
