@@ -33,6 +33,7 @@ __all__ = [
     "logit",
     "log_columns",
     "median_of",
+    "exp_or_inf",
 ]
 
 # Logarithm that exp turns into a number: doubles end at exp(709.8)
@@ -102,8 +103,8 @@ class Fragility:
             return 0.0, math.inf
         # z^2 <= v + 2 c z + w z^2, of z = ln(end / median) / beta
         root, reach = math.sqrt(square), self.beta * v
-        low = self.median * _exp(-reach / (root + c)) if root + c > 0 else 0.0
-        high = self.median * _exp(reach / (root - c)) if root - c > 0 else math.inf
+        low = self.median * exp_or_inf(-reach / (root + c)) if root + c > 0 else 0.0
+        high = self.median * exp_or_inf(reach / (root - c)) if root - c > 0 else math.inf
         return low, high
 
     def beta_interval(self, confidence: float = 0.95) -> tuple[float, float]:
@@ -210,7 +211,7 @@ def _noun(event: str) -> str:
     return "overturning" if event == OVERTURN else event
 
 
-def _exp(x: float) -> float:
+def exp_or_inf(x: float) -> float:
     """exp, inf beyond the largest number."""
     return math.exp(x) if x < _LARGEST_LOG else math.inf
 

@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import log_ndtr
 
 from fecolumn.statistics.binary_regression import DegenerateData, maximize
-from fecolumn.statistics.fragility import Fragility, median_of
+from fecolumn.statistics.fragility import Fragility, exp_or_inf, median_of
 from fecolumn.statistics.records import Records, record_numbers
 
 FRACTILES = (0.16, 0.5, 0.84)
@@ -100,8 +100,7 @@ class FirstOverturning(Fragility):
         return self._around(self.beta, math.sqrt(self.covariance[1, 1]) / self.beta, confidence)
 
     def _around(self, value: float, error: float, confidence: float) -> tuple[float, float]:
-        with np.errstate(over="ignore"):
-            reach = float(np.exp(self.quantile(confidence) * error))
+        reach = exp_or_inf(self.quantile(confidence) * error)
         return value / reach, value * reach
 
 

@@ -23,7 +23,6 @@ from fecolumn.study.setting_pairs import (
     setting_name,
 )
 from fecolumn.study.setting_rows import SettingRows, rows_by_setting
-from fecolumn.study.store import DONE
 from fecolumn.study.substeps import SettingTables, substeps_note
 
 _FEW = 5  # records below which nothing is said of P(overturn)
@@ -73,17 +72,12 @@ def settings_of(plan: Plan, rows: list[dict[str, Any]]) -> list[SettingTables]:
     """Axis values and, by motion, the summary of what is done, of each setting with anything
     done.
     """
-    states = {row["id"]: row for row in rows}
-    groups: dict[tuple[Any, ...], SettingTables] = {}
-    for analysis in plan.analyses:
-        row = states.get(analysis.id)
-        if row and row["state"] == DONE:
-            motion = member_of(analysis.values)
-            _, runs = groups.setdefault(
-                tuple(map(repr, analysis.combination.values())), (analysis.combination, {})
-            )
-            runs[motion] = row["summary"]
-    return list(groups.values())
+    motions = {analysis.id: member_of(analysis.values) for analysis in plan.analyses}
+    return [
+        (one.values, {motions[row["id"]]: row["summary"] for row in one.done})
+        for one in rows_by_setting(plan, rows)
+        if one.done
+    ]
 
 
 def _failures(failed: list[SettingRows]) -> str:

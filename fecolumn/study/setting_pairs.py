@@ -5,6 +5,7 @@ far their distributions are apart.
 from __future__ import annotations
 
 import itertools
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -99,11 +100,11 @@ def pairs_of(
     lines than that, of lines of all axes in turn (`pair_count` has the number of all).
     """
     lines = setting_lines(settings)
-    chosen = [(axes, *two) for axes, line in lines for two in itertools.combinations(line, 2)]
-    if len(chosen) > MOST_PAIRS:
-        chosen = [(axes, line[0], line[-1]) for axes, line in _in_turn(lines)][:MOST_PAIRS]
+    chosen = chosen_pairs([(axes, len(line)) for axes, line in lines], MOST_PAIRS)
     found = []
-    for axes, (first, runs_a), (second, runs_b) in chosen:
+    for place, low, high in chosen:
+        axes, line = lines[place]
+        (first, runs_a), (second, runs_b) = line[low], line[high]
         common = [motion for motion in runs_a if motion in runs_b]
         own = [records[motion] for motion in common]
         count = record_count(own, len(own))
@@ -136,13 +137,29 @@ def pair_count(settings: list[SettingTables]) -> int:
     return sum(len(line) * (len(line) - 1) // 2 for _, line in setting_lines(settings))
 
 
-def _in_turn(lines: list[SettingLine]) -> list[SettingLine]:
-    """Lines, of each group of axes one after the other."""
-    groups: dict[tuple[str, ...], list[SettingLine]] = {}
-    for line in lines:
-        groups.setdefault(line[0], []).append(line)
-    turns = itertools.zip_longest(*groups.values())
-    return [line for turn in turns for line in turn if line is not None]
+def chosen_pairs(lines: Sequence[tuple[Hashable, int]], most: int) -> list[tuple[int, int, int]]:
+    """Place of a line and of two of its settings, of all pairs of settings on a line; where these
+    are more than `most`, of the first and the last of each line, and of so many lines, taken from
+    all axes in turn.
+
+    Parameters
+    ----------
+    lines
+        of each what varies along it, and how many settings it has.
+    """
+    pairs = [
+        (place, *two)
+        for place, (_, number) in enumerate(lines)
+        for two in itertools.combinations(range(number), 2)
+    ]
+    if len(pairs) <= most:
+        return pairs
+    of_axes: dict[Hashable, list[int]] = {}
+    for place, (axes, _) in enumerate(lines):
+        of_axes.setdefault(axes, []).append(place)
+    turns = itertools.zip_longest(*of_axes.values())
+    places = [place for turn in turns for place in turn if place is not None][:most]
+    return [(place, 0, lines[place][1] - 1) for place in sorted(places)]
 
 
 def _peak(summary: dict[str, Any]) -> float:

@@ -4,7 +4,6 @@ motion.
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,8 +14,9 @@ from fecolumn.statistics.equivalence import distance_bound
 from fecolumn.statistics.holm import holm
 from fecolumn.study.alpha import ALPHA_KEY
 from fecolumn.study.report.sweep import DT_KEY, FINE_DT_S, Line, Sweep
+from fecolumn.study.setting_pairs import chosen_pairs
 
-_MOST = 240  # beyond it only the extreme levels of each line are compared
+_MOST = 240  # beyond it only the extreme levels of each line are compared, axes in turn
 _LEAST_MOTIONS = 2
 FINE_STEPS, WITH_COARSE_STEP = "time steps of 1 ms and below", "with a time step above 1 ms"
 
@@ -66,15 +66,10 @@ def read_pairs(sweep: Sweep) -> list[ComparedPair]:
     line.
     """
     lines = [line for axis in sweep.leading for line in sweep.lines(axis)]
-    spans = [
-        (line, low, high)
-        for line in lines
-        for low, high in itertools.combinations(range(len(line.settings)), 2)
-    ]
-    if len(spans) > _MOST:
-        spans = [(line, 0, len(line.settings) - 1) for line in lines][:_MOST]
+    chosen = chosen_pairs([(line.axis, len(line.settings)) for line in lines], _MOST)
     found = []
-    for line, low, high in spans:
+    for place, low, high in chosen:
+        line = lines[place]
         whole = Line(line.axis, line.others, (line.settings[low], line.settings[high]))
         if len(whole.motions()) < _LEAST_MOTIONS:
             continue
