@@ -33,7 +33,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run a command; returns 0, 1 where an analysis failed, 2 where the input is refused, 130 after
     Ctrl-C or SIGTERM.
     """
-    from fecolumn.foundation.interrupt import termination_as_interrupt
+    from fecolumn.foundation.interrupt import forget_interrupt, termination_as_interrupt
 
     arguments = list(sys.argv[1:] if argv is None else argv)
     with termination_as_interrupt():
@@ -46,6 +46,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         except KeyboardInterrupt:  # outside of what a command does
             print(f"fecolumn: {_AGAIN}", file=sys.stderr)
             return 130
+        finally:
+            forget_interrupt()
 
 
 def _answer(args: argparse.Namespace) -> int:

@@ -27,6 +27,16 @@ def termination_as_interrupt() -> Iterator[None]:
         signal.signal(signal.SIGTERM, earlier)
 
 
+def forget_interrupt() -> None:
+    """Let a command that has caught its interrupt end with an exit code of its own.
+
+    CPython (3.11 to 3.13) remembers a KeyboardInterrupt that left an `exec` of text, as modules do
+    while they are imported, even where it is caught later: `python -m` then ends by SIGINT and no
+    exit code. The next `exec` of text forgets it (Python/pythonrun.c, run_eval_code_obj).
+    """
+    exec("")  # noqa: S102
+
+
 @contextlib.contextmanager
 def held_interrupts() -> Iterator[Callable[[], bool]]:
     """Function that tells whether SIGINT or SIGTERM has come; a second SIGINT interrupts at once.

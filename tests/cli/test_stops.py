@@ -4,6 +4,7 @@ with it.
 
 import argparse
 import multiprocessing
+import os
 import signal
 import subprocess
 import sys
@@ -49,6 +50,28 @@ def test_termination_has_the_exit_code_of_a_stop(tmp_path, words, said):
     _, told = process.communicate(timeout=120)
     assert (process.returncode, told) == (130, f"fecolumn: {said}\n")
     assert not list(tmp_path.iterdir())
+
+
+def test_an_interrupt_within_text_that_is_executed_has_the_exit_code_of_a_stop(tmp_path):
+    # as modules do while they are imported; Python would end by the signal
+    (tmp_path / "interrupted.py").write_text(
+        "import sys\n"
+        "from fecolumn import cli\n"
+        "cli._parser = lambda: exec('raise KeyboardInterrupt')\n"
+        "sys.exit(cli.main(['keys']))\n"
+    )
+    paths = os.pathsep.join([str(tmp_path), *sys.path])
+    done = subprocess.run(
+        [sys.executable, "-m", "interrupted"],
+        env=os.environ | {"PYTHONPATH": paths},
+        stderr=subprocess.PIPE,
+        text=True,
+        timeout=120,
+    )
+    assert (done.returncode, done.stderr) == (
+        130,
+        "fecolumn: stopped; run the same command again\n",
+    )
 
 
 def test_termination_is_an_interrupt_and_then_what_it_was():
