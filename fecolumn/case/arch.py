@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ from fecolumn.case.bodies import Arch, Prism
 from fecolumn.case.body_keys import Placed, Solid
 from fecolumn.case.check_bodies import check_arch
 from fecolumn.case.checked import refuse_in
-from fecolumn.foundation.schema import build
+from fecolumn.foundation.schema import Section, build
 
 #: Keys that a voussoir may have of its own
 _OWN = tuple(one.name for one in dataclasses.fields(Solid) if one.name not in ("at_m", "copies_m"))
@@ -93,7 +94,29 @@ def differing(body: Prism, own: dict[str, Any]) -> Prism:
     return dataclasses.replace(body, **cleared, **own)
 
 
-def own_keys(body: Placed | None, made: Prism) -> dict[str, Any] | None:
+def with_arches(
+    bodies: Mapping[str, Placed], arches: Mapping[str, Arch]
+) -> dict[str, Section | dict[str, Any]]:
+    """Bodies of a case with an arch in the place of its voussoirs, where they are still those of
+    it, and after it the keys of voussoirs that have some of their own: undoes `with_voussoirs`.
+    """
+    found: dict[str, Section | dict[str, Any]] = dict(bodies)
+    for name, arch in arches.items():
+        made = voussoirs(name, arch)
+        own = {key: _own_keys(bodies.get(key), body) for key, body in made.items()}
+        if None in own.values():
+            continue
+        stated = {key: table for key, table in own.items() if table}
+        first, before, found = next(iter(made)), found, {}
+        for key, body in before.items():
+            if key == first:
+                found |= {name: arch, **stated}
+            elif key not in made:
+                found[key] = body
+    return found
+
+
+def _own_keys(body: Placed | None, made: Prism) -> dict[str, Any] | None:
     """Keys in which a body differs from a voussoir of its arch; None where it is not one."""
     keys = [key for key in _OWN if getattr(body, key, None) != getattr(made, key)]
     own = {key: getattr(body, key) for key in keys if getattr(body, key, None) is not None}

@@ -16,11 +16,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from fecolumn.case.arch import own_keys, voussoirs
+from fecolumn.case.arch import with_arches
 from fecolumn.case.bodies import Arch
 from fecolumn.case.body_keys import Placed
-from fecolumn.case.case_tables import COMMON, NAMED, of_this_version
+from fecolumn.case.case_tables import COMMON, NAMED
 from fecolumn.case.case_text import case_text, toml_of
+from fecolumn.case.changes import changed_tables
 from fecolumn.case.check_case import check
 from fecolumn.case.given import NUMBERED, as_of_file
 from fecolumn.case.ground import GROUND_NAME, Ground
@@ -43,7 +44,7 @@ from fecolumn.case.short_form import SECTIONS_ALIKE, ShortForm
 from fecolumn.foundation.content import content
 from fecolumn.foundation.paths import OF_BODIES as FILES
 from fecolumn.foundation.schema import InputError, Section, a_section, table_of
-from fecolumn.foundation.toml_file import merge, nested, read_toml, stated
+from fecolumn.foundation.toml_file import read_toml, stated
 
 # of which no number depends
 _IDLE = ("output", "mesh")
@@ -318,38 +319,8 @@ class Case:
         InputError
             unknown key, value out of range, parts that do not fit.
         """
-        changes = {
-            of_this_version(key): one for key, one in {**(changes or {}), **sections}.items()
-        }
-        full = any(_is_full(key, value) for key, value in changes.items())
-        tables = self.short.tables(opened=True) if self.short and not full else self.tables()
-        for key, value in changes.items():
-            if value is None:
-                self._remove(tables, key)
-            else:
-                tables = merge(tables, nested(key, value))
+        tables = changed_tables(self, {**(changes or {}), **sections})
         return case_from_tables(stated(tables), "case")
-
-    def _remove(self, tables: dict[str, Any], key: str) -> None:
-        """Take a dotted key out of tables of the case; one that may be left out may be so already.
-
-        Raises
-        ------
-        InputError
-            no such key.
-        """
-        *outer, last = key.split(".")
-        section: Any = self.short if tables.keys() & {"column"} else self
-        for word in outer:
-            tables[word] = dict(found) if isinstance(found := tables.get(word), dict) else {}
-            tables = tables[word]
-            inner = section.get(word) if isinstance(section, Mapping) else None
-            section = inner or getattr(section, word, None)
-        is_section = dataclasses.is_dataclass(section)
-        known = [one.name for one in dataclasses.fields(section)] if is_section else []
-        if last not in tables and last not in known:
-            raise InputError("case", key, None, "no such key, which could be removed")
-        tables.pop(last, None)
 
     def tables(self, *, defaults: bool = True, arches: bool = True) -> dict[str, Any]:
         """The case as the tables of its file, in the full form, with keys at their `defaults` or
@@ -361,7 +332,7 @@ class Case:
         for one in dataclasses.fields(self):
             value = getattr(self, one.name)
             if one.name == "bodies" and arches:
-                value = self._with_arches()
+                value = with_arches(self.bodies, self.arches)
             if one.name in NAMED:
                 value = {
                     key: section if isinstance(section, dict) else table_of(section, defaults)
@@ -373,38 +344,20 @@ class Case:
                 found[one.name] = value
         return found
 
-    def _with_arches(self) -> dict[str, Any]:
-        """Bodies with an arch in the place of its voussoirs, where they are still those of it, and
-        after it the keys of voussoirs that have some of their own.
-        """
-        found: dict[str, Any] = dict(self.bodies)
-        for name, arch in self.arches.items():
-            made = voussoirs(name, arch)
-            own = {key: own_keys(found.get(key), body) for key, body in made.items()}
-            if None not in own.values():
-                own = {key: table for key, table in own.items() if table}
-                first, before, found = next(iter(made)), found, {}
-                for key, body in before.items():
-                    if key == first:
-                        found |= {name: arch} | own
-                    elif key not in made:
-                        found[key] = body
-        return found
-
     def _tables_of_model(self, defaults: bool) -> dict[str, Any]:
         """As `tables`, of a case with a rocking model's own table."""
-        ((name, section),) = self.own.items()
-        start = self.initial[name]
-        sections = {
-            name: section,
+        from fecolumn.case.model_table import Start, tables_of_model
+
+        ((name, model),) = self.own.items()
+        at_start = self.initial[name]
+        sections: dict[str, Section | None] = {
             "integration": self.integration,
             "overturn": self.overturn,
             "output": self.output,
-        } | ({"motion": self.motion} if self.motion else {})
-        found = {key: table_of(one, defaults) for key, one in sections.items()}
-        tilt = {"tilt_rad": start.tilt_rad, "direction_deg": start.direction_deg}
-        found["initial"] = {key: value for key, value in tilt.items() if value or defaults}
-        return found | ({"title": self.title} if self.title else {})
+            "motion": self.motion,
+            "initial": Start(tilt_rad=at_start.tilt_rad, direction_deg=at_start.direction_deg),
+        }
+        return tables_of_model(model, sections, self.title, defaults)
 
     def to_toml(self, *, full: bool = False, defaults: bool = False) -> str:
         """Text of a TOML file of this case, in the form that it was stated in.
@@ -421,18 +374,6 @@ class Case:
     def as_stated(self) -> dict[str, Any]:
         """The case as the tables of its file, in the form that it was stated in."""
         return self.short.tables() if self.short else self.tables()
-
-
-def _is_full(key: str, value: object) -> bool:
-    """Whether a dotted key, or a table of this name, is of the full form alone."""
-    first, _, rest = key.partition(".")
-    if first == "initial":
-        return (
-            "." in rest
-            or isinstance(value, dict)
-            and any(isinstance(v, dict) for v in value.values())
-        )
-    return first in NAMED or first == "observed"
 
 
 def case_from_tables(tables: dict[str, Any], file: Path | str = "case") -> Case:

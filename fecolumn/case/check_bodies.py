@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Mapping
 
@@ -26,10 +25,10 @@ from fecolumn.case.check_thin import check_thin
 from fecolumn.case.checked import Refuse
 from fecolumn.case.polygon import crossing, signed_area
 from fecolumn.case.sections import Material
-from fecolumn.foundation.schema import meant
+from fecolumn.foundation.schema import meant, parameter_of
 
 # Modes of Rayleigh's damping that are left out
-_MODES = next(one.default for one in dataclasses.fields(Storeys) if one.name == "rayleigh_modes")
+_MODES = parameter_of(Storeys, "rayleigh_modes").default
 # Of the square of a polygon's longest side: less area is none
 _FLAT = 1e-9
 

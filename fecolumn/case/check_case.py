@@ -21,6 +21,7 @@ from fecolumn.case.sections import (
 from fecolumn.foundation.schema import (
     InputError,
     meant,
+    parameter_of,
 )
 
 
@@ -191,9 +192,8 @@ def _check_integration(case: CheckedCase, refuse: Refuse) -> None:
         )
     if case.motion:
         check_strong_part(case.motion, "motion", refuse)
-        if (value := case.motion.rest_ceiling_s) != Motion(
-            ""
-        ).rest_ceiling_s and case.motion.free_vibration_s != UNTIL_REST:
+        value, default = case.motion.rest_ceiling_s, parameter_of(Motion, "rest_ceiling_s").default
+        if value != default and case.motion.free_vibration_s != UNTIL_REST:
             told = f'says nothing without motion.free_vibration_s = "{UNTIL_REST}"'
             refuse("motion.rest_ceiling_s", value, told)
 

@@ -164,7 +164,7 @@ def fields_of_table(
 
 
 def tables_of_model(
-    model: Section, sections: dict[str, Section | None], title: str
+    model: Section, sections: dict[str, Section | None], title: str, defaults: bool = False
 ) -> dict[str, Any]:
     """Tables of the file of a rocking model's case.
 
@@ -174,6 +174,8 @@ def tables_of_model(
         the model's own table, such as a FrameModel.
     sections
         by names of _COMMON, None where its defaults are meant.
+    defaults
+        whether keys at their defaults are stated.
 
     Raises
     ------
@@ -194,8 +196,8 @@ def tables_of_model(
         if one is not None and not isinstance(one, Section):
             raise InputError("case", name, one, f"must be a {name.capitalize()}")
     found = {
-        tables[type(model)]: table_of(model, False),
-        **{name: table_of(one, False) for name, one in sections.items() if one is not None},
+        tables[type(model)]: table_of(model, defaults),
+        **{name: table_of(one, defaults) for name, one in sections.items() if one is not None},
     }
     return found | ({"title": title} if title else {})
 

@@ -314,7 +314,8 @@ class Motion(Section):
     )
     free_vibration_s: float | str = parameter(
         1.0,
-        doc='time analysed after the end of the motion; "rest": until the column is at rest',
+        doc='time analysed after the end of the motion; "rest": until all bodies are at rest; '
+        "of a ground's own motion it has no effect",
         unit="s",
         low=0,
         high=1e4,
@@ -322,7 +323,8 @@ class Motion(Section):
     )
     rest_ceiling_s: float = parameter(
         60.0,
-        doc='longest time analysed after the end of the motion where free_vibration_s = "rest"',
+        doc='longest time analysed after the end of the motion where free_vibration_s = "rest"; '
+        "of a ground's own motion it has no effect",
         unit="s",
         above=0,
         high=1e5,

@@ -14,6 +14,7 @@ import numpy as np
 from fecolumn.case.sections import POINTS_OF_SEVERAL, Integration
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.progress import clock
+from fecolumn.foundation.schema import parameter_of
 
 if TYPE_CHECKING:
     from fecolumn.case.case import Case
@@ -22,9 +23,7 @@ if TYPE_CHECKING:
     from fecolumn.structures.model import StructureModel
 
 # Longest step that may be stated [s]
-_LONGEST_S = next(
-    one.metadata["high"] for one in dataclasses.fields(Integration) if one.name == "dt_s"
-)
+_LONGEST_S = parameter_of(Integration, "dt_s").metadata["high"]
 #: File of a running analysis with its pace, from which a study knows how long it will take
 PACE_FILE = "pace.json"
 # Wall time of steps [s], and their least number, after which the pace is known; the same between

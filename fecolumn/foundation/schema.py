@@ -360,6 +360,11 @@ class Section:
             raise InputError.of_several(errors)
 
 
+def parameter_of(section: type[Section], key: str) -> dataclasses.Field[typing.Any]:
+    """The key of a section, with its default and, as `metadata`, its Rules."""
+    return next(one for one in dataclasses.fields(section) if one.name == key)
+
+
 def a_section(cls: type[Section]) -> str:
     """What a script has to give: "a Joint(...)", "an Integration(...)"."""
     name = cls.__name__

@@ -37,6 +37,7 @@ DECIDING = (
     "case/check_step.py",
     "case/check_thin.py",
     "case/check_way.py",
+    "case/changes.py",
     "case/given.py",
     "case/ground.py",
     "case/joint.py",

@@ -27,7 +27,8 @@ _FORCES = 0.45
 def tell_of_far_places(
     case: Case, standing: list[Standing], extents: list[NDArray[Any]], file: Path | str
 ) -> None:
-    """Warn of the body that is farthest beyond the distance at which steps converge.
+    """Warn of the body that is farthest beyond the distance at which steps converge, where the
+    structure could be nearer to the origin: at its centre all bodies are within its own size.
 
     Parameters
     ----------
@@ -35,6 +36,8 @@ def tell_of_far_places(
         as of `sense.check_sense`.
     """
     found = []
+    places = np.concatenate([one.center + own for one, own in zip(standing, extents)])
+    size = float(np.ptp(places, axis=0).max())
     for (name, _), one, extent in zip(case.copies, standing, extents):
         width = float(np.ptp(extent[:, :2], axis=0).min())
         distance = float(np.abs(one.center).max())
@@ -45,7 +48,7 @@ def tell_of_far_places(
             rounding = _FORCES * stiff * np.finfo(float).eps
             weight = one.model.mass * GRAVITY
             farthest = min(farthest, case.integration.tolerance * weight / rounding)
-        if one.held < 0 and distance > farthest:
+        if one.held < 0 and distance > size and distance > farthest:
             found.append((distance / farthest, one.name, distance, farthest))
     if found:
         _, name, distance, farthest = max(found)

@@ -90,10 +90,21 @@ def test_a_list_of_objects_is_a_table_too(tmp_path):
         }
     )
     answer = fecolumn.screen(
-        objects, tmp_path / "m", motions="lick:1-5", event="overturn", scale=3, engine="housner"
+        objects,
+        tmp_path / "m",
+        motions="lick:1-5",
+        event="overturn",
+        scale=[3, 1],
+        engine="housner",
     )
     assert list(answer.table["name"]) == ["slender", "stout"]
     assert "Most endangered of 2 is 'slender'" in answer.text and "wrote" not in answer.text
+
+
+@pytest.mark.parametrize("scale", ["1:2", (1, 2, 3), (1, "2"), [1]])
+def test_a_screen_needs_one_scale_or_two(tmp_path, scale):
+    with pytest.raises(fecolumn.InputError, match=r"scale = .*must be a number, or two"):
+        fecolumn.screen("objects.csv", tmp_path / "m", motions="lick:1-5", scale=scale)
 
 
 def test_a_list_that_cannot_be_written_leaves_the_older_one(tmp_path):

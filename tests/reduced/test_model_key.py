@@ -82,9 +82,10 @@ def test_sources_cover_what_bodies_layouts_and_grounds_are_made_from():
     )
     covered = {str(path.relative_to(ROOT)) for path in sources.files_of(store.SOURCES)}
     besides = {name for name in closure(*makers) - covered if not name.startswith("foundation/")}
-    cases = """case case_tables case_text check_bond check_case check_found check_full check_grounds
-        check_link check_motion check_plates check_rolling check_step check_thin checked given link
-        mesh_limits model_keys model_names model_sections model_table order reading"""
+    cases = """case case_tables case_text changes check_bond check_case check_found check_full
+        check_grounds check_link check_motion check_plates check_rolling check_step check_thin
+        checked given link mesh_limits model_keys model_names model_sections model_table order
+        reading"""
     points = "interface pad points record"
     known = {f"case/{name}.py" for name in cases.split()}
     assert besides == known | {f"contact/{name}.py" for name in points.split()}

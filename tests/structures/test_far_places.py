@@ -37,6 +37,20 @@ def test_a_body_too_far_away_is_warned_of_with_its_limit(size, at, engine, farth
         structure_model(released(size, at, engine))
 
 
+def test_a_tall_body_at_the_origin_is_not_told_to_be_nearer():
+    tower = released(1.0, 0.0, "full").replace(
+        {
+            "bodies.block.height_m": 5.0,
+            "integration.tolerance": 1e-11,
+        }
+    )
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        structure_model(tower)
+    with pytest.warns(UserWarning, match=r'"block" is 10 m from the origin'):
+        structure_model(tower.replace({"bodies.block.at_m": [10.0, 0.0, 0.0]}))
+
+
 @pytest.mark.parametrize("size, at, engine", [(0.1, 800.0, "rigid"), (1.0, 40.0, "full")])
 def test_within_it_nothing_is_said_and_it_moves_as_at_the_origin(size, at, engine, tmp_path):
     with warnings.catch_warnings():

@@ -129,7 +129,7 @@ def screen(
     *,
     motions: str | Sequence[str],
     event: str | Sequence[str] = (),
-    scale: float | tuple[float, float] = 1.0,
+    scale: float | Sequence[float] = 1.0,
     engine: str = "rigid",
     jobs: int | None = None,
     retry_failed: bool = False,
@@ -178,7 +178,7 @@ def screen(
         path = _beside(folder, "-list.csv")
         write_bytes(path, objects.to_csv(index=False).encode())
         objects = path
-    of_acceleration, of_time = scale if isinstance(scale, tuple) else (scale, 1.0)
+    of_acceleration, of_time = _scales(scale)
     words = [str(objects), "--motions", *_several(motions), f"--scale={of_acceleration:.17g}"]
     words += [f"--time-scale={of_time:.17g}", "--engine", engine, *_jobs(jobs)]
     words += ["--retry-failed"] * retry_failed
@@ -238,6 +238,15 @@ def _varied(vary: Any) -> tuple[str, Any]:
         '{"bodies.cabinet.length_m": (0.3, 0.8)} or ("bodies.cabinet.length_m", 0.3, 0.8)'
     )
     raise InputError("fecolumn design", "vary", vary, told)
+
+
+def _scales(scale: Any) -> tuple[float, float]:
+    """Factors on acceleration and time."""
+    found = (scale, 1.0) if _is_number(scale) else scale
+    if isinstance(found, str) or len(found) != 2 or not all(map(_is_number, found)):
+        told = "must be a number, or two: on acceleration and on time, such as (1, 2)"
+        raise InputError("fecolumn screen", "scale", scale, told)
+    return float(found[0]), float(found[1])
 
 
 def _jobs(jobs: int | None) -> list[str]:
