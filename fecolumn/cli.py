@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import functools
 import io
 import os
 import sys
@@ -179,6 +178,7 @@ def _parser() -> argparse.ArgumentParser:
     """Of all commands; nothing here may load a library, so that --help is quick."""
     from fecolumn.case import completion, manual, show, templates
     from fecolumn.foundation.version import __version__
+    from fecolumn.pictures import mesh_command as mesh
     from fecolumn.pictures.render import command as render
     from fecolumn.study import command as study
     from fecolumn.study import compare_command as compare
@@ -220,11 +220,7 @@ def _parser() -> argparse.ArgumentParser:
         return command
 
     new = add("new", "write a commented case and a study of it to start from", templates)
-    mesh = add("mesh", "build and check the meshes of a case", main=_mesh)
-    mesh.add_argument("case", metavar="CASE.toml", help="case file whose meshes are built")
-    mesh.add_argument(
-        "-o", "--output", required=True, metavar="DIR", help="folder for meshes, picture and table"
-    )
+    add("mesh", "build and check the meshes of a case", mesh)
     run = add("run", "run one analysis, or continue it", main=_run, stopped=_FROM_CHECKPOINT)
     run.add_argument("case", metavar="CASE.toml", help="case file to analyse")
     run.add_argument(
@@ -320,48 +316,6 @@ def _completion(args: argparse.Namespace) -> int:
 
     print(completion.script(_parser(), args.shell))
     return 0
-
-
-def _mesh(args: argparse.Namespace) -> int:
-    from fecolumn.case.case import load_case
-    from fecolumn.foundation.folder import written
-    from fecolumn.pictures.mesh_report import FILES, mesh_report
-
-    case = load_case(args.case)
-    for table in case.own:
-        from fecolumn.foundation.schema import InputError
-
-        raise InputError(
-            args.case,
-            table,
-            None,
-            "is a rocking model of rigid bodies, which has no mesh; fecolumn rocking "
-            "tells its parameters",
-        )
-    _warn_of_motion(case, args.case)
-    with written(args.output, "mesh", names=FILES) as draft:
-        tell = functools.partial(print, file=sys.stderr, flush=True)
-        print(mesh_report(case, args.case, draft, tell))
-    return 0
-
-
-def _warn_of_motion(case: Case, file: Path | str) -> None:
-    """Tell of a motion that an analysis of the case would cut short, or could not use; its mesh may
-    be looked at all the same.
-    """
-    from fecolumn.engines.analysis import cut_text
-    from fecolumn.foundation.schema import InputError
-    from fecolumn.motions.load import unsampled
-
-    if case.motion is None:
-        return
-    try:
-        motion_s, end_s = unsampled(case.motion, file).duration, case.integration.duration_s
-    except InputError as error:
-        warnings.warn(str(error), stacklevel=2)
-        return
-    if 0 < end_s < motion_s - case.integration.shortest_s:
-        warnings.warn(cut_text(file, end_s, motion_s), stacklevel=2)
 
 
 def _prepare(args: argparse.Namespace) -> int:
