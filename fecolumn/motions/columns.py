@@ -33,6 +33,9 @@ from fecolumn.motions.text import (
 )
 from fecolumn.statistics.csv_table import CELL_MARKS, cells_of_lines, delimiter_of
 
+# Numbers of a column from which its first may be their count: few are, by chance, a sample
+_FEWEST_COUNTED = 10
+
 
 def read_columns(path: Path | str, dt_s: float) -> Recording:
     """Recording of a text file with one row a sample.
@@ -69,6 +72,8 @@ def read_columns(path: Path | str, dt_s: float) -> Recording:
     table = _table(rows)
     check_end(text, [row[-1] for _, row in rows[-12:]])
     check_last(text, table[:, -1])
+    if table.shape[1] == 1:
+        _check_count(rows, table[:, 0])
     columns = _known(_columns(words, comments, table.shape[1]), table)
     accelerations = [i for i, one in enumerate(columns) if one.meaning in ("", "x", "y", "z")]
     stated = {acceleration_unit(columns[i].unit) for i in accelerations}
@@ -136,6 +141,18 @@ def _table(rows: list[tuple[int, list[str]]]) -> NDArray[Any]:
                     f"line {row}: {cell} in column {j + 1}; every value must be finite"
                 )
     return values
+
+
+def _check_count(rows: list[tuple[int, list[str]]], values: NDArray[Any]) -> None:
+    """Refuse a single column that begins with the number of its samples, as some programs write
+    it, with the step in the next line or without.
+    """
+    count = len(values)
+    if count >= _FEWEST_COUNTED and values[0] in (count - 1, count - 2):
+        line, then = rows[0][0], "" if values[0] == count - 1 else " and the step"
+        raise UnusableRecord(
+            f"line {line}: {values[0]:g} is the number of samples{then}, no sample: take it out"
+        )
 
 
 def _columns(words: list[str], comments: list[str], width: int) -> list[NamedColumn]:

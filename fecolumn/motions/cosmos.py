@@ -20,11 +20,17 @@ _BLOCK = re.compile(
     r"(?:format\s*=?\s*(?P<format>\([^)]*\)))?\s*:?\s*$",
     re.IGNORECASE,
 )
-# Physical units by their number in the integer header (COSMOS table 2): ours, and by what to
-# multiply
-_UNITS = {2: ("g", 1.0), 4: ("cm/s2", 1.0), 7: ("cm/s2", 2.54), 10: ("cm/s2", 1.0)} | {
-    11: ("g", 1e-3)
+# Physical units by their number in the integer header (COSMOS table 2): its name, ours, and by what
+# to multiply
+_UNITS = {
+    2: ("g", "g", 1.0),
+    4: ("cm/s2", "cm/s2", 1.0),
+    7: ("in/s2", "cm/s2", 2.54),
+    10: ("gal", "cm/s2", 1.0),
+    11: ("mg", "g", 1e-3),
 }
+# Physical parameters by their number (COSMOS table 1): what is read, and what is passed over
+_ACCELERATION, _MOVED = 1, {2: "velocity", 3: "displacement"}
 # Directions by number (table 8) beside azimuths of 0 to 360 degrees; of sensors that are told by
 # the structure they stand on, the first lies along y as north does, the second along x
 _DIRECTIONS: dict[int, float | str] = {
@@ -46,7 +52,8 @@ def looks_like_cosmos(text: str) -> bool:
 
 
 def read_cosmos(path: Path | str) -> Recording:
-    """Recording of a COSMOS file of one to three channels of acceleration.
+    """Recording of a COSMOS file of one to three channels of acceleration; those of velocity and
+    displacement beside them are passed over.
 
     The size of each block is that of its header line, the step that of the real header (62nd
     number), the direction that of the integer header (54th). Source: COSMOS Strong Motion Data
@@ -55,17 +62,19 @@ def read_cosmos(path: Path | str) -> Recording:
     Raises
     ------
     UnusableRecord
-        raw counts, velocities or displacements, blocks cut off, a peak other than stated.
+        raw counts, no acceleration, blocks cut off, a peak other than stated.
     """
     lines = read_text(path).splitlines()
     channels, place, units, source = [], _next(lines, 0), "", ""
     while place < len(lines):
         channel, unit, told, place = _channel(lines, place)
+        source, place = source or told, _next(lines, place)
+        if channel is None:
+            continue
         if units and unit != units:
             raise UnusableRecord(f"its channels have different units, {units} and {unit}")
         channels.append(channel)
-        units, source = unit, source or told
-        place = _next(lines, place)
+        units = unit
     return recorded(channels, units, path, f"{_KIND}: {source}", _KIND)
 
 
@@ -84,8 +93,10 @@ def _next(lines: list[str], place: int) -> int:
     return place
 
 
-def _channel(lines: list[str], first: int) -> tuple[Channel, str, str, int]:
-    """A channel, its unit, the station, and the index of the line behind it."""
+def _channel(lines: list[str], first: int) -> tuple[Channel | None, str, str, int]:
+    """A channel, None of a velocity or a displacement, its unit, the station, and the index of the
+    line behind it.
+    """
     found = _FIRST.search(lines[first])
     place = first + int(found[1] if found else 0)
     if not 0 < place < len(lines):
@@ -97,24 +108,27 @@ def _channel(lines: list[str], first: int) -> tuple[Channel, str, str, int]:
     reals, place = _numbers(lines, place, "real-header", 100)
     comments = _head(lines, place, "comment")
     place += 1 + int(comments["count"])
-    values, place = _values(lines, place)
-    if int(integers[_PARAMETER]) != 1:
+    parameter = int(integers[_PARAMETER])
+    values, place = _values(lines, place, parameter)
+    station = lines[first + 4].strip() if first + 4 < len(lines) else ""
+    if parameter in _MOVED:
+        return None, "", station, place
+    if parameter != _ACCELERATION:
         raise UnusableRecord(
             f"line {first + 1}: holds no accelerations: physical parameter "
-            f"{int(integers[_PARAMETER])} of its integer header; 1 is acceleration"
+            f"{parameter} of its integer header; {_ACCELERATION} is acceleration"
         )
     if int(integers[_UNIT]) not in _UNITS:
         raise UnusableRecord(
             f"line {first + 1}: unit {int(integers[_UNIT])} of its integer header is not known; "
             f"must be one of {', '.join(map(str, _UNITS))} (g, cm/s2, in/s2, gal, mg)"
         )
-    unit, factor = _UNITS[int(integers[_UNIT])]
+    stated, unit, factor = _UNITS[int(integers[_UNIT])]
     if float(reals[_PEAK]) != _UNKNOWN:
-        check_peak(values, reals[_PEAK], unit)
+        check_peak(values, reals[_PEAK], stated)
     azimuth = int(integers[_AZIMUTH])
     direction = _DIRECTIONS.get(azimuth, direction_of(str(azimuth)) if azimuth >= 0 else "")
     told = f"{direction:g} deg" if isinstance(direction, float) else direction
-    station = lines[first + 4].strip() if first + 4 < len(lines) else ""
     dt = 1e-3 * above_zero(reals[_STEP_MS], row, "the step, 62nd number of the real header, [ms]")
     return Channel(factor * values, direction, dt, told), unit, station, place
 
@@ -143,10 +157,12 @@ def _numbers(lines: list[str], place: int, what: str, least: int) -> tuple[list[
     return [text[i * width : (i + 1) * width] for i in range(count)], after
 
 
-def _values(lines: list[str], place: int) -> tuple[NDArray[Any], int]:
-    """Samples, and the index of the line behind them."""
+def _values(lines: list[str], place: int, parameter: int) -> tuple[NDArray[Any], int]:
+    """Samples of a physical parameter, and the index of the line behind them."""
     head = _head(lines, place, "")
-    if not re.match(r"acc|uncor|corr|data", head["what"], re.IGNORECASE):
+    if parameter not in _MOVED and not re.match(
+        r"acc|uncor|corr|data", head["what"], re.IGNORECASE
+    ):
         raise UnusableRecord(
             f"line {place + 1}: holds no accelerations: {lines[place].strip()[:60]!r}"
         )

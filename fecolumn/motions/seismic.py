@@ -7,10 +7,13 @@ import re
 import struct
 import warnings
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fecolumn.foundation.files import Unreadable, read_bytes
+from fecolumn.motions.column_names import MOVED, named_column, no_acceleration
 from fecolumn.motions.record import Recording, UnusableRecord
 
 #: Formats by the name that ObsPy has for each.
@@ -18,6 +21,10 @@ _NAMES = {"KNET": "K-NET or KiK-net", "SAC": "SAC", "MSEED": "miniSEED", "GSE2":
 _INSTALL = "pip install 'fecolumn[records]' (ObsPy) reads it"
 # Axis by the last letter of a channel such as HNE
 _AXES = {"E": "x", "N": "y", "Z": "z"}
+# What is no acceleration, by the number that the head of SAC has for it
+_SAC_MOVED = {6: "displacement", 7: "velocity"}
+# Samples of the longest channel over those that all have, at most, as of channels in other files
+_LONGER = 1.01
 
 
 def seismic_format(path: Path | str) -> str | None:
@@ -43,12 +50,14 @@ def read_seismic(path: Path | str, kind: str) -> Recording:
     """Recording of a file of a network.
 
     K-NET and KiK-net state their unit; the mean, an offset of the recorder, is taken off. Others do
-    not state it. Components of one file are told by the last letter of their channels.
+    not state it. Components of one file are told by the last letter of their channels, and cut to
+    the time that all have.
 
     Raises
     ------
     UnusableRecord
-        ObsPy is missing, cannot read it, or it has gaps.
+        ObsPy is missing, cannot read it, it has gaps, channels of velocities, or of different
+        times.
     """
     name = _NAMES[kind]
     if importlib.util.find_spec("obspy") is None:
@@ -76,8 +85,10 @@ def read_seismic(path: Path | str, kind: str) -> Recording:
     steps = {float(trace.stats.delta) for trace in traces}
     if len(steps) > 1:
         raise UnusableRecord("has channels of different steps: " + ", ".join(map(str, steps)))
-    count = min(trace.stats.npts for trace in traces)
-    values = np.column_stack([np.asarray(trace.data[:count], float) for trace in traces])
+    for trace in traces:
+        _check_quantity(trace, kind)
+    values = _common(traces)
+    count = len(values)
     units = ""
     if kind == "KNET":
         if traces[0].stats.npts < 2:
@@ -97,3 +108,45 @@ def read_seismic(path: Path | str, kind: str) -> Recording:
     if several and ("" in axes or len(set(axes)) < len(axes)):
         raise UnusableRecord(f"its channels {', '.join(ids)} must end in E, N and Z")
     return Recording(values, axes, steps.pop(), units, Path(path).name, ", ".join(ids), name)
+
+
+def _check_quantity(trace: Any, kind: str) -> None:
+    """Refuse what its channel, or the head of SAC, says is a velocity or a displacement."""
+    column = named_column(trace.stats.channel.lower(), "")
+    if column.meaning == MOVED:
+        raise no_acceleration(column)
+    quantity = getattr(trace.stats, "sac", {}).get("idep") if kind == "SAC" else None
+    if quantity in _SAC_MOVED:
+        raise UnusableRecord(
+            f"holds no accelerations: its head says {_SAC_MOVED[quantity]} (IDEP = {quantity})"
+        )
+
+
+def _common(traces: list[Any]) -> NDArray[Any]:
+    """Samples (n, channels) of the time in which all channels are recorded.
+
+    Raises
+    ------
+    UnusableRecord
+        channels that begin or end at times too different.
+    """
+    starts = [float(trace.stats.starttime.timestamp) for trace in traces]
+    dt = float(traces[0].stats.delta)
+    first = [round((max(starts) - start) / dt) for start in starts]
+    count = min(trace.stats.npts - skipped for trace, skipped in zip(traces, first))
+    longest = max(trace.stats.npts for trace in traces)
+    if longest > _LONGER * max(count, 0) + 1:
+        told = ", ".join(
+            f"{trace.id} from {start - min(starts):g} to "
+            f"{start - min(starts) + dt * trace.stats.npts:g} s"
+            for trace, start in zip(traces, starts)
+        )
+        raise UnusableRecord(
+            f"has channels of different times ({told}); they may differ by 1 %: cut them alike"
+        )
+    return np.column_stack(
+        [
+            np.asarray(trace.data[skipped : skipped + count], float)
+            for trace, skipped in zip(traces, first)
+        ]
+    )

@@ -84,7 +84,7 @@ def ensemble_path(output: Path | str) -> Path:
     from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, TABLE_HEADS, is_ensemble
 
     path = Path(output)
-    if path.suffix not in HDF5_SUFFIXES:
+    if path.suffix.lower() not in HDF5_SUFFIXES:
         raise InputError("fecolumn motions", "-o", str(output), "must end in .h5")
     path.parent.mkdir(parents=True, exist_ok=True)
     if os.path.lexists(path) and not is_ensemble(path):

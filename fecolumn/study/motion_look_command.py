@@ -140,7 +140,7 @@ def _info(args: argparse.Namespace) -> int:
     from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, is_foreign_hdf5, summary
     from fecolumn.motions.ensemble_report import report
 
-    if Path(args.ensemble).suffix not in HDF5_SUFFIXES or is_foreign_hdf5(args.ensemble):
+    if Path(args.ensemble).suffix.lower() not in HDF5_SUFFIXES or is_foreign_hdf5(args.ensemble):
         return _info_of_motion(args)
     for key, value in (("--source-y", args.source_y), ("--source-z", args.source_z)):
         if value:
@@ -250,7 +250,7 @@ def _convert(args: argparse.Namespace) -> int:
     from fecolumn.motions.ensemble_file import HDF5_SUFFIXES
     from fecolumn.motions.export import write_text_files
 
-    whole = Path(args.output).suffix in HDF5_SUFFIXES
+    whole = Path(args.output).suffix.lower() in HDF5_SUFFIXES
     if whole:
         ensemble_path(args.output)
     motions = all_of(args)

@@ -8,7 +8,7 @@ import io
 import os
 import time
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import BrokenExecutor, ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _WIDTH = 74
+_KILLED = "a process of this command was killed, which ends all cases: was the memory full?"
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +38,8 @@ class Finding:
 
     @property
     def ok(self) -> bool:
-        """Whether the case ran and all of its rows hold."""
-        return not self.failure and all(row.ok for row in self.rows)
+        """Whether the case ran, has rows, and all of them hold."""
+        return not self.failure and bool(self.rows) and all(row.ok for row in self.rows)
 
 
 def tasks(name: str = "", engines: Iterable[str] = ALL_ENGINES) -> list[tuple[str, str]]:
@@ -98,9 +99,15 @@ def verify(
             pool.submit(run_case, case, engine, folder, long): (case, engine)
             for case, engine in pairs
         }
+        began = time.perf_counter()
         for future in as_completed(futures):
-            found[futures[future]] = future.result()
-            show(finding_lines(future.result()))
+            pair = futures[future]
+            try:
+                found[pair] = future.result()
+            except BrokenExecutor:  # of this process, or of another of the pool
+                wall_s = time.perf_counter() - began
+                found[pair] = Finding(*pair, (), wall_s, _KILLED)
+            show(finding_lines(found[pair]))
     findings = [found[pair] for pair in pairs]
     write_bytes(folder / "table.csv", _csv(findings).encode())
     write_bytes(
@@ -155,8 +162,8 @@ def verdict(findings: Sequence[Finding]) -> str:
 def _wrong(finding: Finding) -> list[str]:
     """The quantities of a finding that do not hold, or how it failed."""
     return (
-        [finding.failure.splitlines()[0]]
-        if finding.failure
+        [(finding.failure or "has no rows").splitlines()[0]]
+        if finding.failure or not finding.rows
         else [row.quantity for row in finding.rows if not row.ok]
     )
 

@@ -17,6 +17,14 @@ def read(tmp_path, text, dt_s=0.0):
     return read_columns(write_text(tmp_path / "a.csv", text), dt_s)
 
 
+@pytest.mark.parametrize("first", ["40\n", "40\n0.01\n", "# cm/s2\n40.\n"])
+def test_a_column_that_begins_with_its_count_is_refused(tmp_path, first):
+    values = "".join(f"{0.1 * k % 3:.3f}\n" for k in range(40))
+    with pytest.raises(UnusableRecord, match=r"line \d: 40 is the number of samples"):
+        read(tmp_path, first + values, 0.01)
+    assert len(read(tmp_path, values, 0.01).values) == 40
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -43,6 +43,26 @@ def test_every_format_holds_the_same_motion(tmp_path, name):
     assert np.abs(found.acceleration - wanted).max() <= ROUNDING.get(name, 1e-12) * 1.01
 
 
+@pytest.mark.parametrize("word", ["velocity", "acceleration"])
+def test_velocities_and_displacements_of_cosmos_are_passed_over(tmp_path, word):
+    """The head of their samples says what they are, or only the integer header does."""
+    moved = cosmos([(90, 0.1 * EAST)], unit=5, parameter=2).replace(
+        "acceleration pts", f"{word} pts"
+    ) + cosmos([(90, 0.01 * EAST)], unit=6, parameter=3)
+    found = read(tmp_path, cosmos([(90, EAST)]) + moved + cosmos([(0, NORTH)]))
+    wanted = np.column_stack([EAST, NORTH]) / 100
+    assert found.acceleration[:, :2] == pytest.approx(wanted, abs=1e-12)
+    with pytest.raises(InputError, match="holds no accelerations as COSMOS"):
+        read(tmp_path, moved)
+
+
+def test_a_peak_is_told_in_the_unit_of_the_file(tmp_path):
+    text = cosmos([(90, EAST)], unit=7)
+    first, peak, rest = text.partition(f"{EAST[np.abs(EAST).argmax()]:15.6f}")
+    with pytest.raises(InputError, match=r"its largest value is [\d.]+ in/s2 but .* in/s2"):
+        read(tmp_path, first + f"{2 * float(peak):15.6f}" + rest)
+
+
 def test_horizontal_components_of_any_direction_are_turned_to_east_and_north(tmp_path):
     """Sensors at N28W and S62W, one pointing down: projections of the same motion."""
     a, b = np.radians(-28), np.radians(242)

@@ -186,19 +186,34 @@ def test_k_net_is_read_in_its_unit_without_the_recorders_offset(tmp_path):
 
 def test_gaps_and_channels_of_a_network_are_told(tmp_path, monkeypatch):
     class Trace:
-        def __init__(self, name, samples=4):
-            self.id, self.data = name, np.ones(samples)
-            self.stats = types.SimpleNamespace(delta=0.01, npts=samples, channel=name, calib=1.0)
+        def __init__(self, name, start=0.0, samples=4):
+            self.id, self.data = name, np.arange(samples) + round(100 * start)
+            self.stats = types.SimpleNamespace(
+                delta=0.01,
+                npts=samples,
+                channel=name,
+                calib=1.0,
+                starttime=types.SimpleNamespace(timestamp=1e9 + start),
+            )
 
-    def reading(*names):
+    def reading(*names, **own):
         traces = [Trace(name) for name in names]
+        traces += [Trace(name, *values) for name, values in own.items()]
         obspy = types.SimpleNamespace(read=lambda path, format: traces)
         monkeypatch.setitem(sys.modules, "obspy", obspy)
         monkeypatch.setattr(importlib.util, "find_spec", lambda name: obspy)
         return read_motion(Motion(path, units="m/s2"), "case.toml")
 
     path = written(tmp_path, "000001D " + "x" * 100, "a.mseed")
-    assert reading("HNN", "HNE").acceleration[0] == pytest.approx([1, 1, 0])
+    assert reading("HNN", "HNE").acceleration[1] == pytest.approx([1, 1, 0])
+    # samples are their own time in hundredths of a second
+    found = reading(HNE=(0.0, 400), HNN=(0.02, 398)).acceleration
+    assert found[:, 0] == pytest.approx(found[:, 1]) and len(found) == 398 and found[0, 0] == 2
+    for late in ((0.1, 390), (0.0, 390), (5.0, 400)):
+        with pytest.raises(InputError, match=r"different times \(HNE from 0 to 4 s, HNN from"):
+            reading(HNE=(0.0, 400), HNN=late)
+    with pytest.raises(InputError, match="second letter H of a channel stands for a velocity"):
+        reading("HHN", "HHE")
     with pytest.raises(InputError, match="gaps: 2 pieces of HNE"):
         reading("HNE", "HNE")
     with pytest.raises(InputError, match="must end in E, N and Z"):

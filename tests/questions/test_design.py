@@ -25,6 +25,7 @@ from fecolumn.statistics.crossing import (
 )
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.questions.design import grid_of
+from fecolumn.study.questions.given import asked_plan
 from fecolumn.study.questions.limit import check_event, read_event, read_limit
 
 G = 9.80665
@@ -311,6 +312,19 @@ def test_question_that_cannot_be_asked_is_refused_in_a_line(
     told = capsys.readouterr().err
     assert said in told and told.count("\n") == 1
     assert not (pulses / "refused").exists()
+
+
+def test_components_of_the_cases_own_motion_are_not_mixed_into_others(tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text(
+        "block.width_m = 0.3\nblock.height_m = 2.0\n"
+        '[motion]\nsource = "x.txt"\nsource_y = "y.txt"\nunits = "g"\nscale = 2.0\n'
+    )
+    axes = {"block.width_m": [0.3, 0.4], "motion.source": ["lick:1", "lick:2"]}
+    plan = asked_plan("sizes", str(case), axes, {})
+    for analysis in plan.analyses:
+        motion = analysis.case.motion
+        assert (motion.source_y, motion.source_z, motion.scale) == ("", "", 2.0)
 
 
 def test_a_part_is_a_whole_name_or_its_first_words():

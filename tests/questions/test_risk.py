@@ -146,6 +146,15 @@ def test_a_fragility_of_an_earlier_version_gives_the_same_risk(tmp_path):
     assert older != FRAGILITY and found[0] == found[1]
 
 
+@pytest.mark.parametrize("event, said", [("slide > 5 mm", "must be overturn with"), ("banana", "")])
+def test_a_fragility_of_overturning_answers_no_other_event(tmp_path, capsys, event, said):
+    hazard, file = hazard_file(tmp_path, POWER), hazard_file(tmp_path, FRAGILITY, "fragility.csv")
+    words = ["risk", str(file), "--hazard", str(hazard), "-o", str(tmp_path / "out")]
+    assert main([*words, "--event", event]) == 2
+    error = capsys.readouterr().err
+    assert f"--event = {event!r}: {said}" in error and error.count("\n") == 1
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(
     "old, new, said",

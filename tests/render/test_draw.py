@@ -68,6 +68,22 @@ def test_movie_of_fields_is_as_slow_as_asked_and_comes_as_gif(drum):
     assert len(_pictures(file)) == 5
 
 
+@pytest.mark.parametrize(
+    "options, pictures",
+    [
+        (dict(fps=30.0), 7),  # fields are every 0.04 s
+        (dict(fps=25.0, speed=0.7), 8),
+    ],
+)
+def test_a_movie_lasts_as_long_as_its_motion_whatever_the_fields_interval(drum, options, pictures):
+    (file,) = render(
+        drum,
+        RenderOptions(only="movie", start=0.0, end=0.2, size=(320, 200), **options),
+        quiet=True,
+    )
+    assert len(_pictures(file)) == pictures
+
+
 @pytest.mark.long
 def test_stills_and_sequence_of_the_instants_asked_for(drum):
     files = render(drum, RenderOptions(only="pictures", instants=(0.0, 0.11)), quiet=True)

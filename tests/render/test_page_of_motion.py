@@ -22,6 +22,7 @@ from fecolumn.pictures.render.page.parts import MOST_TRIANGLES, parts_of
 from fecolumn.pictures.render.page.rods import rods_of_links, rods_of_storeys
 from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
+from fecolumn.pictures.render.strips import rows_between
 
 PAGE = RenderOptions(html=True)
 INSTALLED = "k3d is not installed: pip install 'fecolumn[html]'"
@@ -161,6 +162,17 @@ def test_surfaces_too_fine_for_a_page_are_made_coarser(drum, monkeypatch):
     assert len(fine.triangles) < MOST_TRIANGLES
     assert len(coarse.triangles) <= 220 < len(fine.triangles)
     assert np.ptp(coarse.points, axis=0) == pytest.approx(np.ptp(fine.points, axis=0), rel=0.05)
+
+
+@pytest.mark.parametrize("most", [300, 3000])
+def test_points_of_strips_hold_the_peaks_of_each_line(most):
+    time = np.linspace(0, 90, 90_001)
+    ground = np.random.default_rng(1).normal(size=(len(time), 2))
+    lean = np.abs(np.sin(time))
+    rows = rows_between(time, [lean, *ground.T], np.array([0.0, 90.0]), most)
+    assert most / 2 < len(rows) <= most and (np.diff(rows) > 0).all()
+    for line in (lean, *ground.T):
+        assert (line[rows].max(), line[rows].min()) == (line.max(), line.min())
 
 
 @pytest.mark.parametrize(

@@ -5,11 +5,13 @@ the view.
 import os
 import shutil
 import subprocess
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from fecolumn.cli import main
+from fecolumn.engines.scene.frame_files import frame_digits, frame_name, time_of_frame
 
 PACKAGES = "apt install --no-install-recommends paraview python3-paraview xvfb xauth"
 
@@ -35,6 +37,36 @@ def test_script_is_of_this_analysis_and_finds_its_fields_from_where_it_is(drum):
         "@" not in text and str(drum) not in text and 'os.pardir, "fields", "fields.xdmf"' in text
     )
     assert (drum / "render" / ".." / "fields" / "fields.xdmf").is_file()
+
+
+@pytest.mark.parametrize(
+    "options, told",
+    [
+        (["--instants", "0.1"], "--instants: is not for --paraview"),
+        (["--end", "0.1"], "--end: is not for --paraview"),
+        (["--forces"], "--forces: is not for --paraview"),
+        (["--gif"], "--gif: is not for --paraview"),
+    ],
+)
+def test_what_the_script_does_not_do_is_one_line(drum, capsys, options, told):
+    assert main(["render", str(drum), "--paraview", *options]) == 2
+    error = capsys.readouterr().err
+    assert told in error and error.count("\n") == 1
+
+
+def test_a_gif_is_no_picture(drum, capsys):
+    assert main(["render", str(drum), "--gif", "--only", "pictures"]) == 2
+    assert "--gif: is a movie; leave out --only pictures" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("interval", [1.0, 0.04, 5e-7, 3e-8])
+def test_names_of_frames_keep_their_times(interval):
+    digits = frame_digits(interval)
+    times = [0.0, interval, 7 * interval, 1234.5]
+    names = [frame_name(time, digits) for time in times]
+    assert names == sorted(set(names))
+    assert [time_of_frame(Path(name)) for name in names] == pytest.approx(times, rel=1e-12)
+    assert frame_name(0.04, frame_digits(0.04)) == "frame_000000040000.h5"
 
 
 @pytest.mark.slow

@@ -1,6 +1,9 @@
 """Every verification case holds in every engine; what the suite says at its end."""
 
+import os
+import signal
 from dataclasses import replace
+from multiprocessing import get_context
 
 import pytest
 
@@ -30,13 +33,15 @@ def test_the_suite_ends_with_a_count_and_the_names_of_what_does_not_hold():
         Finding("patch", "corotated", (HOLDS, HOLDS), 1.0),
         Finding("frames", "reduced", (HOLDS, MISSES, UNKNOWN), 1.0),
         Finding("hertz", "corotated", (), 1.0, "RuntimeError: it does not start\nat all"),
+        Finding("sliding", "rigid", (), 1.0),
     ]
     assert verdict(findings).splitlines() == [
         "does not hold:",
         "  frames, reduced: drift [m]",
         "  frames, reduced: loss [J]",
         "  hertz, corotated: RuntimeError: it does not start",
-        "3 of 5 rows hold, 2 of 3 cases do not",
+        "  sliding, rigid: has no rows",
+        "3 of 5 rows hold, 3 of 4 cases do not",
     ]
     assert verdict(findings[:1]) == "2 of 2 rows hold, 0 of 1 cases do not"
 
@@ -55,3 +60,15 @@ def test_fecolumn_verify_ends_with_exit_code_1_where_a_row_does_not_hold(
         capfd.readouterr().out.splitlines()[-1]
         == f"{1 - code} of 1 rows hold, {code} of 1 cases do not"
     )
+
+
+def killed(case, engine, folder, long):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_a_case_that_is_killed_leaves_a_table_that_says_so(tmp_path, monkeypatch):
+    monkeypatch.setattr(suite, "get_context", lambda _: get_context("fork"))
+    monkeypatch.setattr(suite, "run_case", killed)
+    findings = suite.verify([("patch", "corotated")], tmp_path, show=lambda _: None)
+    assert [finding.ok for finding in findings] == [False]
+    assert "was the memory full?" in (tmp_path / "table.csv").read_text()

@@ -4,7 +4,6 @@ file a frame.
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
@@ -12,6 +11,7 @@ import numpy as np
 from dolfinx import fem
 from numpy.typing import NDArray
 
+from fecolumn.engines.scene.frame_files import frame_digits, frame_name, time_of_frame
 from fecolumn.fem.material.elasticity import isotropic_stress, von_mises
 from fecolumn.fem.material.kinematics import linear_strain
 from fecolumn.foundation import _dolfinx
@@ -68,8 +68,7 @@ class FieldWriter(Generic[_D]):
 
     def __init__(self, folder: Path, fields: _D, interval_s: float = 1.0) -> None:
         self.folder, self.fields = folder, fields
-        # of the names of frames, which are in microseconds unless these lie nearer
-        self._digits = max(6, math.ceil(-math.log10(interval_s) - 1e-9))
+        self._digits = frame_digits(interval_s)
         self._mixed = any(mesh.cells.shape[1] != 8 for mesh in fields.meshes)
         if fields.comm.rank == 0:
             folder.mkdir(parents=True, exist_ok=True)
@@ -101,8 +100,7 @@ class FieldWriter(Generic[_D]):
     def add(self, time: float, values: dict[str, NDArray[Any]] | None) -> None:
         """Add the frame of a time [s] from its `values`, or None of another rank than 0."""
         if values is not None:
-            number = f"{round(time * 10**self._digits):0{self._digits + 6}d}"
-            _write_h5(self.folder / f"frame_{number}.h5", values)
+            _write_h5(self.folder / frame_name(time, self._digits), values)
             self._write_index()
 
     def _write_index(self) -> None:
@@ -156,7 +154,7 @@ class FieldWriter(Generic[_D]):
                     for name in self.fields.of_cells
                 ),
             ]
-            time = int(frame.stem.split("_")[1]) / 1e6
+            time = time_of_frame(frame)
             grids.append(
                 f'<Grid Name="fecolumn" GridType="Uniform"><Time Value="{time}"/>'
                 + _TOPOLOGY.format(cells=cells, kind=kind, numbers=numbers)

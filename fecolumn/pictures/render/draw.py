@@ -51,6 +51,12 @@ def render(folder: Path | str, options: RenderOptions = _ALL, quiet: bool = Fals
             write_view(result, draft, options.view, quiet)
         return [target / PARAVIEW_FILE]
     start, end = _window(result, options)
+    check_option(
+        not (options.gif and options.only == "pictures"),
+        "--gif",
+        None,
+        "is a movie; leave out --only pictures",
+    )
     files = []
     if options.only != "movie":
         files += _pictures(result, options, start, end, target)
@@ -133,6 +139,8 @@ def _pictures(
         result.frames.interval if len(result.frames.time) > 1 else 0.0,
     )
     frames = _frames(result, options, start, end, instants, interval)
+    if len(once := np.unique(frames.times)) < len(frames):
+        frames = _frames(result, options, start, end, once, interval)
     drawn = list(frames)
 
     def scene(size: tuple[int, int]) -> Canvas:

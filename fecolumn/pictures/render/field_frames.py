@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fecolumn.engines.scene.frame_files import time_of_frame
 from fecolumn.engines.scene.scene import Scene
 from fecolumn.engines.stored import stored
 from fecolumn.foundation.schema import InputError
@@ -47,7 +48,7 @@ class FieldFrames(FrameSeries):
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.files = sorted(folder.glob("frame_*.h5"))
-        super().__init__(np.array([int(file.stem.partition("_")[2]) / 1e6 for file in self.files]))
+        super().__init__(np.array([time_of_frame(file) for file in self.files]))
         self.points = _read(folder / "mesh.h5", "points")[0] if self.files else np.empty((0, 3))
 
     def check(self, scene: Scene) -> None:

@@ -40,7 +40,8 @@ class Frames:
     Attributes
     ----------
     times
-        (k,) [s] of the frames; at an instant of the fields where these are used.
+        (k,) [s] of the frames; at instants of the fields where these are used, some twice where
+        they are rarer.
     from_fields
         whether they are.
     exaggeration
@@ -120,7 +121,7 @@ class Frames:
             )
         self._kept: tuple = (None, None)
         if self.from_fields:
-            self._number = np.unique(fields.nearest(times))
+            self._number = fields.nearest(times)
             times = fields.time[self._number]
         self.times = np.asarray(times, float)
         self._poses = tuple(poses.at(self.times) for poses in result.poses)

@@ -70,6 +70,8 @@ class RenderOptions:
             object.__setattr__(self, "view", "iso" if self.html else "lean")
         if self.html:
             self._check_page()
+        elif self.paraview:
+            self._check_paraview()
         check_option(self.view in VIEWS, "--view", self.view, f"must be one of {', '.join(VIEWS)}")
         check_option(
             1 <= self.fps <= 60, "--fps", self.fps, "must lie between 1 and 60 pictures a second"
@@ -103,24 +105,44 @@ class RenderOptions:
             f"must be {_ASPECT[0]:g} to {_ASPECT[1]:g} times as wide as high",
         )
 
+    def _of_pictures(self) -> dict[str, object]:
+        """Options that are of pictures and movies alone, those that are given true."""
+        return {
+            "--only": self.only,
+            "--gif": self.gif,
+            "--instants": self.instants,
+            "--exaggerate": self.exaggerate != 1.0,
+            "--colour": self.color,
+            "--fps": self.fps != 25.0,
+            "--size": self.size != (1280, 720),
+        }
+
     def _check_page(self) -> None:
         """Refuse what the page does not do."""
-        for option, given in (
-            ("--only", self.only),
-            ("--gif", self.gif),
-            ("--paraview", self.paraview),
-            ("--instants", self.instants),
-            ("--exaggerate", self.exaggerate != 1.0),
-            ("--colour", self.color),
-            ("--fps", self.fps != 25.0),
-            ("--size", self.size != (1280, 720)),
-        ):
+        for option, given in (("--paraview", self.paraview), *self._of_pictures().items()):
             check_option(
                 not given,
                 option,
                 None,
-                "is not for --html, which writes one page of all instants, its bodies rigid and in "
-                "the colours of their kinds; take --view, --body, --start, --end and --speed",
+                "is not for --html, which writes one page of all instants, with controls of its "
+                "own; take --view, --body, --start, --end and --speed",
+            )
+
+    def _check_paraview(self) -> None:
+        """Refuse what the script for ParaView does not do."""
+        for option, given in {
+            **self._of_pictures(),
+            "--forces": self.forces,
+            "--start": self.start is not None,
+            "--end": self.end is not None,
+            "--speed": self.speed != 1.0,
+        }.items():
+            check_option(
+                not given,
+                option,
+                None,
+                "is not for --paraview, which writes a script that shows all instants; take --view "
+                "and --body",
             )
 
     @classmethod

@@ -14,7 +14,7 @@ from fecolumn.pictures.render.joints import motion
 if TYPE_CHECKING:
     from fecolumn.pictures.render.result import Result
 
-# Points of a line: more are not told apart at the width of a strip
+# Points of a line of a movie: more are not told apart at the width of a strip
 _MOST_POINTS = 4000
 #: Uplift over the foot's width [-] below which a body only slides: elastic deformation alone opens
 #: some 1e-5 of it
@@ -23,9 +23,10 @@ LIFTED_UPLIFT = 1e-4
 _MOST = 4
 
 
-def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
+def strips_of(result: Result, times: np.ndarray, most: int = _MOST_POINTS) -> list[Strip]:
     """Acceleration of the base (displacement of the top where it is at rest), tilt of bodies,
-    uplift at interfaces and energy, from the first of `times` [s] to the last.
+    uplift at interfaces and energy, from the first of `times` [s] to the last, each of `most`
+    points at most.
 
     Where nothing lifts off, slide and twist stand in place of tilt and uplift. Of equal bodies, and
     of an interface between several, a line is the largest of all at each time; of more bodies or
@@ -34,7 +35,7 @@ def strips_of(result: Result, times: np.ndarray) -> list[Strip]:
     history, scene, time = result.history, result.scene, result.time
     tilts = [_tilt(poses.at(time).rotation) for poses in result.poses]
     leans = np.max(tilts, axis=0)
-    rows = rows_between(time, leans, times)
+    rows = rows_between(time, [leans, *history["ground"].T], times, most)
     poses = tuple(one.at(time[rows]) for one in result.poses)
     contacts = [scene.contacts[k] for k in scene.shown]
     moved = [motion(scene, contact, poses) for contact in contacts]
@@ -97,12 +98,23 @@ def _largest(names: list[str], values: list[np.ndarray]) -> list[tuple[np.ndarra
     return [lines[k] for k in sorted(kept)]
 
 
-def rows_between(time: np.ndarray, values: np.ndarray, times: np.ndarray) -> np.ndarray:
-    """Rows from the first of `times` [s] to the last, as many as a line needs, the peaks of
-    `values` among them.
+def rows_between(
+    time: np.ndarray, values: list[np.ndarray], times: np.ndarray, most: int
+) -> np.ndarray:
+    """Rows from the first of `times` [s] to the last, `most` at most, the peaks of each of `values`
+    (n,) among them.
     """
     rows = np.flatnonzero((time >= times[0] - 1e-9) & (time <= times[-1] + 1e-9))
-    return _told_apart(values, rows if len(rows) > 1 else np.arange(len(time)))
+    rows = rows if len(rows) > 1 else np.arange(len(time))
+    if len(rows) <= most:
+        return rows
+    groups = np.array_split(rows, most // (2 * len(values)))
+    ends = [
+        (group[np.argmax(one[group])], group[np.argmin(one[group])])
+        for group in groups
+        for one in values
+    ]
+    return np.unique(ends)
 
 
 def strip_of(
@@ -140,15 +152,3 @@ def energy_strip(history: dict, rows: np.ndarray, moved: np.ndarray) -> Strip:
         ((kinetic + potential)[rows], "sum"),
     ]
     return strip_of(history["time"][rows], "energy", "$E$", "J", lines)
-
-
-def _told_apart(values: np.ndarray, rows: np.ndarray) -> np.ndarray:
-    """Of `rows`, as many as a line needs, the peaks of `values` among them."""
-    if len(rows) <= _MOST_POINTS:
-        return rows
-    groups = np.array_split(rows, _MOST_POINTS // 2)
-    return np.unique(
-        np.concatenate(
-            [[group[np.argmax(values[group])], group[np.argmin(values[group])]] for group in groups]
-        )
-    )

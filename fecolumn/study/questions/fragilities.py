@@ -49,9 +49,12 @@ def fragilities_of(source: str, limit: str, measure: str) -> dict[str, KnownFrag
     from fecolumn.study.report.failed_fragility import over_failed, warn_of_failed
     from fecolumn.study.report.fragility_command import runs_by_setting
 
-    if not Path(source).is_dir() and (found := _stated(source, measure)):
-        return found
     event = read_event(limit, "fecolumn risk")
+    if not Path(source).is_dir() and (found := _stated(source, measure)):
+        if event.quantity != "overturn":
+            told = "must be overturn with a fragility, which is one of overturning: give the "
+            raise InputError("fecolumn risk", "--event", limit, f"{told}folder of a study instead")
+        return found
     happened, fit_curve = None, lognormal
     if event.quantity != "overturn":
         happened, fit_curve = event.happened, partial(lognormal, event=event.text)

@@ -8,7 +8,7 @@ from typing import Any
 
 from fecolumn.foundation.paths import absolute, names_record, taken_over
 from fecolumn.foundation.schema import InputError
-from fecolumn.foundation.toml_file import merge, nested, read_toml
+from fecolumn.foundation.toml_file import read_toml
 from fecolumn.motions.chosen import chosen_motions
 from fecolumn.statistics.csv_table import number_of
 from fecolumn.study.axes import kind_of_range
@@ -100,8 +100,11 @@ def asked_plan(title: str, case: str, axes: dict[str, list[Any]], options: dict[
     """
     path = Path(case)
     tables = case_tables(case)
-    if isinstance(tables.get("motion"), dict) or tables.get("motion") is None:
-        tables = merge(tables, nested("motion.source", axes["motion.source"][0]))
+    motion = tables.get("motion") or {}
+    if isinstance(motion, dict):
+        # components of the case's own motion, which is not used, are none of these
+        own = {key: one for key, one in motion.items() if key not in ("source_y", "source_z")}
+        tables = tables | {"motion": own | {"source": axes["motion.source"][0]}}
     try:
         return plan_of({"title": title, "case": tables, "axes": axes}, path)
     except InputError as error:

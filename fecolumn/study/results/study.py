@@ -47,7 +47,8 @@ class Members:
 
 
 class StudyResult:
-    """What is in the folder of a study, of `run_study` or `fecolumn study`, finished or not.
+    """What is in the folder of a study, of `run_study` or `fecolumn study`, finished or not, when
+    it is first asked for; `fecolumn.load` it again for what has been done since.
 
     Attributes
     ----------

@@ -43,7 +43,7 @@ _MOST_PLACES = 120_000
 # Range of the forces of links over the largest, below which colours do not tell them apart
 _HARDLY = 0.05
 # Points of a line over time
-_STRIP_POINTS = 1500
+_STRIP_POINTS = 3000
 # Vertical angle of what is seen [deg]: narrow, so that what is upright looks upright
 _VIEW = 25.0
 # Colours of the kinds of bodies in turn, light so that their edges show
@@ -92,7 +92,7 @@ def page_of(result: Result, span: tuple[float, float], view: str, speed: float) 
         "tension": _tension(links),
         "arrows": _arrows(result, parts, times, plot),
         "flexure": _flexure(result, parts, times, plot),
-        "strips": [_strip(strip) for strip in strips_of(result, times)],
+        "strips": [_strip(strip) for strip in strips_of(result, times, _STRIP_POINTS)],
     } | _seen(result, times, view)
     return _page(plot.html(_script(content)), str(content["title"]))
 
@@ -180,14 +180,13 @@ def _family(kind: str) -> str:
 
 def _strip(strip: Strip) -> dict:
     """A strip, its title and unit without the marks of mathematics."""
-    every = max(1, -(-len(strip.time) // _STRIP_POINTS))
     unit = re.search(r"\[(.*)\]", strip.label)
     return {
         "title": strip.title,
         "unit": unit[1] if unit else "",
-        "time": base64_of(strip.time[::every]),
+        "time": base64_of(strip.time),
         "lines": [
-            {"name": re.sub(r"[$\\]", "", name), "values": base64_of(np.asarray(values)[::every])}
+            {"name": re.sub(r"[$\\]", "", name), "values": base64_of(np.asarray(values))}
             for values, name in strip.lines
         ],
     }
