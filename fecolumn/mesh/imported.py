@@ -6,6 +6,7 @@ import contextlib
 import functools
 import io
 import re
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,7 +18,15 @@ from scipy.sparse.csgraph import connected_components
 
 from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError
-from fecolumn.mesh.bricks import FACES, UPPER, BrickMesh, boundary_faces, brick_mesh, outer_faces
+from fecolumn.mesh.bricks import (
+    FACES,
+    TETRAHEDRON_FACES,
+    UPPER,
+    BrickMesh,
+    boundary_faces,
+    brick_mesh,
+    outer_faces,
+)
 from fecolumn.mesh.filled import filled
 from fecolumn.mesh.jacobian import corner_jacobians
 from fecolumn.mesh.mass import MassProperties
@@ -29,6 +38,12 @@ from fecolumn.mesh.weighing import NoSuchDensity, relative_densities
 ShapeRefusal = Callable[[object, str], NoReturn]
 
 _DIMENSION_TOLERANCE = 0.01
+# Of Abaqus: a block of points, and an instance with a shift, or a shift and a rotation
+_NODES = re.compile(r"^\*\s*node\s*(?:,|$)", re.IGNORECASE | re.MULTILINE)
+_PLACED = re.compile(
+    r"^\*\s*instance\b[^\n]*\n(?:\*\*[^\n]*\n)*(?P<shift>[ \t]*[-+.\d][^\n]*)",
+    re.IGNORECASE | re.MULTILINE,
+)
 _BELOW_THREE_DIMENSIONS = {
     "vertex",
     "line",
@@ -176,6 +191,8 @@ def _own_mesh(file: MeshFile, mesh_content: str) -> OwnMesh:
         file.check_size(np.ptp(points, axis=0))
     except UnusableShape as error:
         refuse(error.value, error.allowed)
+    if doubt := file.doubt_of_size(np.ptp(points, axis=0)):
+        warnings.warn(f"{file.path}: {doubt}", stacklevel=2)
     height, bottom = float(np.ptp(points[:, 2])), float(points[:, 2].min())
     points = points - [0.0, 0.0, bottom]
     mesh = brick_mesh(points, cells, UPPER)
@@ -242,6 +259,14 @@ def _elements(path: Path, refuse: ShapeRefusal) -> tuple[np.ndarray, np.ndarray]
             if block.type in _CORNERS and len(block.data)
         ]
     ).astype(np.int64)
+    _, once = np.unique(np.sort(cells, axis=1), axis=0, return_index=True)
+    if len(once) < len(cells):
+        # Gmsh writes an element of two physical groups twice
+        warnings.warn(
+            f"{path}: {len(cells) - len(once)} elements stand in it twice; each is taken once",
+            stacklevel=2,
+        )
+        cells = cells[np.sort(once)]
     points = np.asarray(found.points, dtype=float)
     if points.ndim != 2 or points.shape[1] != 3:
         refuse(f"points of shape {points.shape}", "must have three coordinates a point")
@@ -260,19 +285,7 @@ def _read(path: Path, refuse: ShapeRefusal) -> Any:
     if path.stat().st_size == 0:
         refuse("0 bytes", "the file is empty")
     if path.suffix.lower() == ".inp":
-        # meshio keeps the last *NODE block only and would connect the other parts' bricks to its
-        # points.
-        blocks = len(
-            re.findall(
-                r"^\*\s*node\s*(?:,|$)",
-                path.read_text(errors="replace"),
-                re.IGNORECASE | re.MULTILINE,
-            )
-        )
-        if blocks != 1:
-            refuse(
-                f"{blocks} *NODE blocks", "must hold one *NODE block: export the column as one part"
-            )
+        _check_abaqus(path.read_text(errors="replace"), refuse)
     try:
         # meshio prints to the console and exits where a file is of no known or of a broken format.
         with contextlib.redirect_stdout(io.StringIO()) as out, contextlib.redirect_stderr(out):
@@ -285,6 +298,20 @@ def _read(path: Path, refuse: ShapeRefusal) -> Any:
     except (SystemExit, Exception) as error:  # the readers raise whatever their parsing meets
         said = str(error) if not isinstance(error, SystemExit) else " ".join(out.getvalue().split())
         refuse(None, f"cannot be read as a mesh by meshio: {said or type(error).__name__}")
+
+
+def _check_abaqus(text: str, refuse: ShapeRefusal) -> None:
+    """Refuse what meshio passes over in a file of Abaqus: it keeps the last *NODE block, whose
+    points it would connect to bricks of all parts, and leaves parts where they were drawn.
+    """
+    if (blocks := len(_NODES.findall(text))) != 1:
+        refuse(f"{blocks} *NODE blocks", "must hold one *NODE block: export the column as one part")
+    if placed := _PLACED.search(text):
+        refuse(
+            f"*INSTANCE with the placement {placed['shift'].strip()}",
+            "must have its points where they are: a placement of the instance is not read; export "
+            "the mesh of the assembly, or write the input file with flattened instances",
+        )
 
 
 def _check_dimensions(own: OwnMesh, case: Upright, refuse: ShapeRefusal) -> None:
@@ -315,13 +342,38 @@ def _check_elements(mesh: BrickMesh, refuse: ShapeRefusal) -> None:
             "must not be folded or flat (positive Jacobian at every corner); first one "
             f"at x = {x:g}, y = {y:g}, z = {z:g} m",
         )
-    n = len(mesh.points)
-    edges = np.stack([mesh.cells, np.roll(mesh.cells, 1, axis=1)]).reshape(2, -1)
-    pieces, _ = connected_components(
-        coo_array((np.ones(edges.shape[1], np.int8), edges), shape=(n, n)), directed=False
-    )
+    pieces, overlaps = _connected(mesh)
+    if overlaps:
+        refuse(
+            f"{overlaps} faces with elements that overlap",
+            "must have one element on either side of a face at most",
+        )
     if pieces > 1:
         refuse(
             f"{pieces} unconnected pieces",
-            "must be one connected body: merge coincident points before export",
+            "must be one body, connected by faces of elements: merge coincident points before "
+            "export",
         )
+
+
+def _connected(mesh: BrickMesh) -> tuple[int, int]:
+    """Pieces that no face connects, and faces with more than one element on a side."""
+    local = TETRAHEDRON_FACES if mesh.is_tetrahedral else FACES
+    faces = mesh.cells[:, local].reshape(-1, local.shape[1])
+    n, owner = len(mesh.cells), np.repeat(np.arange(len(mesh.cells)), len(local))
+    _, number, counts = np.unique(
+        np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True
+    )
+    order = np.argsort(number.ravel(), kind="stable")
+    first = np.flatnonzero(np.diff(number.ravel()[order]) == 0)
+    same, after = order[first], order[first + 1]
+    one, other = owner[same], owner[after]
+    graph = coo_array((np.ones(len(same), np.int8), (one, other)), shape=(n, n))
+    corners, middles = mesh.points[faces[same]], mesh.points[mesh.cells].mean(axis=1)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    sides = [
+        np.einsum("fa,fa->f", normals, middles[cells] - corners.mean(axis=1))
+        for cells in (one, other)
+    ]
+    overlaps = int((sides[0] * sides[1] > 0).sum() + (counts > 2).sum())
+    return int(connected_components(graph, directed=False)[0]), overlaps

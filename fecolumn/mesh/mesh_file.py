@@ -17,6 +17,8 @@ CAD = (".step", ".stp", ".iges", ".igs")
 SCRIPTS = (".geo",)
 # Sizes [m] of a body that no unit was stated for; of one that there can be at all
 _LIKELY, _POSSIBLE = (0.01, 100.0), (5e-3, 1e4)
+# Size [m] from which a body without a unit is told of: 30 mm drawn in millimetres would be as large
+_LARGE = 10.0
 
 
 class UnusableShape(ValueError):
@@ -90,6 +92,18 @@ class MeshFile:
         raise UnusableShape(
             f"{size:.4g} m from side to side",
             f"must be {low:g} to {high:g} m in {self.unit or 'm'}: {ways}{same}",
+        )
+
+    def doubt_of_size(self, extents: np.ndarray) -> str:
+        """What to say of so large a body, by its three sides [m], that no unit was stated for, ""
+        of others.
+        """
+        size = float(max(extents))
+        if self.unit or self.kind == "CAD" or size <= _LARGE:
+            return ""
+        return (
+            f"is {size:.3g} m from side to side, as its lengths are taken for metres: state "
+            f'mesh_unit = "mm" if it is {1e-3 * size:.3g} m, or mesh_unit = "m"'
         )
 
     def unfit(self) -> tuple[str, object, str] | None:

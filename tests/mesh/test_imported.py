@@ -121,6 +121,13 @@ def test_folded_torn_and_not_finite_meshes_are_refused(tube, with_file):
         ("cut.inp", b"*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1\n", "data items"),
         ("points.inp", b"*NODE\n1,0,0,0\n", "no elements"),
         (
+            "placed.inp",
+            b"*Part, name=a\n*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1,1,1,1,1,1\n*End Part\n"
+            b"*Assembly\n*Instance, name=a-1, part=a\n** turned\n 0., 0., 0.\n"
+            b" 0., 0., 0., 1., 0., 0., 90.\n*End Instance\n",
+            "*INSTANCE with the placement 0., 0., 0.",
+        ),
+        (
             "parts.inp",
             b"*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1,1,1,1,1,1\n*Node\n1,0,0,0\n*NODE "
             b"OUTPUT\n",

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from own_meshes import SIDES, bricks, own_case, tetrahedra, write
 
+from fecolumn.case.case import Case
 from fecolumn.case.short_form import short_form
+from fecolumn.foundation.content import content
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.estimate import estimate
 from fecolumn.mesh.quality import quality_table
@@ -117,3 +119,67 @@ def test_a_shape_beside_a_mesh_of_ones_own_is_refused(tmp_path):
     ):
         with pytest.raises(InputError, match=said):
             own_case(file, **section)
+
+
+def test_elements_that_stand_in_a_file_twice_are_taken_once(tmp_path):
+    points, cells = bricks()
+    file = write(tmp_path, "twice.vtu", "hexahedron", points, np.vstack([cells, cells[3:9]]))
+    with pytest.warns(UserWarning, match="6 elements stand in it twice"):
+        case = own_case(file)
+    rows = {row.name: row for row in quality_table(case, specimen_mesh(case))}
+    assert rows["column: mass"].mesh == pytest.approx(7850 * np.prod(SIDES), rel=1e-9)
+
+
+def test_elements_that_overlap_or_meet_at_an_edge_alone_are_refused(tmp_path):
+    points, cells = bricks((2, 1, 1))
+    first, n = cells[0], len(points)
+    foot = points[first[4:]] * [1, 1, 0.5]  # half as high on the foot of the first
+    side = points[first[[1, 2, 5, 6]]] + [0.02, 0, 0]  # on the side that the two share
+    for name, new, added in (
+        ("foot.vtu", foot, [*first[:4], n, n + 1, n + 2, n + 3]),
+        ("side.vtu", side, [first[1], n, n + 1, first[2], first[5], n + 2, n + 3, first[6]]),
+    ):
+        file = write(
+            tmp_path, name, "hexahedron", np.vstack([points, new]), np.vstack([cells, added])
+        )
+        with pytest.raises(InputError, match=r"\d faces with elements that overlap"):
+            own_case(file)
+    points, cells = bricks((2, 1, 2))
+    middle = points[cells].mean(axis=1)
+    hinged = cells[(middle[:, 0] > 0) == (middle[:, 2] > 0.2)]
+    with pytest.raises(InputError, match="2 unconnected pieces"):
+        own_case(write(tmp_path, "hinge.vtu", "hexahedron", points, hinged))
+
+
+@pytest.mark.parametrize("size, unit, told", [(90, "", True), (90, "m", False), (9, "", False)])
+def test_a_body_of_many_metres_without_a_unit_is_told_of(tmp_path, size, unit, told):
+    points, cells = bricks(sides=(size / 3, size / 3, size))
+    file = write(tmp_path, "vase.vtu", "hexahedron", points, cells)
+    column = {"mesh_file": str(file)} | ({"mesh_unit": unit} if unit else {})
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        own_case(file, column=column)
+    texts = [str(one.message) for one in said]
+    assert any('state mesh_unit = "mm" if it is 0.09 m' in text for text in texts) == told
+
+
+def test_a_mesh_whose_arrays_are_in_another_file_is_told_apart_by_these(tmp_path):
+    heights = []
+    for stretch in (1.0, 2.0):
+        points, cells = bricks()
+        file = write(tmp_path, "own.xdmf", "hexahedron", points * [1, 1, stretch], cells)
+        assert (tmp_path / "own.h5").is_file()
+        case = own_case(file)
+        heights.append((case.column.height_m, Case.of_column(case).id))
+    assert heights[1][0] == pytest.approx(2 * heights[0][0]) and heights[0][1] != heights[1][1]
+
+
+def test_a_script_is_told_apart_by_what_it_includes(tmp_path):
+    (tmp_path / "own.geo").write_text('Include "inner.geo";\n')
+    (tmp_path / "inner.geo").write_text('Merge "part.step";\nInclude "own.geo";\nh = 1;\n')
+    found = [content(str(tmp_path / "own.geo"))]
+    (tmp_path / "part.step").write_text("x")
+    found.append(content(str(tmp_path / "own.geo")))
+    (tmp_path / "inner.geo").write_text('Merge "part.step";\nh = 2;\n')
+    found.append(content(str(tmp_path / "own.geo")))
+    assert len(set(found)) == 3
