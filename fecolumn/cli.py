@@ -52,6 +52,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _answer(args: argparse.Namespace) -> int:
     """Run the command of `args`, and tell in a line what ends it; the exit code."""
     from fecolumn.foundation.atomic import disk_full
+    from fecolumn.foundation.debian import missing_text
     from fecolumn.foundation.deprecated import TOLD
     from fecolumn.foundation.older_option import tell_older_options
     from fecolumn.foundation.schema import InputError
@@ -80,6 +81,8 @@ def _answer(args: argparse.Namespace) -> int:
         code = 1
         if _is_failure(error):  # on every rank alike
             return _refuse(error, code)
+        if isinstance(error, ModuleNotFoundError) and (told := missing_text(error)):
+            return _refuse(told, code)
         if disk_full(error):
             print(
                 "fecolumn: the disk is full; free room and run the same command again",
@@ -107,9 +110,11 @@ def _is_failure(error: Exception) -> bool:
 
 def _abandon_other_ranks(code: int) -> None:
     """End the other ranks of this command too: they would wait for this one for ever."""
-    from mpi4py import MPI
+    from fecolumn.foundation.debian import rank_and_size
 
-    if MPI.COMM_WORLD.size > 1:
+    if rank_and_size()[1] > 1:
+        from mpi4py import MPI
+
         sys.stderr.flush()
         MPI.COMM_WORLD.Abort(code)
 
@@ -129,9 +134,9 @@ def _show_warning(
 
 
 def _refuse(message: object, code: int) -> int:
-    from mpi4py import MPI
+    from fecolumn.foundation.debian import rank_and_size
 
-    if MPI.COMM_WORLD.rank == 0:
+    if rank_and_size()[0] == 0:
         print(f"fecolumn: {message}", file=sys.stderr)
     return code
 

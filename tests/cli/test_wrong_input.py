@@ -2,6 +2,11 @@
 written.
 """
 
+import os
+import re
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -11,8 +16,6 @@ SPECIMEN = "meshes/stout.toml"
 
 
 def _refused(tmp_path, capsys, text, command="run"):
-    import os
-
     file = tmp_path / "case.toml"
     file.write_text(f'extends = "{os.path.abspath(SPECIMEN)}"\n' + text)
     code = main([command, str(file), "-o", str(tmp_path / "out")])
@@ -126,3 +129,43 @@ def test_folder_of_another_case_is_refused_and_left_alone(tmp_path, capsys):
 def test_resume_of_a_foreign_folder_is_refused(tmp_path, capsys):
     assert main(["resume", str(tmp_path)]) == 2
     assert "case.json" in capsys.readouterr().err
+
+
+WITHOUT = """
+import sys
+
+class Nowhere:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in "dolfinx mpi4py petsc4py h5py gmsh ufl basix".split():
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+sys.meta_path.insert(0, Nowhere())
+from fecolumn.cli import main
+
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+@pytest.mark.parametrize(
+    "words, code, said",
+    [
+        (["show", "none.toml"], 2, "none.toml: no such file"),
+        (["run", "block.toml", "-o", "out"], 1, "needs [a-z0-9]+, which pip does not install"),
+        (["study", "none.toml", "-o", "out"], 2, "none.toml: no such file"),
+    ],
+)
+def test_without_debians_packages_a_command_says_so_in_a_line(tmp_path, words, code, said):
+    """As pip installs it: without DOLFINx, MPI, PETSc, Gmsh and HDF5."""
+    block = '[bodies.a]\nkind = "block"\nlength_m = 0.2\nwidth_m = 0.2\nheight_m = 0.6\n'
+    block += '[joints.foot]\nbetween = ["a", "ground"]\n[integration]\nduration_s = 0.01\n'
+    (tmp_path / "block.toml").write_text(block)
+    done = subprocess.run(
+        [sys.executable, "-c", WITHOUT, *words],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == code and re.search(said, done.stderr), done.stderr
+    assert done.stderr.count("\n") == 1
