@@ -67,10 +67,18 @@ class Resumable:
         path, problem, comm = self.folder / CHECKPOINT, "", self.comm
         if not comm.bcast(is_file(path) if comm.rank == 0 else None):
             return False
-        try:
-            take(read_arrays(path))
+        arrays = None
+        try:  # by one rank, so that all take the same
+            arrays = read_arrays(path) if comm.rank == 0 else None
         except Exception as error:  # damaged archives lead to errors of a dozen kinds
-            problem = f"{type(error).__name__}: {error}".split("\n")[0]
+            problem = _in_line(error)
+        if comm.size > 1:
+            arrays, problem = comm.bcast((arrays, problem))
+        try:
+            if arrays is not None:
+                take(arrays)
+        except Exception as error:
+            problem = _in_line(error)
         problem = next(filter(None, comm.allgather(problem)), "")
         if problem:
             if comm.rank == 0:
@@ -137,3 +145,7 @@ class Resumable:
                 wall_s=self.earlier_s + time.perf_counter() - self.began,
             )
         )
+
+
+def _in_line(error: Exception) -> str:
+    return f"{type(error).__name__}: {error}".split("\n")[0]

@@ -21,16 +21,25 @@ if TYPE_CHECKING:
 
 
 def known_to_all(comm: MPI.Intracomm, make: Callable[..., Any]) -> Any:
-    """What `make` makes on rank 0, known on every rank; a refusal is raised on every rank."""
-    result, refusal = None, None
+    """What `make` makes on rank 0, known on every rank; a refusal is raised on every rank, and so
+    is any other error, which others than rank 0 have as RuntimeError.
+    """
+    if comm.size == 1:
+        return make()
+    result, refusal, failure = None, None, None
     if comm.rank == 0:
         try:
             result = make()
         except InputError as error:
             refusal = error.file, error.key, error.value, error.allowed
-    result, refusal = comm.bcast((result, refusal)) if comm.size > 1 else (result, refusal)
+        except Exception as error:
+            comm.bcast((None, None, f"{type(error).__name__} on rank 0: {error}"))
+            raise
+    result, refusal, failure = comm.bcast((result, refusal, failure))
     if refusal:
         raise InputError(*refusal)
+    if failure:
+        raise RuntimeError(failure)
     return result
 
 

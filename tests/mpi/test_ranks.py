@@ -175,3 +175,39 @@ def test_a_structure_of_the_reduced_engine_is_refused_on_two_ranks(tmp_path):
     ]
     done = subprocess.run(command, capture_output=True, text=True, env=launch_environment())
     assert done.returncode == 2 and done.stderr.count("runs on one process") == 1
+
+
+REFUSED = """
+from mpi4py import MPI
+from fecolumn.fem.tied_body import known_to_all
+from fecolumn.foundation.schema import InputError
+
+def damaged():
+    raise MemoryError("no room")
+
+def refused():
+    raise InputError("case", "key", 1, "must be 2")
+
+for make in (lambda: 7, refused, damaged):
+    try:
+        told = known_to_all(MPI.COMM_WORLD, make)
+    except Exception as error:
+        told = f"{type(error).__name__}: {error}"
+    print(MPI.COMM_WORLD.rank, told, flush=True)
+"""
+
+
+@pytest.mark.long
+def test_what_one_rank_cannot_make_ends_all():
+    command = [*MPIRUN, "-n", "2", sys.executable, "-c", REFUSED]
+    done = subprocess.run(
+        command, capture_output=True, text=True, env=launch_environment(), timeout=120
+    )
+    assert sorted(done.stdout.splitlines()) == [
+        "0 7",
+        "0 InputError: case: key = 1: must be 2",
+        "0 MemoryError: no room",
+        "1 7",
+        "1 InputError: case: key = 1: must be 2",
+        "1 RuntimeError: MemoryError on rank 0: no room",
+    ]

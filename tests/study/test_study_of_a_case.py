@@ -2,6 +2,8 @@
 study's.
 """
 
+import pytest
+
 import fecolumn
 from fecolumn.study.plan import read_plan
 from fecolumn.study.results.script import _study_file
@@ -52,3 +54,14 @@ def test_one_analysis_takes_every_row_and_states_in_pictures_where_nothing_is_sa
     assert (left_open.row_interval_s, left_open.state_interval_s) == (0.0, 0.04)
     stated = fecolumn.Output(history_every_s=0.1, states_every_s=0.0)
     assert (stated.row_interval_s, stated.state_interval_s) == (0.1, 0.0)
+
+
+@pytest.mark.parametrize("folder, name", [(".", "work-study"), ("..", "outer-study")])
+def test_the_study_is_beside_a_folder_without_a_name(tmp_path, monkeypatch, folder, name):
+    work = tmp_path / "outer" / "work"
+    work.mkdir(parents=True)
+    monkeypatch.chdir(work)
+    path = _study_file(cases(STATED)[0], folder, AXES)
+    assert path.parent == (work / folder).resolve().parent and path.stem == name
+    with pytest.raises(fecolumn.InputError, match="/: is no folder of results: give it a name"):
+        _study_file(cases(STATED)[0], "/", AXES)

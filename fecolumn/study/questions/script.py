@@ -14,7 +14,7 @@ from fecolumn.foundation.atomic import write_bytes
 from fecolumn.foundation.deprecated import renamed
 from fecolumn.foundation.schema import InputError
 from fecolumn.study.questions.answer import Answer, asked
-from fecolumn.study.results.script import case_file
+from fecolumn.study.results.script import beside, case_file
 
 
 def design(
@@ -175,7 +175,7 @@ def screen(
     from fecolumn.study.questions import screen_command
 
     if hasattr(objects, "to_csv"):
-        path = _beside(folder, "-list.csv")
+        path = beside(folder, "-list.csv")
         write_bytes(path, objects.to_csv(index=False).encode())
         objects = path
     of_acceleration, of_time = _scales(scale)
@@ -266,10 +266,3 @@ def _is_number(value: Any) -> bool:
 
 def _several(texts: str | Sequence[str]) -> list[str]:
     return [texts] if isinstance(texts, str) else [str(one) for one in texts]
-
-
-def _beside(folder: str | Path, ending: str) -> Path:
-    """A file beside the folder, named after it."""
-    folder = Path(folder)
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    return folder.with_name(folder.name + ending)

@@ -111,12 +111,11 @@ def _study_file(
         told = 'must be lists by key, such as {"motion.source": ["lick:1-10"]}'
         raise InputError("run_study", "axes", axes, told)
     case = Path(case_file(study, folder, "run_study", "study")).resolve()
-    path = Path(folder).with_name(f"{Path(folder).name}-study.toml")
+    path = beside(folder, "-study.toml")
     plain = {key: _plain(values) for key, values in axes.items()}
     title = study.title if isinstance(study, Case) else ""
     # files by their absolute paths: a script means the current folder
     tables = taken_over({"title": title or path.stem, "case": str(case), "axes": plain}, "case")
-    path.parent.mkdir(parents=True, exist_ok=True)
     write_bytes(path, tomli_w.dumps(tables).encode())
     return path
 
@@ -146,6 +145,25 @@ def as_path(file: object, where: str, name: str) -> str:
     return os.fspath(file)
 
 
+def beside(folder: str | Path, ending: str) -> Path:
+    """A file beside a folder, NAME and the `ending`; what it is to be in is made.
+
+    Raises
+    ------
+    InputError
+        nothing can be beside it.
+    """
+    from fecolumn.foundation.schema import InputError
+
+    path = Path(folder)
+    if path.name in ("", ".."):
+        path = Path(os.path.abspath(path))
+    if not path.name:
+        raise InputError(folder, "", None, "is no folder of results: give it a name")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path.with_name(path.name + ending)
+
+
 def case_file(case: object, folder: str | Path, where: str, name: str = "case") -> str:
     """The file of a case; that of a Case is written beside the folder, as NAME-case.toml.
 
@@ -158,8 +176,6 @@ def case_file(case: object, folder: str | Path, where: str, name: str = "case") 
 
     if not isinstance(case, Case):
         return as_path(case, where, name)
-    folder = Path(folder)
-    path = folder.with_name(f"{folder.name}-case.toml")
-    path.parent.mkdir(parents=True, exist_ok=True)
+    path = beside(folder, "-case.toml")
     write_bytes(path, case.to_toml().encode())
     return str(path)
