@@ -52,6 +52,8 @@ def check_found(case: CheckedCase, refuse: Refuse, check_name: Callable[[str, st
                 "plane without end",
             )
     bodies = dict.fromkeys(name for name, _ in case.found)
+    if all(case.is_held(name) for name in bodies):
+        refuse(_KEY, told, "must name a body that moves: these are all fixed")
     for name in bodies:
         _check_body(name, case.bodies[name], refuse)
     for name, joint in case.joints.items():

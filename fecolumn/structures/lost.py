@@ -21,8 +21,9 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
        mass; on the ground the push is bounded by the ground motion that is still to come. This is
        the rule for one body on the ground, for each body of a stack, and for equal columns below
        one slab, which lean together as one column would alone.
-    2. A part that links or side faces hold, or that rolls on a dome, is lost at 45 degrees, or at
-       its critical tilt plus the angle of friction where that is more, but at 90 degrees at most.
+    2. A part that links, a bond or side faces hold, that rolls on a dome, or that carries such a
+       part, is lost at 45 degrees, or at its critical tilt plus the angle of friction where that is
+       more, but at 90 degrees at most.
        If its critical tilt is above 45 degrees, as of a slab wider than high, it is lost at 90
        degrees: leaning beyond its critical tilt, it may still fall back.
     3. A part whose contact is found during the motion is never lost: the analysis goes on until it
@@ -49,6 +50,9 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
             held |= {joint.slave, joint.master}
         if joint.on_dome:
             held.add(joint.slave)
+        if joint.bond is not None:
+            held |= {joint.slave, joint.master}
+    held = _with_supports(held, supports)
     tilts, rows, _ = Limits.of_tilt(len(standing))
     fall = set(structure.found.parts) if structure.found else set()
     corners = [np.zeros((0, 2))]
@@ -72,6 +76,18 @@ def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:
         corners.append(stance.corners)
         tilts[place] = np.inf
     return Limits(tilts, rows, np.ascontiguousarray(np.concatenate(corners)))
+
+
+def _with_supports(held: set[int], supports: list[Supports]) -> set[int]:
+    """Parts that are held, and all that these stand on, one on the other: what holds a slab holds
+    its columns.
+    """
+    found, left = set(held), [place for place in held if place != GROUND]
+    while left:
+        below = {one for one, _ in supports[left.pop()]} - found - {GROUND}
+        found |= below
+        left += below
+    return found
 
 
 def _moves_with_ground(place: int, supports: list[Supports], standing: list[Standing]) -> bool:

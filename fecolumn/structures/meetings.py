@@ -78,7 +78,7 @@ def _of_interface(
     gaps: list[Gap] = []
     for slave in slaves:
         for master in masters:
-            if master == slave:
+            if master == slave or _are_held(case, slave, master):
                 continue
             meetings, apart = _of_pair(
                 case, name, slave, master, faces, master in slaves and slave in masters
@@ -102,6 +102,13 @@ def _of_interface(
     if near or not found:
         refuse_joint(case, name, interface, near or gaps, bool(near), faces, file)
     return found
+
+
+def _are_held(case: Case, slave: tuple[str, int], master: tuple[str, int] | None) -> bool:
+    """Whether both are fixed, or one is and the other is the ground: they cannot move apart."""
+    return all(
+        one is None or getattr(case.bodies[one[0]], "fixed", False) for one in (slave, master)
+    )
 
 
 def _across_gaps(gaps: list[Gap]) -> list[Meeting]:

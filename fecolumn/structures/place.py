@@ -110,13 +110,15 @@ def placed(
         center = np.mean(centers, axis=0) if centers else part.center
         size = np.ptp(part.model.arms, axis=0).max()
         if centers and np.abs(np.array(centers) - center).max() > _AGREE * size:
-            raise InputError(
-                file,
-                f"initial.{part.name}",
-                None,
-                f'"{part.name}" cannot stand on bodies that lean differently: '
-                "give all that it stands on the same tilt_rad and direction_deg",
-            )
+            if not _are_upright(supports[place], standing, found):
+                raise InputError(
+                    file,
+                    f"initial.{part.name}",
+                    None,
+                    f'"{part.name}" cannot stand on bodies that lean differently: '
+                    "give all that it stands on the same tilt_rad and direction_deg",
+                )
+            pivot, center = _on_farthest(standing, supports[place], place, turns, found)
         found[place] = Placement(
             center,
             turns[place],
@@ -216,6 +218,36 @@ def _on(
 
     touched, offset = _rolled(standing, joint, pivot, relative)
     return carried(touched), carried(touched + relative @ (part.center - pivot - offset))
+
+
+def _are_upright(
+    supports: Supports, standing: Sequence[Standing], found: dict[int, Placement]
+) -> bool:
+    """Whether all that a part stands on is in its place and does not lean."""
+    return all(
+        below == GROUND
+        or np.array_equal(found[below].rotation, np.eye(3))
+        and np.array_equal(found[below].center, standing[below].center)
+        for below, _ in supports
+    )
+
+
+def _on_farthest(
+    standing: Sequence[Standing],
+    supports: Supports,
+    upper: int,
+    turns: list[NDArray[Any]],
+    found: dict[int, Placement],
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """As `_on`, of a part that leans on several upright bodies: about the farthest of all."""
+    ahead = turns[upper][:, 2] * [1.0, 1.0, 0.0]
+    _, farthest = _pivot(standing, _joints_of(supports), ahead)
+    below = next(one for one, between in supports if any(farthest is joint for joint in between))
+    return _on(standing, [farthest], upper, below, turns, found)
+
+
+def _joints_of(supports: Supports) -> list[JointModel]:
+    return [joint for _, between in supports for joint in between]
 
 
 def _rolled(
@@ -372,7 +404,7 @@ def _moving(
     standing: Sequence[Standing],
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """Velocity (3,) of the centre of mass and spin (3,) of a part: a spin tips it over the point
-    that it stands on, and turns it about its foot.
+    ahead on which it stands, and turns it about its foot, of several the middle.
     """
     if part.start is None:
         return np.zeros(3), np.zeros(3)
@@ -381,12 +413,15 @@ def _moving(
         return velocity, spin
     axis = pivot
     if not part.start.tilt_rad:
-        pivot, axis = (
-            _rolled(standing, joint, point, np.eye(3))[0] + center - part.center
-            for point, joint in (
-                _pivot(standing, supports[0][1], ahead)
-                for ahead in (np.array([spin[1], -spin[0], 0.0]), np.zeros(3))
-            )
-        )
+
+        def touched(joints: list[JointModel], ahead: NDArray[Any]) -> NDArray[Any]:
+            point, joint = _pivot(standing, joints, ahead)
+            where: NDArray[Any] = _rolled(standing, joint, point, np.eye(3))[0]
+            where = where + center - part.center
+            return where
+
+        pivot = touched(_joints_of(supports), np.array([spin[1], -spin[0], 0.0]))
+        feet = [touched(between, np.zeros(3)) for _, between in supports]
+        axis = feet[0] if len(feet) == 1 else np.mean(feet, axis=0)
     level = spin * [1.0, 1.0, 0.0]
     return velocity + np.cross(level, center - pivot) + np.cross(spin - level, center - axis), spin

@@ -143,9 +143,13 @@ def rigid_model(
         per area of its faces [N/m3]; None takes `punch_stiffness` of each patch.
     """
     masses = mass_properties(shape.mesh, material.density_kg_m3)
-    arms, flexibility, surfaces = local_points(patches, masses.centre, material, stiffness)
     top = top_face(faces)
     positions, shares = face_weights(top, 1)
+    if patches:
+        arms, flexibility, surfaces = local_points(patches, masses.centre, material, stiffness)
+    else:  # a fixed body that nothing touches: the points of its top, which carry nothing
+        arms, surfaces = positions - masses.centre, {}
+        flexibility = np.zeros((len(arms), len(arms), 3, 3))
     return BodyModel(
         masses.mass,
         masses.inertia,

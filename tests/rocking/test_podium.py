@@ -212,3 +212,12 @@ def test_few_motions_leave_claims_on_bands_undecided():
         SUPPORTED,
         UNDECIDED,
     )
+
+
+def test_a_podium_that_is_bound_to_fall_has_fallen():
+    """Half a second after a start beyond its critical tilt it is still on its way."""
+    podium, start = Podium.of_section(PodiumModel(**SECTION), "podium.toml"), 0.17
+    assert start > podium.critical_tilt
+    short = GroundMotion(np.zeros((51, 3)), 0.01, "at rest", "")
+    assert podium.respond(short, tilt=start).overturned
+    assert not podium.respond(short, tilt=0.9 * podium.critical_tilt).overturned

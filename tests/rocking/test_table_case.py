@@ -277,3 +277,40 @@ def test_motion_and_integration_of_a_models_own_table_are_checked_as_of_any_case
     block = dict(block=dict(width_m=0.25, height_m=1.0))
     with pytest.raises(InputError, match=told):
         case_from_tables(block | keys, "case.toml")
+
+
+@pytest.mark.parametrize(
+    "table, direction, told",
+    [
+        (
+            "podium",
+            90,
+            r"direction_deg = 90.0: must be 0 or 180 deg: \[podium\] rocks in the plane",
+        ),
+        ("frame", 45, r"direction_deg = 45.0: must be 0 or 180 deg: \[frame\] rocks in the plane"),
+        ("block", 90, r"direction_deg = 90.0: must be 0 or 180 deg: \[block\] rocks in the plane"),
+        ("one-sided", 180, "direction_deg = 180.0: must be 0 deg where block.sides = 1"),
+        ("podium", 180, ""),
+        ("frame", -180, ""),
+        ("one-sided", 360, ""),
+        ("deep", 90, ""),
+    ],
+)
+def test_a_start_that_a_model_cannot_have_is_refused(table, direction, told, tmp_path):
+    block = {"width_m": 0.6, "height_m": 3.0}
+    tables = {
+        "podium": tomllib.loads(PODIUM),
+        "frame": {
+            "frame": dict(width_m=1.6, height_m=9.6, column_mass_kg=48e3, beam_mass_kg=384e3)
+        },
+        "block": {"block": block},
+        "one-sided": {"block": block | {"sides": 1}},
+        "deep": {"block": block | {"depth_m": 0.8}},
+    }[table]
+    leaning = {"tilt_rad": 0.03, "direction_deg": direction}
+    case = case_from_tables(tables | {"initial": leaning, "integration": {"duration_s": 0.5}})
+    if told:
+        with pytest.raises(InputError, match=told):
+            run(case, tmp_path / "out", quiet=True)
+    else:
+        assert run(case, tmp_path / "out", quiet=True)["u_max_m"] > 0.01

@@ -162,3 +162,16 @@ def test_the_direction_of_the_fall_is_that_of_the_body_that_fell(tmp_path):
     summary = run(case, tmp_path, quiet=True)
     assert '"low" has tilted' in summary["ended_by"]
     assert abs(summary["overturn_direction_deg"]) == pytest.approx(180.0, abs=0.1)
+
+
+def test_what_a_bond_or_a_held_slab_holds_is_followed_beyond_its_critical_tilt():
+    bond = dict(bond_tension_pa=5e4, bond_cohesion_pa=5e4, bond_stiffness_n_m3=4e6)
+    glued = alone(0.2, 1.0, 0.0).replace({f"joints.foot.{key}": v for key, v in bond.items()})
+    rows, tilts = limits(glued)
+    steepest = math.atan2(0.2, 1.0) + math.pi / 4
+    assert tilts[0] == pytest.approx(steepest) and np.isinf(rows["block"]["critical"])
+    tendon = dict(kind="tendon", body="slab", to="ground", stiffness_n_m=1e6)
+    tendon |= dict(point_m=[0.0, 0.0, 0.15], to_point_m=[0.0, 0.0, -2.5])
+    rows, tilts = limits(structure(**frame(), links=dict(tendon=tendon)))
+    assert np.isfinite(tilts).all()
+    assert all(np.isinf(row["critical"]) for row in rows.values())

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from small_structures import BLOCK, block, frame, stack, structure
+from small_structures import BLOCK, RIGID, STONE, block, frame, stack, structure
 
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.toml_file import merge
@@ -191,3 +191,39 @@ def test_a_block_of_a_million_tonnes_stands_and_so_does_a_gram_on_it():
         contact=dict(interior_points=0),
     )
     structure_model(case)
+
+
+GATE = dict(
+    bodies=dict(
+        pier=dict(kind="block", length_m=0.2, width_m=0.6, height_m=0.8)
+        | STONE
+        | RIGID
+        | dict(copies_m=[[-0.4, 0, 0], [0.4, 0, 0]]),
+        lintel=dict(kind="block", length_m=1.1, width_m=0.6, height_m=0.14, at_m=[0, 0, 0.8])
+        | STONE
+        | RIGID,
+    ),
+    joints=dict(feet=dict(between=["pier", "ground"]), heads=dict(between=["pier", "lintel"])),
+)
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_lintel_tips_over_the_pier_ahead_by_spin_and_by_tilt(way):
+    """The mirror image of a start is the mirror image of its motion."""
+    spun = structure_model(
+        structure(**GATE, initial=dict(lintel=dict(spin_rad_s=[0.0, 0.5 * way, 0.0])))
+    ).parts[2]
+    edge = np.array([0.5 * way, 0.0, 0.8])
+    assert spun.velocity + np.cross(spun.spin, edge - spun.center) == pytest.approx(np.zeros(3))
+    leans = dict(tilt_rad=0.05, direction_deg=0 if way > 0 else 180)
+    tilted = structure_model(structure(**GATE, initial=dict(lintel=leans))).parts[2]
+    corner = tilted.center + tilted.rotation @ [0.5 * way, 0.0, -0.07]
+    assert corner[[0, 2]] == pytest.approx([0.5 * way, 0.8], abs=1e-12)
+    assert tilted.rotation[0, 2] == pytest.approx(way * np.sin(0.05))
+
+
+def test_a_lintel_turns_about_the_middle_of_its_piers():
+    part = structure_model(
+        structure(**GATE, initial=dict(lintel=dict(spin_rad_s=[0.0, 0.0, 1.0])))
+    ).parts[2]
+    assert part.velocity == pytest.approx(np.zeros(3), abs=1e-12)

@@ -4,10 +4,12 @@ that is shaken.
 
 import numpy as np
 import pytest
+from small_structures import block, structure
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.history_columns import columns_of
+from fecolumn.simulation import run
 from fecolumn.verification.any_joint_walls import sunk_depth, wall, wall_shaking
 
 
@@ -33,3 +35,36 @@ def test_shaken_wall_with_closed_head_joints_keeps_its_energy_and_sinks_nowhere(
         closure = max(closure, np.abs(columns["energy/closure"]).max())
         moved, depth = max(moved, columns["energy/kinetic"].max()), max(depth, sunk_depth(made))
     assert moved > 1.0 and closure <= 1e-12 * moved and depth <= 1e-8
+
+
+WALL = dict(kind="block", length_m=0.2, width_m=1.0, height_m=1.5, element_size_m=0.2, fixed=True)
+TIE = dict(
+    kind="tendon",
+    body="block",
+    point_m=[-0.2, 0, 1.1],
+    to="wall",
+    to_point_m=[-0.5, 0, 1.1],
+    stiffness_n_m=1e5,
+)
+
+
+@pytest.mark.parametrize("engine", ["rigid", "reduced"])
+@pytest.mark.parametrize("links", [{}, {"tie": TIE}], ids=["scenery", "tied"])
+def test_a_fixed_body_needs_no_joint(engine, links, tmp_path):
+    tables = block()
+    tables["bodies"]["wall"] = WALL | dict(at_m=[-0.6, 0, 0])
+    case = structure(**tables, links=links, integration=dict(engine=engine, duration_s=0.02))
+    found = run(case, tmp_path / "out", quiet=True)
+    assert found["steps"] == 20 and found["energy_closure_rel"] < 1e-9
+
+
+def test_a_fixed_voussoir_has_no_joint_with_its_ground(tmp_path):
+    arch = dict(kind="arch", mean_radius_m=3.0, thickness_m=0.6, width_m=1.0, voussoirs=7)
+    case = structure(
+        bodies={"arch": arch | dict(element_size_m=1.0), "arch 1": dict(fixed=True)},
+        joints=dict(ring=dict(between=["arch", "arch"]), feet=dict(between=["arch", "ground"])),
+        contact=dict(friction_coefficient=0.7),
+        integration=dict(engine="rigid", duration_s=0.1),
+    )
+    found = run(case, tmp_path / "out", quiet=True)
+    assert found["steps"] == 100 and found["u_max_m"] < 1e-4

@@ -49,6 +49,11 @@ WRONG = [
     (tables(contact=dict(between=["nobody"])), "contact.between", "nobody"),
     (tables(contact=dict(between=["ground"])), "contact.between", "ground"),
     (tables(contact=dict(between="some")), "contact.between", "all"),
+    (
+        beside(box(0.3, 0.3, 0.8, at_m=[2, 0, 0], fixed=True), contact=dict(between=["other"])),
+        "contact.between",
+        "must name a body that moves",
+    ),
     (tables(contact=dict(between=[1])), "contact.between", "all"),
     (beside(L_PRISM), "contact.between", '"other" is not convex, it fills 0.'),
     (beside(TUBE), "contact.between", '"other" is not convex, it fills 0.'),

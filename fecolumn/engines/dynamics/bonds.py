@@ -1,8 +1,9 @@
 """Bonded joints as links: each contact point is held by a spring along the normal, which only pulls
 and shares its place with the contact, and by two along the face.
 
-A link is as long as LONG times the way at which nothing of a point is left and ends on the master's
-side, so that it keeps its direction in the master's frame to that share.
+A link is as long as LONG times the way at which nothing of a point is left, and WIDE times the
+width of the face at least, and ends on the master's side, so that it keeps its direction in the
+master's frame to that share, and rounding of places hardly turns it.
 """
 
 from __future__ import annotations
@@ -18,8 +19,9 @@ from fecolumn.foundation.arrays import Array
 if TYPE_CHECKING:
     from fecolumn.structures.model import JointModel, StructureModel, Surface
 
-# Length of a link of a bond over the way at which it has failed
-LONG = 2e3
+# Length of a link of a bond over the way at which it has failed; at least, over the width of the
+# face
+LONG, WIDE = 2e3, 0.1
 
 
 class BondLinks(NamedTuple):
@@ -64,7 +66,8 @@ def _links_of_point(model: StructureModel, joint: JointModel, point: Array, area
     """Three links (3,) of LINK at a point (3,) [m] of the slave that stands for an area [m2]."""
     bond, rows = joint.bond, np.zeros(3, LINK)
     assert bond is not None
-    axes = model.parts[joint.slave].rotation @ _face(model, joint.slave, joint.slave_surface).axes
+    face = _face(model, joint.slave, joint.slave_surface)
+    axes = model.parts[joint.slave].rotation @ face.axes
     stiffness = area * np.array([bond.stiffness, bond.shear_stiffness, bond.shear_stiffness])
     strength = area * np.array([bond.tension, bond.cohesion, bond.cohesion])
     rows["stiffness"], rows["breaks"] = stiffness, strength / stiffness
@@ -73,7 +76,8 @@ def _links_of_point(model: StructureModel, joint: JointModel, point: Array, area
     rows["area"], rows["rubs"], rows["leads"] = area, joint.friction, [True, False, False]
     rows["pulls"], rows["pushes"] = True, [False, True, True]
     rows["yields"], rows["bends"], rows["power"] = np.inf, np.inf, 1.0
-    rows["length"] = LONG * rows["fails"].min()
+    width = np.ptp(model.parts[joint.slave].model.arms[face.nodes], axis=0).max()
+    rows["length"] = max(LONG * rows["fails"].min(), WIDE * width)
     for row, along in zip(rows, axes.T[[2, 0, 1]]):
         near = _held_at(model, joint.slave, joint.ground, point)
         far = _held_at(model, joint.master, joint.ground, point + row["length"] * along)

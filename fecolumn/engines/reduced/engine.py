@@ -114,6 +114,7 @@ class Engine:
         )
         self._schemes: dict[tuple[HHT, bool], tuple[Any, ...]] = {}
         self.spent_s = 0.0  # processor time of compiled steps [s]
+        self.made = np.empty((0, self.view.width))
         self.counts, self.ledger = np.zeros(N_COUNTS, np.int64), np.zeros(N_PLACES)
         upright = np.tile(np.eye(3), (len(view.center), 1, 1))
         self._need_below(view.center, upright, self.spare.grounds, 0)

@@ -220,9 +220,11 @@ def _plane(section: BlockModel, axis: int, sides: tuple[float, float], mass: flo
             Restraint(springs, bed, tendons, (side * section.roof_thrust_n, height, middle))
         )
     restitution = section.restitution
-    if section.sides == 1 and restitution is None:
-        restitution = one_sided_restitution(math.atan2(width, height))
     edges = width / 2 - centre[0], width / 2 + centre[0]
+    if section.sides == 1 and restitution is None:
+        restitution = one_sided_restitution(
+            total, float(central), (float(edges[0]), float(edges[1])), float(centre[1]), height
+        )
     return body_plane(
         PlanarBody(
             axis, total, edges, float(centre[1]), float(central), height, (width / 2, width / 2)

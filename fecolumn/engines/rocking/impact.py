@@ -40,17 +40,39 @@ def body_restitution(
     return max(momentum / (central_inertia + mass * (landed[0] ** 2 + landed[1] ** 2)), 0.0)
 
 
-def one_sided_restitution(slenderness: float) -> float:
-    """Of a rectangular block that strikes a rigid wall behind it and goes back the way it came; a
-    share of the speed, at least 0.
+def one_sided_restitution(
+    mass: float, central_inertia: float, edges: tuple[float, float], centre: float, height: float
+) -> float:
+    """Of a body with a flat foot that strikes a rigid wall behind it and goes back the way it came;
+    a share of the speed, at least 0.
 
     It lands on its other foot edge, strikes the wall with the top edge above that, and lands on the
-    first foot edge again, each time keeping its angular momentum: (1 - 3/2 sin^2 alpha)^2 (3/2
-    cos^2 alpha - 1) (Sorrentino, Kunnath, Monti and Scalora 2008). Tests on walls find less.
+    first foot edge again, each time keeping its angular momentum. Of a rectangular block that is
+    (1 - 3/2 sin^2 alpha)^2 (3/2 cos^2 alpha - 1) (Sorrentino, Kunnath, Monti and Scalora 2008).
+    Tests on walls find less.
+
+    Parameters
+    ----------
+    mass
+        [kg].
+    central_inertia
+        about the centre of mass [kg m2].
+    edges
+        distances of the centre of mass from the edge on which it leans, and from the wall, along
+        the ground [m].
+    centre, height
+        of the centre of mass and of the top above the ground [m].
     """
-    return max(
-        housner_restitution(slenderness) ** 2 * (1.5 * math.cos(slenderness) ** 2 - 1.0), 0.0
+    leaning, landed, struck = (
+        (-edges[0], centre),
+        (edges[1], centre),
+        (edges[1], centre - height),
     )
+    first = body_restitution(mass, central_inertia, leaning, landed)
+    last = body_restitution(mass, central_inertia, landed, leaning)
+    kept = central_inertia + mass * (landed[0] * struck[0] + landed[1] * struck[1])
+    about = central_inertia + mass * (struck[0] ** 2 + struck[1] ** 2)
+    return first * max(-kept / about, 0.0) * last
 
 
 def frame_restitution(slenderness: float, mass_ratio: float) -> float:

@@ -12,7 +12,7 @@ from fecolumn.case.bodies import Block, Cylinder, Storeys, Tube
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.check_way import check_way
-from fecolumn.case.checked import refuse_in
+from fecolumn.case.checked import Refuse, refuse_in
 from fecolumn.case.ground import GROUND_NAME
 from fecolumn.case.joint import Joint, own_contact
 from fecolumn.case.model_keys import UNKNOWN_KEYS
@@ -29,7 +29,7 @@ from fecolumn.engines.rocking.storeys import shear_building
 from fecolumn.engines.rocking.wobbling import Wobbling, cylinder_body
 from fecolumn.engines.rocking.wobbling_frame import WobblingFrame
 from fecolumn.foundation.arrays import Array
-from fecolumn.foundation.schema import InputError
+from fecolumn.foundation.schema import InputError, Section
 from fecolumn.structures.storeys import building_of
 
 # Gap between two bodies, over the height of the lower one, up to which one stands on the other:
@@ -71,10 +71,30 @@ def start_of(case: Case, file: Path | str) -> Start:
     InputError
         columns that start unlike, or what a model cannot start with.
     """
-    for name in case.own:
+    for name, section in case.own.items():
         start = case.initial[name]
+        _check_direction(name, section, start, refuse_in(file))
         return Start(tilt_rad=start.tilt_rad, direction_deg=start.direction_deg)
     return _Reader(case, file).start()
+
+
+def _check_direction(name: str, section: Section, start: Initial, refuse: Refuse) -> None:
+    """Refuse a start across the plane of a model of its own table, or into the wall behind it."""
+    in_plane = name in ("frame", "podium") or name == "block" and not section.depth_m  # type: ignore[attr-defined]
+    if not start.tilt_rad or not in_plane:
+        return
+    if start.direction_deg % 180.0:
+        refuse(
+            "initial.direction_deg",
+            start.direction_deg,
+            f"must be 0 or 180 deg: [{name}] rocks in the plane of x",
+        )
+    if getattr(section, "sides", 2) == 1 and start.direction_deg % 360.0:
+        refuse(
+            "initial.direction_deg",
+            start.direction_deg,
+            "must be 0 deg where block.sides = 1: a wall stands on the other side",
+        )
 
 
 def rocking_bodies(case: Case, file: Path | str) -> tuple[str, str]:

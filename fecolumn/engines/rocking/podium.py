@@ -14,7 +14,7 @@ import numpy as np
 from fecolumn.case.model_sections import CRV, PodiumModel
 from fecolumn.case.outline_keys import half_and_height
 from fecolumn.case.sections import GRAVITY
-from fecolumn.engines.rocking.model import ModelResponse, balanced
+from fecolumn.engines.rocking.model import PATIENCE, ModelResponse, balanced
 from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.engines.rocking.storeys import ElasticBuilding, storeys
 from fecolumn.foundation.arrays import Array
@@ -168,7 +168,7 @@ class Podium:
         tilt_rate: float = 0.0,
         direction: float = 0.0,
     ) -> ModelResponse:
-        """As of Model; along x alone.
+        """As of Model; along x alone. A fall that is bound to come is followed to its end.
 
         The top is the roof; `peaks` have the base shear and the shear of every storey.
         """
@@ -185,12 +185,17 @@ class Podium:
             PODIUM_WORK,
         )
 
-        ground = np.concatenate(
-            [motion.acceleration[:, [0, 2]], np.zeros((math.ceil(free_s / motion.dt), 2))]
-        )
-        rows, impacts, shears, peak, fallen = self.shake(
-            ground, motion.dt, tilt * math.cos(direction), tilt_rate * math.cos(direction)
-        )
+        along = math.cos(direction)
+        p = math.sqrt(GRAVITY / (self.inertia * self.half_diagonal))
+        for patience in range(PATIENCE):
+            longer = free_s if patience == 0 else free_s + 2.0**patience / p
+            still = np.zeros((math.ceil(longer / motion.dt), 2))
+            ground = np.concatenate([motion.acceleration[:, [0, 2]], still])
+            rows, impacts, shears, peak, fallen = self.shake(
+                ground, motion.dt, tilt * along, tilt_rate * along
+            )
+            if fallen or abs(rows[-1, PODIUM_TILT]) <= self.slenderness:
+                break
         terms = {
             name: self.columns_mass * rows[:, column]
             for name, column in (
