@@ -91,12 +91,16 @@ def _with_supports(held: set[int], supports: list[Supports]) -> set[int]:
 
 
 def _moves_with_ground(place: int, supports: list[Supports], standing: list[Standing]) -> bool:
-    """Whether nothing stands on a part on the ground, or it is one of equal columns below one slab
-    and there is nothing else.
+    """Whether a part on the ground is alone there and nothing stands on it, or it is one of equal
+    columns below one slab and there is nothing else: the force of the ground on all bodies, which
+    tells whether an edge sticks, is then that on it.
     """
     on_it = [upper for upper, below in enumerate(supports) if place in [one for one, _ in below]]
     if not on_it:
-        return True
+        return all(
+            k == place or standing[k].held >= 0 or GROUND not in [one for one, _ in below]
+            for k, below in enumerate(supports)
+        )
     columns = [k for k, below in enumerate(supports) if [one for one, _ in below] == [GROUND]]
     return (
         len(columns) == len(standing) - 1 > 1

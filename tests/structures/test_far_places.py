@@ -58,3 +58,23 @@ def test_within_it_nothing_is_said_and_it_moves_as_at_the_origin(size, at, engin
         far = run(released(size, at, engine), tmp_path / "far", quiet=True)
         near = run(released(size, 0.0, engine), tmp_path / "near", quiet=True)
     assert far["u_max_m"] == pytest.approx(near["u_max_m"], rel=1e-6)
+
+
+def test_stiff_mortar_is_told_of_where_its_rounding_stops_steps():
+    """A stone of 0.3 x 0.3 x 0.25 m on mortar of 8e10 N/m3 goes on at 10 m and stops at 30 m."""
+    stone = dict(kind="block", length_m=0.3, width_m=0.3, height_m=0.25, element_size_m=0.1)
+    stone |= dict(mass_kg=54)
+    mortar = dict(bond_tension_pa=2e5, bond_cohesion_pa=3e5, bond_stiffness_n_m3=8e10)
+
+    def told(at, **bond):
+        case = structure(
+            bodies=dict(stone=stone | dict(at_m=[at, 0, 0])),
+            joints=dict(foot=dict(between=["stone", "ground"]) | bond),
+            integration=dict(engine="rigid", dt_s=5e-5, duration_s=0.1),
+        )
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            structure_model(case)
+        return [str(one.message) for one in said if "from the origin" in str(one.message)]
+
+    assert told(30, **mortar) and not told(0, **mortar) and not told(30)

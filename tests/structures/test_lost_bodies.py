@@ -175,3 +175,14 @@ def test_what_a_bond_or_a_held_slab_holds_is_followed_beyond_its_critical_tilt()
     rows, tilts = limits(structure(**frame(), links=dict(tendon=tendon)))
     assert np.isfinite(tilts).all()
     assert all(np.isinf(row["critical"]) for row in rows.values())
+
+
+def test_the_motion_to_come_bounds_the_push_on_the_edge_of_a_body_that_is_alone():
+    """The force that tells whether an edge sticks is that of the ground on all bodies."""
+    one = alone(0.2, 1.0, 0.0)
+    other = one.tables(defaults=False)["bodies"]["block"] | dict(at_m=[2.0, 0.0, 0.0])
+    joint = {"joints.other": dict(between=["other", "ground"])}
+    for fixed, joints in ((False, joint), (True, {})):
+        both = one.replace({"bodies.other": other | dict(fixed=fixed)} | joints)
+        assert limits(both)[0]["block"]["ground"] == fixed
+    assert limits(one)[0]["block"]["ground"]
