@@ -187,7 +187,7 @@ def _range(values) -> str:
 
 
 def shares(records) -> str:
-    """A row a solver: share solved, median CPU time of what it solves, worst problem, and Siconos'
+    """A row a solver: share solved, median CPU time of all problems, worst problem, and Siconos'
     own error of its forces, median and largest of the solved.
     """
     rows = [

@@ -14,7 +14,7 @@ from fecolumn.foundation.atomic import write_bytes
 from fecolumn.foundation.deprecated import renamed
 from fecolumn.foundation.schema import InputError
 from fecolumn.study.questions.answer import Answer, asked
-from fecolumn.study.results.script import beside, case_file
+from fecolumn.study.results.script import case_file, path_beside
 
 
 def design(
@@ -175,7 +175,7 @@ def screen(
     from fecolumn.study.questions import screen_command
 
     if hasattr(objects, "to_csv"):
-        path = beside(folder, "-list.csv")
+        path = path_beside(folder, "-list.csv")
         write_bytes(path, objects.to_csv(index=False).encode())
         objects = path
     of_acceleration, of_time = _scales(scale)

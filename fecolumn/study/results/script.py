@@ -111,7 +111,7 @@ def _study_file(
         told = 'must be lists by key, such as {"motion.source": ["lick:1-10"]}'
         raise InputError("run_study", "axes", axes, told)
     case = Path(case_file(study, folder, "run_study", "study")).resolve()
-    path = beside(folder, "-study.toml")
+    path = path_beside(folder, "-study.toml")
     plain = {key: _plain(values) for key, values in axes.items()}
     title = study.title if isinstance(study, Case) else ""
     # files by their absolute paths: a script means the current folder
@@ -145,7 +145,7 @@ def as_path(file: object, where: str, name: str) -> str:
     return os.fspath(file)
 
 
-def beside(folder: str | Path, ending: str) -> Path:
+def path_beside(folder: str | Path, ending: str) -> Path:
     """A file beside a folder, NAME and the `ending`; what it is to be in is made.
 
     Raises
@@ -176,6 +176,6 @@ def case_file(case: object, folder: str | Path, where: str, name: str = "case") 
 
     if not isinstance(case, Case):
         return as_path(case, where, name)
-    path = beside(folder, "-case.toml")
+    path = path_beside(folder, "-case.toml")
     write_bytes(path, case.to_toml().encode())
     return str(path)
