@@ -199,6 +199,10 @@ class Analysis(Resumable):
             attributes = {"case_id": self.case.id, **self.code, "title": self.case.title}
             self.history.write(self.folder / "history.h5", attributes, every)
 
+    def is_still(self) -> bool:
+        """Whether the structure is at rest now."""
+        return self.energy_left() <= self.still_j
+
     def energy_left(self) -> float:
         """Mechanical energy above that of gravity equilibrium now [J]; of what has come lower than
         that, its kinetic energy.
@@ -227,7 +231,7 @@ class Analysis(Resumable):
                 OVERTURNED,
                 f"point of no return: {self.no_return(last, rotation)}, at {last['time']:.3f} s",
             )
-        return self.ending_in_time(self.energy_left() <= self.still_j, float(last["time"]))
+        return self.ending_in_time(self.is_still(), float(last["time"]))
 
     def ending_in_time(self, still: bool, end_s: float) -> Ending:
         """How an analysis ends that nothing was lost in, at a time [s]; still: whether it is at

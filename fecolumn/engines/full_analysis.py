@@ -198,7 +198,7 @@ class FullAnalysis(OfStructure):
                 self.stepping_s += time.perf_counter() - began
                 measures = self._note(self.stepper.record.iterations - before)
                 fallen = self.observer.fallen(self.state, measures, self.steepest_at(self.step))
-                over = fallen != STANDS or self.energy_left() <= self.rest_j
+                over = fallen != STANDS or self.rest_j > -np.inf and self.is_still()
                 progress.show(self.step, measures, self.stepper.record)
                 pace.look(self.stepper.record)
                 if self.fields and self.step % self.field_steps == 0:

@@ -214,12 +214,12 @@ class ReducedAnalysis(OfStructure):
         return None if interfaces["on_pad"].any() else loss_share(self.engine.ledger, interfaces)
 
     def _stays(self) -> bool:
-        """Whether what is lost or at rest stays so: bodies whose contact is found are at rest once
-        they have been still for a while.
+        """Whether what is lost or at rest stays so: what may rest anywhere is at rest once it has
+        been still for a while.
         """
-        if not self.collapse or self.engine.fallen(self.steepest_at(self.step)) != STANDS:
+        if not self.rests_anywhere or self.engine.fallen(self.steepest_at(self.step)) != STANDS:
             return True
-        steps = math.ceil(self.collapse.turn_s / self.dt_s)
+        steps = math.ceil(self.turn_s / self.dt_s)
         if self._advance(min(steps, self.steps - self.step), goes_on=True):
             return True
         return bool(self.engine.made[:, ENERGY].max(initial=0.0) <= self.still_j)
@@ -254,7 +254,7 @@ class ReducedAnalysis(OfStructure):
         grounds, steepest = self.grounds(steps), self.steepest(steps)
         failure, over = None, False
         try:
-            standing = np.inf if self.collapse else self.standing_j
+            standing = np.inf if self.rests_anywhere else self.standing_j
             rest = standing, -np.inf if goes_on else self.rest_j
             over = engine.advance(grounds, steepest, rest)[1]
         except Exception as error:  # of the disk, of memory, of the steps

@@ -38,6 +38,9 @@ if TYPE_CHECKING:
 # Height by which a body is lifted that stands nowhere by itself, over its size (root of the sum of
 # its principal inertias over its mass): what lifts a block five times as high as wide onto its edge
 _LIFTED = 0.02
+# Time for which the kinetic energy must stay low where a structure may rest anywhere, over that in
+# which a body falls by its size: what turns back is slow for a shorter time
+_TURNS = 4.0
 
 
 class OfStructure(Analysis):
@@ -51,6 +54,7 @@ class OfStructure(Analysis):
     _off: str | None = None
     _fell: str | None = None
     _collapse: FallenBodies | None = None
+    _anywhere: bool | None = None
 
     def expected(self) -> str:
         """What is analysed, in words."""
@@ -79,13 +83,51 @@ class OfStructure(Analysis):
         return self._collapse
 
     @property
-    def still_j(self) -> float:
-        """Largest `energy_left` [J] at which the structure counts as at rest.
+    def rests_anywhere(self) -> bool:
+        """Whether the structure may come to rest with more or less potential energy than it has at
+        its equilibrium: bodies fall, links hold force that friction locks in, or ground yields.
+        """
+        if self._anywhere is None:
+            case, parts = self.case, self.structure.parts
+            self._anywhere = (
+                bool(self.structure.found or self.structure.links)
+                or any(part.airborne for part in parts)
+                or any(ground.yield_pa is not None for ground in case.grounds.values())
+                or any(joint.yield_pa is not None for joint in case.joints.values())
+            )
+        return self._anywhere
 
-        Where contact is found during the motion it is a bound of kinetic energy alone, as fallen
-        bodies come to rest anywhere; see `FallenBodies`. Else it is a share of the least energy
-        that overturns a body, or that lifts one which stands nowhere by itself, as a voussoir or
-        what hangs or falls, by a share of its size.
+    @property
+    def turn_s(self) -> float:
+        """Time [s] for which the kinetic energy must stay low where the structure may rest
+        anywhere.
+        """
+        if self.collapse:
+            return self.collapse.turn_s
+        sizes = [
+            np.sqrt(np.trace(part.model.inertia) / part.model.mass)
+            for part in self.structure.parts
+            if part.held < 0
+        ]
+        return float(_TURNS * np.sqrt(max(sizes) / GRAVITY))
+
+    def is_still(self) -> bool:
+        """As of Analysis; where the structure may rest anywhere, by its kinetic energy alone, for
+        `turn_s`.
+        """
+        if not self.rests_anywhere:
+            return super().is_still()
+        since = float(self.history.last()["time"]) - self.turn_s
+        return self.history.stayed_below("energy/kinetic", self.still_j, since)
+
+    @property
+    def still_j(self) -> float:
+        """Largest `energy_left` [J] at which the structure counts as at rest; of kinetic energy
+        where it may rest anywhere.
+
+        Where contact is found during the motion see `FallenBodies`. Else it is a share of the
+        least energy that overturns a body, or that lifts one which stands nowhere by itself, as a
+        voussoir or what hangs or falls, by a share of its size.
         """
         if self.collapse:
             return self.collapse.still_j

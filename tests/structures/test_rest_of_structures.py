@@ -8,6 +8,7 @@ from small_structures import STONE, block, stack, structure
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.dynamics.history import read_history
+from fecolumn.engines.ending import AT_REST, STILL_ROCKING
 from fecolumn.foundation.toml_file import merge
 from fecolumn.simulation import run
 from fecolumn.structures.barrier import least_barrier, stances
@@ -225,3 +226,50 @@ def test_the_weakest_edge_of_a_triangular_support_decides():
     # the edge from (1.1, -0.9) to (-0.9, 1.1) passes the slab's centre (-0.3, -0.3) at 0.8 /
     # sqrt(2)
     assert slab.critical == pytest.approx(math.atan2(0.8 / math.sqrt(2), 0.1), rel=1e-9)
+
+
+@pytest.mark.parametrize("engine", ["rigid", "full"])
+def test_force_that_friction_locks_into_a_spring_is_no_motion(engine, tmp_path):
+    """A block slides against a spring until friction holds it there."""
+    spring = dict(kind="spring", body="block", stiffness_n_m=1e5)
+    spring |= dict(point_m=[0.0, 0.0, 0.05], to_point_m=[-1.0, 0.0, 0.05])
+    stout = dict(kind="block", length_m=0.5, width_m=0.9, height_m=0.8, mass_kg=300)
+    stout |= dict(element_size_m=0.4, youngs_modulus_pa=50e9)
+    case = structure(
+        bodies=dict(block=stout),
+        joints=dict(foot=dict(between=["block", "ground"])),
+        links=dict(spring=spring),
+        initial=dict(block=dict(velocity_m_s=[0.3, 0.0, 0.0])),
+        contact=dict(friction_coefficient=0.3, interior_points=0),
+        integration=dict(engine=engine, dt_s=2e-3, duration_s=1.6),
+    )
+    summary = run(case, tmp_path / "run", quiet=True)
+    history = read_history(tmp_path / "run" / "history.h5", names=["energy/strain"])
+    locked = history["energy/strain"][-1]
+    assert summary["outcome"] == AT_REST and 2.0 < locked < 4.0
+    assert locked > 1e-3 * summary["energy_to_overturn_j"]
+    short = run(case.replace({"integration.duration_s": 0.3}), tmp_path / "short", quiet=True)
+    assert short["outcome"] == STILL_ROCKING
+
+
+def test_what_turns_back_below_its_place_at_the_start_is_not_at_rest(tmp_path):
+    """Two blocks fall by 20 mm and slide: kinetic energy is least, and not small, in between."""
+    block = dict(kind="block", length_m=0.2, width_m=0.4, height_m=0.6, mass_kg=40)
+    block |= dict(element_size_m=0.2)
+    case = structure(
+        bodies=dict(
+            a=block | dict(at_m=[0.0, 0.0, 0.02]),
+            b=block | dict(at_m=[0.0, 0.0, 0.62]),
+        ),
+        joints=dict(foot=dict(between=["a", "ground"]), joint=dict(between=["b", "a"])),
+        initial=dict(b=dict(velocity_m_s=[0.2, 0.0, 0.0])),
+        contact=dict(friction_coefficient=0.7, interior_points=0),
+        integration=dict(engine="rigid", dt_s=1e-3, duration_s=0.0),
+        motion=_rested(tmp_path),
+    )
+    summary = run(case, tmp_path / "run", quiet=True)
+    history = read_history(tmp_path / "run" / "history.h5")
+    kinetic, end = history["energy/kinetic"], history["time"][-1]
+    assert summary["outcome"] == AT_REST and end < 30
+    bound = 1e-3 * summary["energy_to_overturn_j"]
+    assert (kinetic[history["time"] > end - 0.5] <= bound).all()

@@ -128,6 +128,15 @@ class History:
         """The last row by column."""
         return {name: pieces[-1][-1] for name, pieces in self._pieces.items()}
 
+    def stayed_below(self, name: str, bound: float, since: float) -> bool:
+        """Whether a column has been `bound` at most in all rows from a time [s] on."""
+        for times, values in zip(self._pieces["time"][::-1], self._pieces[name][::-1]):
+            if (values[times >= since] > bound).any():
+                return False
+            if times[0] < since:
+                break
+        return True
+
     def write(self, path: Path, attributes: dict, every: int = 1) -> None:
         """Write one row in `every`, and the last; a reader sees the old file or the new one, never
         a part.
