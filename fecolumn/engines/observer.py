@@ -23,6 +23,7 @@ from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.engines.history_columns import of_both_sides
 from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.foundation._compiled import interpreted
+from fecolumn.foundation.arrays import cross_product
 
 if TYPE_CHECKING:
     from fecolumn.contact.overturning import Limits
@@ -218,6 +219,7 @@ class Observer:
         for part, rows, center, R in zip(
             self.structure.parts, column.rows, centers, state.rotation
         ):
-            angular = column.sum(np.cross(state.x[rows] - center, momentum[rows]).sum(axis=0))
+            arms = state.x[rows] - center
+            angular = column.sum(cross_product(arms, momentum[rows]).sum(axis=0))
             spins.append(np.linalg.solve(part.model.inertia, R.T @ angular))
         return np.array(spins)

@@ -11,7 +11,7 @@ import numpy as np
 
 from fecolumn.engines.dynamics.cuts import Stop
 from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation
-from fecolumn.foundation.arrays import Array
+from fecolumn.foundation.arrays import Array, cross_product
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.interface import ContactInterface
@@ -123,16 +123,14 @@ class Stage:
             interface.levers() if self.memory is None else (self.levers + interface.levers()) / 2
         )
         pushed = into_frames(push, halfway, bodies.rows)
+        turning = [cross_product(arms, acting) for acting in (inner, pushed)]
         products, *moments = (
             bodies.sum(np.stack(each))
             for each in zip(
                 *(
                     (
                         bodies.mass_arms[rows].T @ arms[rows],
-                        *(
-                            np.cross(arms[rows], acting[rows]).sum(axis=0)
-                            for acting in (inner, pushed)
-                        ),
+                        *(acting[rows].sum(axis=0) for acting in turning),
                     )
                     for rows in bodies.rows
                 )
@@ -143,7 +141,7 @@ class Stage:
             out_of_frames(
                 np.concatenate(
                     [
-                        np.cross(turn_of(product, moment), bodies.arms[rows])
+                        cross_product(turn_of(product, moment), bodies.arms[rows])
                         for product, moment, rows in zip(products, each, bodies.rows)
                     ]
                 ),
