@@ -91,6 +91,7 @@ class OfStructure(Analysis):
             case, parts = self.case, self.structure.parts
             self._anywhere = (
                 bool(self.structure.found or self.structure.links)
+                or any(joint.bond is not None for joint in self.structure.joints)
                 or any(part.airborne for part in parts)
                 or any(ground.yield_pa is not None for ground in case.grounds.values())
                 or any(joint.yield_pa is not None for joint in case.joints.values())

@@ -17,6 +17,7 @@ from fecolumn.statistics.records import Records, by_record
 #: A difference of two CDFs that most would call small: "no difference" is claimed up to it.
 SMALL = 0.1
 _LEVEL = 0.05  # of significance, the usual one
+_HALVINGS = 40  # of an interval of differences: to 1e-12
 
 
 def distance_bound(
@@ -30,8 +31,8 @@ def distance_bound(
     """Largest distance of the two distributions, and the distance the data exclude at `confidence`.
 
     The same motions in both settings: at each u the difference F_a - F_b is that of two paired
-    proportions, see `paired_error`. The bound is the largest over u of |F_a - F_b| + z s(u), z
-    one-sided. The true largest difference sits at some u*, and there the bound of one proportion
+    proportions. The bound is the largest over u of that of `paired_error` and of `score_bound`. The
+    true largest difference sits at some u*, and there the bound of one proportion
     already holds, so none is needed for all u at once (intersection-union test, Berger 1982,
     Technometrics 24). Where motions share records, n is the number of records, each with the mean
     difference of its motions.
@@ -69,13 +70,46 @@ def distance_bound(
 def upper_bound(difference: ArrayLike, confidence: float) -> float:
     """Distance that n motions exclude at `confidence`, see `distance_bound`; difference (n, points)
     as of `paired_error`.
+
+    Where few motions differ, all one way, the error of `paired_error` is too small: the bound is
+    that of `score_bound` at least, which is known for differences of -1, 0 and 1.
     """
     difference = np.asarray(difference, float)
     centre, error = paired_error(difference)
-    reach = normal_quantile(2 * confidence - 1) * error
-    return float(
-        min(1.0, max(np.abs(difference.mean(axis=0)).max(), (np.abs(centre) + reach).max()))
-    )
+    bound = np.abs(difference.mean(axis=0)).max()
+    bound = max(bound, (np.abs(centre) + normal_quantile(2 * confidence - 1) * error).max())
+    if np.isin(difference, (-1.0, 0.0, 1.0)).all():
+        ups, downs = (difference > 0).sum(axis=0), (difference < 0).sum(axis=0)
+        most, least = np.maximum(ups, downs), np.minimum(ups, downs)
+        bound = max(bound, score_bound(most, least, len(difference), confidence).max())
+    return float(min(1.0, bound))
+
+
+def score_bound(ups: NDArray[Any], downs: NDArray[Any], n: int, confidence: float) -> NDArray[Any]:
+    """Upper bound (...) at a one-sided `confidence` of the difference of two paired proportions, of
+    which `ups` of n motions have the first alone, and `downs` (...) the second.
+
+    It is the largest difference that the score test does not reject (Tango 1998, Statistics in
+    Medicine 17): Wilson's bound where `downs` is 0.
+    """
+    ups, downs = np.asarray(ups, float), np.asarray(downs, float)
+    z = normal_quantile(2 * confidence - 1)
+
+    def rejected(difference: NDArray[Any]) -> NDArray[Any]:
+        # share of the second alone that is likeliest at this difference
+        b = -ups - downs + (2 * n - ups + downs) * difference
+        c = -downs * difference * (1 - difference)
+        alone = (np.sqrt(np.maximum(b**2 - 8 * n * c, 0.0)) - b) / (4 * n)
+        spread = np.sqrt(np.maximum(n * (2 * alone + difference * (1 - difference)), 1e-300))
+        found: NDArray[Any] = (n * difference - ups + downs) / spread >= z
+        return found
+
+    low, high = (ups - downs) / n, np.ones(np.shape(ups))
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        beyond = rejected(middle)
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    return high
 
 
 def paired_error(difference: ArrayLike) -> tuple[NDArray[Any], NDArray[Any]]:

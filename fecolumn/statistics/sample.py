@@ -35,6 +35,9 @@ class Sample:
         what is said of analyses that cut their motion short, see `ending.cut_short`.
     records
         (n,) record of each run's motion; None where each has its own.
+    contents
+        (n,) what each motion holds, by which motions of one name are told apart; None where that is
+        not known.
     """
 
     source: str
@@ -47,6 +50,7 @@ class Sample:
     missing: int = 0
     cut: str = ""
     records: tuple[str, ...] | None = None
+    contents: tuple[str, ...] | None = None
 
     def take(self, motions: Iterable[str]) -> Sample:
         """The runs of some motions, in their order."""
@@ -63,4 +67,5 @@ class Sample:
             self.missing,
             self.cut,
             tuple(self.records[place] for place in places) if self.records else None,
+            tuple(self.contents[place] for place in places) if self.contents else None,
         )

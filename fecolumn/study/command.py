@@ -10,6 +10,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from fecolumn.foundation.cores import usable_cores
+
 if TYPE_CHECKING:
     from fecolumn.study.plan import Plan
     from fecolumn.study.sequential import Rule, Verdict
@@ -223,7 +225,7 @@ def _run(
         return complete_study(
             plan,
             args.output,
-            workers=team or args.jobs or os.cpu_count() or 1,
+            workers=team or args.jobs or usable_cores(),
             entry=entry,
             retry_failed=next(again, False),
             stream=None if args.quiet else sys.stderr,

@@ -187,6 +187,9 @@ def matched(a: Sample, b: Sample, unpaired: bool) -> tuple[Sample, Sample, bool,
     in_b = set(b.motions)
     common = [motion for motion in a.motions if motion in in_b]
     unique = all(len(set(sample.motions)) == len(sample.motions) for sample in (a, b))
+    if others := _other_contents(a.take(common), b.take(common)) if unique else []:
+        said = f"{len(others)} motions have one name in both and hold something else, such as "
+        return a, b, False, [*notes, f"{said}{others[0]}: independent ensembles"]
     if unpaired or not unique or len(common) < 2:
         return a, b, False, [*notes, "independent ensembles"]
     alone = [
@@ -204,6 +207,14 @@ def matched(a: Sample, b: Sample, unpaired: bool) -> tuple[Sample, Sample, bool,
             "compared one by one" + (f"; left out: {', '.join(alone)}" if alone else ""),
         ],
     )
+
+
+def _other_contents(a: Sample, b: Sample) -> list[str]:
+    """Motions of both samples, in one order, that hold different things, where that is known."""
+    if a.contents is None or b.contents is None:
+        return []
+    pairs = zip(a.motions, a.contents, b.contents)
+    return [name for name, one, other in pairs if one and other and one != other]
 
 
 def comparison_text(result: Comparison, a: Sample, b: Sample, cap_m: float) -> str:

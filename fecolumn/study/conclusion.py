@@ -16,6 +16,7 @@ from fecolumn.study.plan import Plan, member_of, record_of
 from fecolumn.study.setting_pairs import (
     LEAST_RECORDS,
     MOST_PAIRS,
+    SAMPLED,
     MotionRecords,
     SettingPair,
     pair_count,
@@ -60,11 +61,17 @@ def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
     if max((count for _, count in counts), default=0) < _FEW:
         return parts_made
     pairs = pairs_of(settings, records)
+    sampled = len(settings) > SAMPLED and not pair_count(settings)
     parts = [_overturns(settings, records, failed), _shared(*max(counts))]
     if pairs:
         parts += [_differences(pairs), _not_compared(settings, pairs), _shortfall(pairs)]
         if any(pair.axis == ALPHA_KEY for pair in pairs):
             parts.append(alpha_note(plan.case, plan.axes))
+    if sampled:
+        parts.append(
+            "Its settings are samples, no two of which differ in one axis alone: fecolumn report "
+            "ranks the axes by what they change."
+        )
     return " ".join(part for part in (*parts, parts_made) if part)
 
 

@@ -196,14 +196,17 @@ class StudyLedger:
             [(now, name) for name in case_ids],
         )
 
-    def plan_again(self, *, case_id: str | None = None, state: str | None = None) -> None:
-        """Put one analysis, or all of a state, back among the planned."""
-        key, value = ("id", case_id) if case_id else ("state", state)
-        self._connection.execute(
+    def plan_again(self, *case_ids: str) -> None:
+        """Put analyses back among the planned."""
+        self._connection.executemany(
             "UPDATE analysis SET state = 'planned', reason = NULL, log = NULL, summary "
-            f"= NULL, version = NULL WHERE {key} = ?",
-            (value,),
+            "= NULL, version = NULL WHERE id = ?",
+            [(case_id,) for case_id in case_ids],
         )
+
+    def in_state(self, state: str) -> list[str]:
+        """Ids of the analyses of a state."""
+        return [case_id for case_id, found in self.states().items() if found == state]
 
     def end(self, outcome: TaskOutcome, log: str | None = None) -> None:
         """Record the end of an analysis, DONE or FAILED."""

@@ -309,10 +309,17 @@ def _refuse_duplicates(analyses: tuple[PlannedAnalysis, ...], path: Path) -> Non
                 for key, one, two in zip(other.keys, other.levels, analysis.levels)
                 if one != two
             ]
+            which = ", ".join(differing) or f"both of {_named(analysis)}"
             raise InputError(
                 path,
                 "axes",
                 None,
-                f"two combinations are the same analysis: {', '.join(differing)} "
+                f"two combinations are the same analysis: {which} "
                 "(title and output do not make a difference)",
             )
+
+
+def _named(analysis: PlannedAnalysis) -> str:
+    """Values of the axes of an analysis but its motion, in words."""
+    values = analysis.combination or analysis.values
+    return ", ".join(f"{key} = {shown(value)}" for key, value in values.items())

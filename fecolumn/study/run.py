@@ -95,7 +95,8 @@ def complete_study(
     try:
         with Store(folder, plan, entry, share) as store:
             if retry_failed:
-                store.ledger.plan_again(state=FAILED)
+                failed = store.ledger.in_state(FAILED)
+                store.ledger.plan_again(*(one for one in failed if only is None or one in only))
             if entry == ENTRY and (told := other_code(store.rows())):
                 print(told, file=stream or sys.stderr, flush=True)
             if isinstance(workers, int):
@@ -144,7 +145,7 @@ def drive(
     finally:
         team.stop()
         progress.end()
-        store.ledger.plan_again(state=RUNNING)  # what a stop has left
+        store.ledger.plan_again(*store.ledger.in_state(RUNNING))  # what a stop has left
         store.ledger.commit()
     return progress
 
@@ -245,7 +246,7 @@ def _work_off(
                 raise StudyError(f"{_DISK_FULL} ({outcome.reason})")
             if outcome.word == RETURNED:
                 queue.appendleft(analysis)
-                store.ledger.plan_again(case_id=outcome.id)
+                store.ledger.plan_again(outcome.id)
                 continue
             store.end(outcome)
             progress.count(outcome, analysis.effort)

@@ -4,8 +4,10 @@ settings, or a CSV file.
 
 from __future__ import annotations
 
+import collections
 import json
 import math
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -19,6 +21,11 @@ from fecolumn.statistics.experiment import read_maxima
 from fecolumn.statistics.sample import Sample
 from fecolumn.study.plan import ENSEMBLE_AXES, record_of
 from fecolumn.study.store import DONE, read_study
+
+# Commas between choices: one within a list or a text has no axis behind it
+_BETWEEN = re.compile(r",(?=\s*[\w.]+\s*=)")
+# Of a digest, which tell motions of one name apart
+_DIGITS = 8
 
 
 def read_sample(text: str) -> Sample:
@@ -35,9 +42,8 @@ def read_sample(text: str) -> Sample:
     if not mark or "=" not in choice:
         place, choice = text, ""
     if Path(place).is_dir():
-        return _of_study(
-            place, dict(_chosen(text, part) for part in choice.split(",") if part.strip())
-        )
+        parts = _BETWEEN.split(choice)
+        return _of_study(place, dict(_chosen(text, part) for part in parts if part.strip()))
     if choice:
         raise InputError(place, "", None, "no such folder; @axis=value chooses settings of a study")
     maxima = read_maxima(place)
@@ -103,7 +109,9 @@ def _of_study(folder: str, choice: dict[str, Any]) -> Sample:
     done = [row for row in rows if row["state"] == DONE]
     if not done:
         raise InputError(folder, "", None, f"none of the {len(rows)} analyses chosen is done")
-    motions = tuple(_motion_name(row["axes"]) for row in done)
+    motions = _told_apart(
+        [_motion_name(row["axes"]) for row in done], [str(row["motion"] or "") for row in done]
+    )
     summaries, shown = (
         [row["summary"] for row in done],
         {key: rows[0]["axes"][key] for key in choice},
@@ -124,6 +132,16 @@ def _of_study(folder: str, choice: dict[str, Any]) -> Sample:
         len(rows) - len(done),
         cut_short(summaries),
         tuple(record_of(row["axes"]) for row in done),
+        tuple(str(row["motion"] or "") for row in done),
+    )
+
+
+def _told_apart(names: list[str], contents: list[str]) -> tuple[str, ...]:
+    """Names of motions, with the begin of the digest of what they hold where several have one."""
+    counts = collections.Counter(names)
+    return tuple(
+        f"{name} [{content[:_DIGITS]}]" if counts[name] > 1 else name
+        for name, content in zip(names, contents)
     )
 
 

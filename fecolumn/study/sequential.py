@@ -24,7 +24,14 @@ from fecolumn.statistics.holm import holm
 from fecolumn.statistics.records import run_count
 from fecolumn.study.conclusion import records_of, settings_of
 from fecolumn.study.plan import Plan, record_of
-from fecolumn.study.setting_pairs import SettingPair, pairs_of, setting_lines
+from fecolumn.study.setting_pairs import (
+    MOST_PAIRS,
+    SettingPair,
+    pair_count,
+    pairs_of,
+    setting_lines,
+)
+from fecolumn.study.substeps import SettingTables
 
 DIFFER, ALIKE, STILL_OPEN = "differ", "alike", "open"
 #: Records of the first stage; each stage has twice as many as the one before.
@@ -102,7 +109,16 @@ def stages(plan: Plan, rule: Rule) -> list[int]:
         raise InputError(
             plan.file, "axes", None, "has one setting alone: there is nothing to decide between"
         )
-    if not setting_lines([(values, {}) for values in planned.values()]):
+    settings: list[SettingTables] = [(values, {}) for values in planned.values()]
+    if (pairs := pair_count(settings)) > MOST_PAIRS:
+        raise InputError(
+            plan.file,
+            "axes",
+            None,
+            f"has {pairs} pairs of settings that differ in one axis alone; at most {MOST_PAIRS} "
+            "are decided on: take fewer levels",
+        )
+    if not setting_lines(settings):
         raise InputError(
             plan.file,
             "axes",

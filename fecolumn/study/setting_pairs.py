@@ -25,6 +25,8 @@ LEAST_RECORDS = 6
 #: Pairs above which only the first and the last setting of each line are compared, and lines above
 #: which these are taken from all axes in turn: a comparison takes some tenths of a second
 MOST_PAIRS = 60
+#: Levels of an axis above which it is taken for a sampled one
+SAMPLED = 8
 
 #: Record of each motion of a plan
 MotionRecords = dict[tuple[str, ...], str]
@@ -56,14 +58,18 @@ class SettingPair:
 
 def setting_lines(settings: list[SettingTables]) -> list[SettingLine]:
     """Lines of at least two settings that differ in one axis alone, or in axes that change
-    together (`axes_together`).
+    together (`axes_together`); samples of several axes, all of which differ, are none.
     """
     lines: dict[tuple[Any, ...], SettingLine] = {}
     for axes in axes_together([values for values, _ in settings]):
         for values, runs in settings:
             others = tuple(repr(item) for item in values.items() if item[0] not in axes)
             lines.setdefault((axes, *others), (axes, []))[1].append((values, runs))
-    return [line for line in lines.values() if len(line[1]) > 1]
+    return [
+        line
+        for line in lines.values()
+        if len(line[1]) > 1 and not (len(line[0]) > 1 and len(line[1]) > SAMPLED)
+    ]
 
 
 def axes_together(settings: list[dict[str, Any]]) -> list[tuple[str, ...]]:

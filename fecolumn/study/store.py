@@ -82,17 +82,11 @@ class Store:
         self._lock = FolderLock(self.folder, share)
         try:
             _refuse_foreign(self.folder, identity)  # another driver may have been first
-            if not (self.folder / "study.json").exists():
-                write_json(
-                    self.folder / "study.json",
-                    {
-                        **identity,
-                        "title": plan.title,
-                        "axes": plan.axes,
-                        "case": plan.case,
-                        "version": __version__,
-                    },
-                )
+            told = {"title": plan.title, "axes": plan.axes, "case": plan.case}
+            known = _identity(self.folder)
+            # another title, or an axis of one value that the case states now, are the same study
+            if known is None or share is None and told != {key: known.get(key) for key in told}:
+                write_json(self.folder / "study.json", {**identity, **told, "version": __version__})
             self.analyses = _share(plan, share)
             self.ledger = StudyLedger(
                 self.folder / f"{stem(share)}.sqlite", many_readers=share is None
@@ -149,7 +143,7 @@ class Store:
             if outcome and not self.ledger.agrees(outcome):
                 self.ledger.end(outcome)
             elif not outcome and state == DONE:
-                self.ledger.plan_again(case_id=case_id)
+                self.ledger.plan_again(case_id)
         self.ledger.commit()
         for name in ("analyses", "logs"):
             try:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from argparse import ArgumentParser, Namespace
 
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.foundation.older_option import OlderOption
 from fecolumn.verification import ALL_ENGINES, CASES, FULL
 
@@ -35,7 +36,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--jobs",
         metavar="N",
         type=int,
-        default=os.cpu_count() or 1,
+        default=usable_cores(),
         help="number of cases at a time (default: %(default)s)",
     )
     parser.add_argument(

@@ -7,8 +7,9 @@ from synthetic_study import DT, LIMIT_M, write_synthetic
 
 from fecolumn.cli import main
 from fecolumn.study.report.pair import read_pairs
-from fecolumn.study.report.sweep import SAMPLED, read_sweep
+from fecolumn.study.report.sweep import read_sweep
 from fecolumn.study.sample import read_sample
+from fecolumn.study.setting_pairs import SAMPLED
 
 
 def test_displacement_at_which_an_overturned_run_stopped_is_no_peak(tmp_path):

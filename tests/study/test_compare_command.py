@@ -6,13 +6,15 @@ import csv
 import io
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+import fecolumn
 from fecolumn.cli import main
 from fecolumn.foundation.schema import InputError
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study
-from fecolumn.study.sample import _motion_name, read_sample
+from fecolumn.study.sample import _BETWEEN, _chosen, _motion_name, _told_apart, read_sample
 
 STUDY_TESTS = Path(__file__).parent
 
@@ -154,3 +156,44 @@ def test_study_without_a_ledger_is_refused_in_words(study, tmp_path):
     (tmp_path / "bare" / "study.json").write_bytes((study / "study.json").read_bytes())
     with pytest.raises(InputError, match="run fecolumn study on this folder again"):
         read_sample(str(tmp_path / "bare"))
+
+
+def own_motions(folder, factor):
+    """A study of a rocking block under six motions of its own, of other strength elsewhere."""
+    folder.mkdir()
+    time = np.arange(0, 0.4, 0.02)
+    for number in range(6):
+        ax = factor * (0.3 + 0.1 * number) * np.sin(2 * np.pi * time / 0.4)
+        rows = "".join(f"{t:.2f},{a:.5f}\n" for t, a in zip(time, ax))
+        (folder / f"GM{number}.csv").write_text("time [s],ax [g]\n" + rows)
+    case = fecolumn.case_from_tables(
+        {
+            "block": {"width_m": 0.3, "height_m": 1.2},
+            "motion": {"source": str(folder / "GM0.csv"), "resample_s": 0.02},
+            "integration": {"dt_s": 0.005},
+        }
+    )
+    axes = {"motion.source": [str(folder / f"GM{number}.csv") for number in range(6)]}
+    fecolumn.run_study(case, folder / "out", axes=axes, jobs=1, quiet=True)
+    return folder / "out"
+
+
+@pytest.mark.long
+@pytest.mark.filterwarnings("ignore")
+def test_motions_of_one_name_in_two_studies_are_no_pairs_where_they_differ(tmp_path, capsys):
+    near, far = own_motions(tmp_path / "near", 1.0), own_motions(tmp_path / "far", 0.5)
+    again = own_motions(tmp_path / "again", 1.0)
+    assert "6 motions in both, compared one by one" in compared(capsys, near, again)
+    said = compared(capsys, near, far)
+    assert "6 motions have one name in both and hold something else, such as GM0.csv" in said
+    assert "independent ensembles" in said and "one by one" not in said
+
+
+def test_motions_of_one_name_in_one_study_are_told_apart_by_what_they_hold():
+    names = _told_apart(["H1.AT2", "H1.AT2", "H2.AT2"], ["a" * 64, "b" * 64, "c" * 64])
+    assert names == ("H1.AT2 [aaaaaaaa]", "H1.AT2 [bbbbbbbb]", "H2.AT2")
+
+
+def test_a_list_is_chosen_as_it_is_written():
+    parts = _BETWEEN.split('motion.strong_part=[0.0, 0.9],integration.dt_s=1e-3, a.b="x, y"')
+    assert [_chosen("", part)[1] for part in parts] == [[0.0, 0.9], 1e-3, "x, y"]

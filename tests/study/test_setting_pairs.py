@@ -126,3 +126,21 @@ def test_a_study_whose_settings_differ_in_several_axes_is_not_decided(tmp_path):
         InputError, match=r"no two settings that differ in one axis, or one \[\[zip"
     ):
         stages(read_plan(file), Rule())
+
+
+def test_samples_of_several_axes_are_no_pairs():
+    """All samples of a Latin hypercube differ in all of its axes."""
+    sampled = [{HEIGHT: 1.0 + 0.01 * k, WIDTH: 0.1 + 0.003 * k} for k in range(20)]
+    assert pair_count(tables(sampled)) == 0 and not pairs_of(tables(sampled), records())
+    assert pair_count(tables(sampled[:4])) == 6  # a [[zip]] of four rows
+
+
+@pytest.mark.parametrize("steps, told", [(12, "has 66 pairs of settings"), (11, "")])
+def test_more_pairs_than_are_compared_are_not_decided_on(tmp_path, steps, told):
+    dt = [round(1e-3 * (1 + 0.1 * k), 5) for k in range(steps)]
+    plan = read_plan(write_study(tmp_path, dt=dt, alpha=(0,), pulses=range(40)))
+    if told:
+        with pytest.raises(InputError, match=told):
+            stages(plan, Rule())
+    else:
+        assert stages(plan, Rule()) == [40]

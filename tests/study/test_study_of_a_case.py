@@ -65,3 +65,28 @@ def test_the_study_is_beside_a_folder_without_a_name(tmp_path, monkeypatch, fold
     assert path.parent == (work / folder).resolve().parent and path.stem == name
     with pytest.raises(fecolumn.InputError, match="/: is no folder of results: give it a name"):
         _study_file(cases(STATED)[0], "/", AXES)
+
+
+BLOCK = {"block": {"width_m": 0.3, "height_m": 1.2}, "motion": {"source": "lick:1"}}
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_a_key_that_moves_from_the_axes_to_the_case_is_the_same_study(tmp_path):
+    tables = BLOCK | {"integration": {"dt_s": 0.005, "duration_s": 0.5}}
+    case, axes = fecolumn.case_from_tables(tables), {"motion.source": ["lick:1", "lick:2"]}
+    more = axes | {"block.restitution": [0.9]}
+    first = fecolumn.run_study(case, tmp_path / "out", axes=more, jobs=1, quiet=True)
+    assert first.axes.keys() == more.keys()
+    stated = case.replace({"block.restitution": 0.9}, title="Stated")
+    again = fecolumn.run_study(stated, tmp_path / "out", axes=axes, jobs=1, quiet=True)
+    assert again.axes.keys() == axes.keys() and again.title == "Stated" and again.done == 2
+    assert {row["id"] for row in first.rows} == {row["id"] for row in again.rows}
+
+
+def test_a_motion_that_cannot_be_read_is_refused_before_anything_runs(tmp_path):
+    (tmp_path / "bad.AT2").write_text("no record\n")
+    axes = {"motion.source": [str(tmp_path / "bad.AT2")], "block.restitution": [0.8, 0.9]}
+    case = fecolumn.case_from_tables(BLOCK)
+    with pytest.raises(fecolumn.InputError, match="bad.AT2"):
+        fecolumn.run_study(case, tmp_path / "out", axes=axes, jobs=1, quiet=True)
+    assert not (tmp_path / "out").exists()

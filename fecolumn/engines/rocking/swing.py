@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike
 from fecolumn.engines.rocking.swing_equations import N_PARAMETERS
 from fecolumn.engines.rocking.swing_motion import SWING_TIME, rock_motions
 from fecolumn.foundation.arrays import Array
+from fecolumn.foundation.cores import usable_cores
 
 
 def rock_all(
@@ -77,7 +78,7 @@ def rock_all(
             out[part],
         )
 
-    threads = threads or int(os.environ.get("NUMBA_NUM_THREADS", 0)) or os.cpu_count() or 1
+    threads = threads or int(os.environ.get("NUMBA_NUM_THREADS", 0)) or usable_cores()
     parts = [
         slice(begin, begin + max(1, math.ceil(len(motions) / (8 * threads))))
         for begin in range(0, len(motions), max(1, math.ceil(len(motions) / (8 * threads))))

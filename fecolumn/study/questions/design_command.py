@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 import time
 from pathlib import Path
 from typing import Any
 
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.foundation.interrupt import termination_as_interrupt
 from fecolumn.foundation.range_option import take_values_below_zero
 
@@ -124,7 +124,7 @@ def main(args: argparse.Namespace) -> int:
     check_event(limit.event, plan.analyses[0].case, _COMMAND)
     check_motions(plan)
     question = DesignQuestion(plan, key, limit)
-    pool = LastingPool(args.jobs or os.cpu_count() or 1, ENTRY, plan.file)
+    pool = LastingPool(args.jobs or usable_cores(), ENTRY, plan.file)
     try:
         _look(question, args, pool)
     except (KeyboardInterrupt, StudyError) as error:

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 import math
-import os
 import sys
 from pathlib import Path
 from typing import Any
 
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.foundation.interrupt import termination_as_interrupt
 from fecolumn.foundation.older_option import OlderOption
 from fecolumn.study.questions.design_command import (
@@ -93,7 +93,7 @@ def main(args: argparse.Namespace) -> int:
     motion = {"scale": args.scale, "time_scale": args.time_scale}
     plan = plan_of(tables_of_objects(objects, sources, args.engine, motion), Path(args.list))
     check_motions(plan)
-    jobs = args.jobs or os.cpu_count() or 1
+    jobs = args.jobs or usable_cores()
     try:
         rows = complete_study(
             plan,

@@ -9,13 +9,12 @@ from fecolumn.statistics.records import record_count
 from fecolumn.statistics.sensitivity import Sensitivity, sensitivity
 from fecolumn.study.report.sweep import (
     ENGINE_KEY,
-    SAMPLED,
     Setting,
     Sweep,
     common_motions,
     common_peaks,
 )
-from fecolumn.study.setting_pairs import LEAST_RECORDS
+from fecolumn.study.setting_pairs import LEAST_RECORDS, SAMPLED
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ from fecolumn.study.alpha import ALPHA_KEY, alpha_note
 from fecolumn.study.plan import ENSEMBLE_AXES, record_of
 from fecolumn.study.report.notation import ALL_ANALYSES, setting_text
 from fecolumn.study.report.subject import Subject, subject_of
-from fecolumn.study.setting_pairs import axes_together
+from fecolumn.study.setting_pairs import SAMPLED, axes_together
 from fecolumn.study.store import DONE, FAILED, read_study
 
 DT_KEY, ENGINE_KEY = "integration.dt_s", "integration.engine"
@@ -81,10 +81,6 @@ class Setting:
             self.column("slid_off", motions) == 1
         )
         return np.where(lost, np.nan, self.column("u_max_m", motions)), lost
-
-
-#: Levels of an axis above which it is taken for a sampled one
-SAMPLED = 8
 
 
 @dataclass(frozen=True, slots=True)

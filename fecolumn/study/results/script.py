@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from fecolumn.case.case import Case
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.foundation.deprecated import by_name, renamed
 from fecolumn.study.results.study import StudyResult
 
@@ -64,10 +65,12 @@ def run_study(
         Ctrl-C; what is done is kept.
     """
     from fecolumn.study.plan import read_plan
+    from fecolumn.study.run import check_motions
     from fecolumn.study.run import complete_study as work_off
     from fecolumn.study.table import write_figure, write_tables
 
     plan = read_plan(_study_file(study, folder, axes))
+    check_motions(plan)
     rows = work_off(
         plan,
         folder,
@@ -85,7 +88,7 @@ def _processes(jobs: int | None) -> int:
     from fecolumn.foundation.schema import InputError
 
     if jobs is None:
-        return os.cpu_count() or 1
+        return usable_cores()
     if not isinstance(jobs, int) or jobs < 1:
         told = "must be a whole number of at least 1; left out: one a core"
         raise InputError("run_study", "jobs", jobs, told)
