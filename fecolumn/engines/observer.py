@@ -23,7 +23,7 @@ from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.engines.history_columns import of_both_sides
 from fecolumn.fem.rotation import tilt_angle, twist_angle
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.foundation.arrays import cross_product
+from fecolumn.foundation.arrays import vector_product
 
 if TYPE_CHECKING:
     from fecolumn.contact.overturning import Limits
@@ -220,6 +220,6 @@ class Observer:
             self.structure.parts, column.rows, centers, state.rotation
         ):
             arms = state.x[rows] - center
-            angular = column.sum(cross_product(arms, momentum[rows]).sum(axis=0))
+            angular = column.sum(vector_product(arms, momentum[rows]).sum(axis=0))
             spins.append(np.linalg.solve(part.model.inertia, R.T @ angular))
         return np.array(spins)

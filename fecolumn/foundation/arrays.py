@@ -13,7 +13,7 @@ Array: TypeAlias = NDArray[Any]
 Record: TypeAlias = Any
 
 
-def cross_product(a: Array, b: Array) -> Array:
+def vector_product(a: Array, b: Array) -> Array:
     """A x b of vectors (..., 3), as numpy.cross, at a third of its cost for few of them."""
     found = np.empty(np.broadcast_shapes(a.shape, b.shape), np.result_type(a, b))
     for k in range(3):

@@ -15,7 +15,7 @@ from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, grounds_at
 from fecolumn.contact.projection import place_on_masters
 from fecolumn.fem.rotation import into_frames, out_of_frames
-from fecolumn.foundation.arrays import Array, cross_product
+from fecolumn.foundation.arrays import Array, vector_product
 
 if TYPE_CHECKING:
     from fecolumn.fem.composite import Composite, CompositeFoot, CompositeResponse
@@ -258,7 +258,7 @@ class Places:
                 moments,
                 bodies,
                 sign
-                * cross_product(
+                * vector_product(
                     levers[loaded[of], side], np.einsum("pa,pab->pb", pushes[of], rotation[bodies])
                 ),
             )

@@ -11,7 +11,7 @@ import numpy as np
 
 from fecolumn.engines.dynamics.cuts import Stop
 from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation
-from fecolumn.foundation.arrays import Array, cross_product
+from fecolumn.foundation.arrays import Array, vector_product
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.interface import ContactInterface
@@ -123,7 +123,7 @@ class Stage:
             interface.levers() if self.memory is None else (self.levers + interface.levers()) / 2
         )
         pushed = into_frames(push, halfway, bodies.rows)
-        turning = [cross_product(arms, acting) for acting in (inner, pushed)]
+        turning = [vector_product(arms, acting) for acting in (inner, pushed)]
         products, *moments = (
             bodies.sum(np.stack(each))
             for each in zip(
@@ -141,7 +141,7 @@ class Stage:
             out_of_frames(
                 np.concatenate(
                     [
-                        cross_product(turn_of(product, moment), bodies.arms[rows])
+                        vector_product(turn_of(product, moment), bodies.arms[rows])
                         for product, moment, rows in zip(products, each, bodies.rows)
                     ]
                 ),
