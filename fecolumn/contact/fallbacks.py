@@ -111,7 +111,7 @@ def by_frozen_slips(
             others += inside
             relative = slips_under(coupling, q, forces)
             for i in range(n):
-                slips[i] = np.hypot(relative[i, 0], relative[i, 1])
+                slips[i] = np.hypot(relative[i, 0], relative[i, 1]) if friction[i] > 0.0 else 0.0
         found, residual, made = newton_steps(coupling, q, friction, forces, limits)
         iterations += made
         if residual < least:

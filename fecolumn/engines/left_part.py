@@ -30,6 +30,8 @@ def _told(case: Case, structure: StructureModel, key: str, joint: JointModel) ->
     stated = case.joints[key].allowance_m
     if stated is not None:
         return f"= {stated:g}"
+    if joint.pair >= 0:  # of a face's edge: as far as its joint is prepared
+        joint = structure.joints[joint.pair]
     model = structure.parts[joint.slave].model
     surface = model.surfaces[joint.slave_surface]
     sides = np.ptp(surface.plane(model.arms[surface.nodes])[:, :2], axis=0)

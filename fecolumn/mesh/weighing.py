@@ -96,6 +96,7 @@ def _of_largest_entropy(terms: np.ndarray, wanted: np.ndarray, shares: np.ndarra
     if not left < 1e3 * _ERROR or density.max() > np.exp(_STEEPEST):
         raise NoSuchDensity(
             "no matter within its outline has this centre and inertia: they lie too far out, or "
-            "are of a body that is hollow, or full, beyond what the elements can be"
+            "are of a body that is hollow, or full, beyond what the elements can be; smaller "
+            "elements (element_size_m, mesh_size_m) can be more"
         )
     return density

@@ -133,6 +133,8 @@ def check_layout(case: Case, layout: CheckedLayout, file: Path | str) -> None:
     ]
     lowest = min(ground.level_m for ground in case.grounds.values())
     for i, one in enumerate(copies):
+        if one in case.found and one not in fixed:
+            _check_planes(case, one, boxes[i], file)
         if one not in fixed and boxes[i][0][2] < lowest - _DEPTH * np.ptp(boxes[i], axis=0).max():
             raise InputError(
                 file,
@@ -166,6 +168,27 @@ def check_layout(case: Case, layout: CheckedLayout, file: Path | str) -> None:
                         f"start, by {depth:.3g} m or more: move one by bodies.{one[0]}.at_m "
                         "or copies_m, or make it smaller",
                     )
+
+
+def _check_planes(
+    case: Case,
+    one: tuple[str, int],
+    box: tuple[NDArray[Any], NDArray[Any]],
+    file: Path | str,
+) -> None:
+    """Refuse a body whose contact is found and that begins below one of several grounds."""
+    body = case.names_of(one[0])[one[1]]
+    for name, ground in case.grounds.items():
+        under = ground.level_m - float(box[0][2])
+        if len(case.grounds) > 1 and under > _DEPTH * np.ptp(box, axis=0).max():
+            raise InputError(
+                file,
+                "contact.between",
+                None,
+                f'"{body}" begins {under:.4g} m below grounds.{name}, z = {ground.level_m:g}: '
+                "beside this key each ground is a plane without end; take a fixed body for the "
+                "higher one",
+            )
 
 
 def deepest(one: Drawing, other: Drawing, shift: NDArray[Any]) -> float:

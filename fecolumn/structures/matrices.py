@@ -14,7 +14,7 @@ from typing import Any, NoReturn
 import numpy as np
 import scipy.sparse as sparse
 from numpy.typing import NDArray
-from scipy.linalg import eigh, qr
+from scipy.linalg import LinAlgError, eigh, qr
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from scipy.spatial import ConvexHull, Delaunay, QhullError
 
@@ -29,6 +29,8 @@ from fecolumn.structures.reduction import top_face
 # Over the entries that it is measured by: how symmetric matrices must be, and how free of
 # resistance to rigid motion
 _EXACT = 1e-6
+# Twice the area of a triangle over the square of the largest side, below which it is none
+_NO_AREA = 1e-12
 # Degrees of freedom up to which all modes are found at once
 _DENSE = 1000
 # Raises the InputError of what a file may be instead
@@ -112,7 +114,27 @@ def read_system(key: str, body: Matrices, file: Path | str) -> SystemMatrices:
         )
     if triangles is None:
         triangles = _hull(coordinates, functools.partial(refuse, "nodes_file"))
+    else:
+        _check_triangles(coordinates, triangles, functools.partial(refuse, "nodes_file"))
     return SystemMatrices(found["mass"], found["stiffness"], dofs, coordinates, triangles)
+
+
+def _check_triangles(coordinates: NDArray[Any], triangles: NDArray[Any], refuse: Refusal) -> None:
+    """Refuse triangles that are none."""
+    n = len(coordinates)
+    if triangles.ndim != 2 or triangles.shape[1] != 3 or not len(triangles):
+        refuse(f"its triangles must have three nodes each; their shape is {triangles.shape}")
+    if triangles.min() < 0 or triangles.max() >= n:
+        refuse(f"its triangles must be of nodes 0 to {n - 1}, counted from 0")
+    corners = coordinates[triangles]
+    sides = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    size = np.ptp(coordinates, axis=0).max()
+    flat = np.linalg.norm(np.cross(*sides), axis=1) <= _NO_AREA * size**2
+    if flat.any():
+        refuse(
+            f"{flat.sum()} of its triangles have no area, the first one of nodes "
+            f"{triangles[flat.argmax()].tolist()}"
+        )
 
 
 def _matrix(path: str, name: str, refuse: Refusal) -> sparse.csc_matrix:
@@ -251,7 +273,7 @@ def matrices_model(
     loads = np.zeros((size, 3 * n))
     loads[dofs[kept].ravel(), np.arange(3 * n)] = 1.0
     flexibility = response(loads)[dofs[kept].ravel()]
-    squares, fields = _modes(mass, stiffness, response, min(n_modes, size - 6))
+    squares, fields = _modes(mass, stiffness, response, min(n_modes, size - 6), refuse)
     positions, weights = face_weights(top_face(faces), 1)
     top = fields[dofs[_rows(system.coordinates, positions)]]
     center = middle + center
@@ -279,6 +301,7 @@ def _modes(
     stiffness: sparse.csc_matrix,
     response: Callable[[NDArray[Any]], NDArray[Any]],
     count: int,
+    refuse: Refusal,
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """Squares (m,) [1/s2] of the lowest elastic frequencies and shapes (N, m) of unit modal
     mass.
@@ -287,7 +310,12 @@ def _modes(
     if count <= 0:
         return np.zeros(0), np.zeros((size, 0))
     if size <= _DENSE or count > size // 3:
-        squares, shapes = eigh(stiffness.toarray(), mass.toarray())
+        try:
+            squares, shapes = eigh(stiffness.toarray(), mass.toarray())
+        except LinAlgError:
+            refuse(
+                "must have inertia in every degree of freedom: condense the massless ones out first"
+            )
         return squares[6 : 6 + count], shapes[:, 6 : 6 + count]
     inverse = LinearOperator(
         (size, size), matvec=lambda force: response(force.reshape(-1, 1)).ravel(), dtype=float

@@ -102,3 +102,29 @@ def test_files_of_another_content_are_refused(system, file, said):
     with pytest.raises(InputError, match=said) as error:
         structure_model(_case(folder, "npz", **{key: "text.npz"}))
     assert error.value.key == f"bodies.block.{key}"
+
+
+@pytest.mark.parametrize(
+    "triangle, said",
+    [
+        ([0, 1, 1], "1 of its triangles have no area, the first one of nodes \\[0, 1, 1\\]"),
+        ([0, 1, 10_000], "its triangles must be of nodes 0 to"),
+        ([0, 1, -1], "its triangles must be of nodes 0 to"),
+    ],
+)
+def test_triangles_that_are_none_are_refused(system, triangle, said, tmp_path):
+    folder, _ = system
+    known = np.load(folder / "nodes.npz")
+    triangles = np.array([[0, 1, 2], triangle])
+    np.savez(tmp_path / "nodes.npz", **known, triangles=triangles)
+    with pytest.raises(InputError, match=said):
+        structure_model(_case(folder, "npz", nodes_file=tmp_path / "nodes.npz"))
+
+
+def test_massless_degrees_of_freedom_are_refused(system, tmp_path):
+    folder, _ = system
+    mass = sparse.load_npz(folder / "mass.npz").tolil()
+    mass[12:15, :], mass[:, 12:15] = 0.0, 0.0  # of one node
+    sparse.save_npz(tmp_path / "mass.npz", mass.tocsr())
+    with pytest.raises(InputError, match="must have inertia in every degree of freedom"):
+        structure_model(_case(folder, "npz", mass_file=tmp_path / "mass.npz"))

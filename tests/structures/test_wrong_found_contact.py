@@ -83,6 +83,15 @@ WRONG = [
         "must differ from that of grounds.rock",
     ),
     (
+        beside(
+            box(0.3, 0.3, 0.8, at_m=[2, 0, -3]),
+            joints=dict(foot=dict(between=["block", "rock"]), base=dict(between=["other", "quay"])),
+            grounds=dict(rock={}, quay=dict(level_m=-3.0)),
+        ),
+        "contact.between",
+        '"other" begins 3 m below grounds.rock, z = 0',
+    ),
+    (
         tables(
             joints=dict(foot=dict(between=["block", "soil"])),
             grounds=dict(soil=dict(kind="pad", stiffness_n_m3=1e7)),
