@@ -14,6 +14,7 @@ import numpy as np
 
 from fecolumn.foundation.atomic import write_json
 from fecolumn.foundation.progress import CountProgress
+from fecolumn.foundation.sources import PHYSICS
 
 
 def complete(function: Callable, jobs: dict[Path, tuple], workers: int, what: str) -> None:
@@ -55,13 +56,14 @@ def found(jobs) -> list:
 
 
 def keep_settings(folder: Path, settings: dict) -> None:
-    """Note in the folder what its results were made with.
+    """Note in the folder what its results were made with, the number of the physics among it.
 
     Raises
     ------
     ValueError
-        it holds results of other settings.
+        it holds results of other settings, or of older physics.
     """
+    settings = settings | {"physics": PHYSICS}
     file = folder / "settings.json"
     if file.exists():
         before = json.loads(file.read_text())

@@ -4,6 +4,7 @@ histories until the third impact.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,10 +40,10 @@ class Compared:
     mcnemar
         p of them.
     off
-        median, over motions that both survive, of the difference of the peaks over the other
-        program's peak.
+        median, over motions that both survive, of the difference of the peaks over that of the
+        first program.
     failed
-        analyses that stopped early.
+        analyses that stopped early, whose motions are left out of all else.
     unsolved
         steps of the other program whose friction problem was not solved to its tolerance.
     """
@@ -59,13 +60,17 @@ class Compared:
 
 
 def compared(one: list[Response], other: list[Response]) -> Compared:
-    """Of two programs on the same motions, in one order."""
+    """Of two programs on the same motions, in one order; motions in which an analysis stopped early
+    are left out.
+    """
+    failed = sum(bool(response.failed) for response in (*one, *other))
+    whole = [not (a.failed or b.failed) for a, b in zip(one, other, strict=True)]
+    one, other = (list(itertools.compress(all_of, whole)) for all_of in (one, other))
     fallen = [np.array([response.fallen for response in responses]) for responses in (one, other)]
     peaks = [np.array([response.peak for response in responses]) for responses in (one, other)]
     test = paired_kolmogorov_smirnov(*(censored(*pair) for pair in zip(peaks, fallen)))
     table, both = contingency(*fallen), ~(fallen[0] | fallen[1])
     off = float(np.median(np.abs(peaks[1][both] / peaks[0][both] - 1))) if both.any() else np.nan
-    failed = sum(bool(response.failed) for response in (*one, *other))
     unsolved = sum(response.unsolved for response in other)
     return Compared(
         len(one),

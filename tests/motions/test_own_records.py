@@ -170,7 +170,7 @@ Memo.
 
 def test_a_file_of_a_network_says_how_to_read_it(tmp_path, monkeypatch):
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(InputError, match=r"is a K-NET .* pip install 'fecolumn\[records\]'"):
+    with pytest.raises(InputError, match=r"is a K-NET .* pip install 'obspy>=1.4,<1.6'"):
         read_motion(Motion(written(tmp_path, KNET, "ISK001.EW")), "case.toml")
 
 

@@ -25,7 +25,7 @@ from fecolumn.pictures.render.result import read_result
 from fecolumn.pictures.render.strips import rows_between
 
 PAGE = RenderOptions(html=True)
-INSTALLED = "k3d is not installed: pip install 'fecolumn[html]'"
+INSTALLED = "k3d is not installed: pip install 'k3d>=2.18,<3'"
 
 
 def told_by(file) -> dict:
@@ -199,7 +199,7 @@ def test_without_k3d_it_is_told_how_to_install_it(block, monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "k3d", None)
     assert main(["render", str(block), "--html"]) == 2
     error = capsys.readouterr().err
-    assert "--html: needs k3d: pip install 'fecolumn[html]'" in error and error.count("\n") == 1
+    assert "--html: needs k3d: pip install 'k3d>=2.18,<3'" in error and error.count("\n") == 1
 
 
 def test_folders_without_a_motion_and_files_of_others_are_refused(gate, block, tmp_path):

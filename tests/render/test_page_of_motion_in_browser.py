@@ -11,7 +11,7 @@ from fecolumn.pictures.render.page.parts import parts_of
 from fecolumn.pictures.render.render_options import RenderOptions
 from fecolumn.pictures.render.result import read_result
 
-pytest.importorskip("k3d", reason="k3d is not installed: pip install 'fecolumn[html]'")
+pytest.importorskip("k3d", reason="k3d is not installed: pip install 'k3d>=2.18,<3'")
 TOP = "const part = motionPage.parts[0].drawn[0]; part.updateMatrixWorld(true);"
 
 

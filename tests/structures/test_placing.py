@@ -227,3 +227,21 @@ def test_a_lintel_turns_about_the_middle_of_its_piers():
         structure(**GATE, initial=dict(lintel=dict(spin_rad_s=[0.0, 0.0, 1.0])))
     ).parts[2]
     assert part.velocity == pytest.approx(np.zeros(3), abs=1e-12)
+
+
+@pytest.mark.parametrize("x, touches", [(0.2, True), (2.8, True), (3.1, False)])
+def test_beams_of_one_element_touch_where_they_cross(x, touches):
+    """Neither corners nor middles of their elements lie on the other: a log crib."""
+    beam = dict(kind="prism", width_m=0.3, element_size_m=100.0) | RIGID | STONE
+    low = dict(outline_m=[[0.0, 0.0], [4.0, 0.0], [4.0, 0.3], [0.0, 0.3]], at_m=[-1.0, 0.0, 0.0])
+    high = dict(outline_m=[[0.0, 0.0], [0.3, 0.0], [0.3, 4.0], [0.0, 4.0]], along="z")
+    case = structure(
+        bodies=dict(low=beam | low, high=beam | high | dict(at_m=[x, -1.0, 0.3])),
+        joints=dict(foot=dict(between=["low", "ground"]), cross=dict(between=["high", "low"])),
+        integration=dict(engine="rigid", start="drawn"),
+    )
+    if touches:
+        assert any(joint.name.startswith("cross") for joint in structure_model(case).joints)
+    else:
+        with pytest.raises(InputError, match="touch"):
+            structure_model(case)

@@ -26,7 +26,7 @@ from fecolumn.study.store import read_study
 from fecolumn.study.table import write_tables
 
 pytest.importorskip(
-    "distributed", reason="dask.distributed is not installed: pip install 'fecolumn[dask]'"
+    "distributed", reason="dask.distributed is not installed: pip install distributed"
 )
 # a scheduler and workers of their own in every test but one, two minutes in all
 pytestmark = pytest.mark.slow

@@ -106,7 +106,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         "--html",
         action="store_true",
         help="write only DIR/render/motion.html, a page with the motion in three dimensions and "
-        "a time slider, which any browser opens; needs k3d (pip install 'fecolumn[html]')",
+        "a time slider, which any browser opens; needs k3d (pip install 'k3d>=2.18,<3')",
     )
     parser.add_argument("-q", "--quiet", action="store_true", help="no progress line")
 

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 #: The file
 PAGE_FILE = "motion.html"
 #: What has to be installed
-_INSTALL = "needs k3d: pip install 'fecolumn[html]'"
+_INSTALL = "needs k3d: pip install 'k3d>=2.18,<3'"
 # The programs of the page, each needed by the next
 _PROGRAMS = "turns.js", "strip.js", "flexure.js", "page.js"
 _GENERATOR = '<meta name="generator" content="fecolumn'
