@@ -21,6 +21,7 @@ _DECIDE_NOTHING = {
     "foundation/_kernel.py",
     "foundation/arrays.py",
     "foundation/atomic.py",
+    "foundation/cores.py",
     "foundation/deprecated.py",
     "foundation/digests.py",
     "foundation/files.py",

@@ -21,9 +21,8 @@ from fecolumn.contact.overturning import (
 from fecolumn.contact.points import GROUND, OVER
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.engines.history_columns import of_both_sides
-from fecolumn.fem.rotation import tilt_angle, twist_angle
+from fecolumn.fem.rotation import tilt_angle, twist_angle, vector_product
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.foundation.arrays import vector_product
 
 if TYPE_CHECKING:
     from fecolumn.contact.overturning import Limits

@@ -14,8 +14,8 @@ from fecolumn.contact.joints import Joints
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, grounds_at
 from fecolumn.contact.projection import place_on_masters
-from fecolumn.fem.rotation import into_frames, out_of_frames
-from fecolumn.foundation.arrays import Array, vector_product
+from fecolumn.fem.rotation import into_frames, out_of_frames, vector_product
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.fem.composite import Composite, CompositeFoot, CompositeResponse

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from fecolumn.engines.dynamics.cuts import Stop
-from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation
-from fecolumn.foundation.arrays import Array, vector_product
+from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation, vector_product
+from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.interface import ContactInterface

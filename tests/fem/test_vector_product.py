@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fecolumn.foundation.arrays import vector_product
+from fecolumn.fem.rotation import vector_product
 
 
 @pytest.mark.parametrize("shapes", [((3,), (3,)), ((3,), (7, 3)), ((7, 3), (3,)), ((2, 5, 3),) * 2])
