@@ -16,7 +16,6 @@ again; --keep writes what is done there, --report computes nothing.
 from __future__ import annotations
 
 import argparse
-import os
 import signal
 import sys
 from pathlib import Path
@@ -26,6 +25,7 @@ import numpy as np
 from benchmarks.beside import SHARE_HEAD, cost, markdown, pair_cells, share_cells
 from benchmarks.tables.study_rows import OUTCOME, worked_off
 from fecolumn.engines.ending import lost
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.foundation.toml_file import read_toml
 from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
 from fecolumn.statistics.ecdf import ecdf
@@ -92,7 +92,7 @@ def main(given=None) -> int:
         prog="python -m benchmarks.models", description=__doc__.split("\n")[0]
     )
     parser.add_argument("-o", "--output", metavar="DIR", default="results/models")
-    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=usable_cores())
     parser.add_argument("--motions", metavar="N", type=int, default=115, help="the first of them")
     parser.add_argument("--own-mesh", action="store_true", help="not a coarse one")
     parser.add_argument("--full", action="store_true", help="the full order, too: hours")

@@ -14,13 +14,13 @@ from __future__ import annotations
 import argparse
 import csv
 import io
-import os
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.beside import markdown
 from fecolumn.foundation.atomic import write_bytes
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.pictures.figures.style import PAGE_WIDTH_IN, new_figure, save, styled
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.plan import read_plan
@@ -150,7 +150,7 @@ def main() -> None:
         "--jobs",
         metavar="N",
         type=int,
-        default=os.cpu_count() or 1,
+        default=usable_cores(),
         help="analyses at a time (default: %(default)s)",
     )
     parser.add_argument("--motions", metavar="N", type=int, default=115, help="the first of them")

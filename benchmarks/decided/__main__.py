@@ -16,7 +16,6 @@ done.
 from __future__ import annotations
 
 import argparse
-import os
 import signal
 import sys
 from pathlib import Path
@@ -25,6 +24,7 @@ from typing import Any
 from benchmarks.beside import markdown, pair_cells
 from benchmarks.tables.study_rows import keep_rows, kept_rows
 from fecolumn.cli import main as fecolumn
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import Plan, read_plan
 from fecolumn.study.run import StudyError, complete_study, stop_code
@@ -81,7 +81,7 @@ def main(given=None) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("study", choices=STUDIES, metavar="STUDY", help=", ".join(STUDIES))
-    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, metavar="N")
+    parser.add_argument("-j", "--jobs", type=int, default=usable_cores(), metavar="N")
     parser.add_argument("-o", "--output", metavar="DIR", type=Path, default=Path("results/decided"))
     parser.add_argument(
         "--most", type=int, default=Rule().most, metavar="N", help="motions at most"

@@ -5,7 +5,6 @@ Meant for a machine that does nothing else.
 
 from __future__ import annotations
 
-import os
 import tempfile
 import time
 from concurrent.futures import ProcessPoolExecutor
@@ -16,6 +15,7 @@ import numpy as np
 
 from benchmarks.engines.motions import RESULTS
 from benchmarks.engines.pair import case_of, engine
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study
 from fecolumn.study.store import DONE
@@ -97,7 +97,7 @@ def _study(name: str, limit: float):
     # a fresh folder each time: what is done already would not be timed
     with tempfile.TemporaryDirectory(dir=RESULTS) as folder:
         began = time.perf_counter()
-        rows = complete_study(plan, Path(folder) / "study", workers=min(CORES, os.cpu_count() or 1))
+        rows = complete_study(plan, Path(folder) / "study", workers=min(CORES, usable_cores()))
         spent = time.perf_counter() - began
     done = sum(row["state"] == DONE for row in rows)
     yield (

@@ -14,7 +14,6 @@ none means all. Elastic drums take three times as long as rigid ones.
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
@@ -23,6 +22,7 @@ from benchmarks.fragility.report import markdown
 from benchmarks.fragility.run import COLUMNS, STEP_S, keep, rows_of
 from benchmarks.fragility.structures import NAMES
 from fecolumn.foundation.atomic import write_csv
+from fecolumn.foundation.cores import usable_cores
 
 
 def main(arguments=None) -> int:
@@ -35,9 +35,7 @@ def main(arguments=None) -> int:
     parser.add_argument(
         "-n", type=int, default=1000, metavar="MOTIONS", help="(default: %(default)s)"
     )
-    parser.add_argument(
-        "-j", "--jobs", type=int, default=os.cpu_count() or 1, help="analyses at a time"
-    )
+    parser.add_argument("-j", "--jobs", type=int, default=usable_cores(), help="analyses at a time")
     parser.add_argument(
         "--dt", type=float, default=STEP_S, help="time step [s] (default: %(default)s)"
     )

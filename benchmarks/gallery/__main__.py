@@ -11,12 +11,12 @@ benchmarks/tables/figures.csv by which code.
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
 from benchmarks.gallery.figures import FIGURES, Work, make
 from benchmarks.gallery.made import note
+from fecolumn.foundation.cores import usable_cores
 
 
 def main(argv) -> int:
@@ -35,7 +35,7 @@ def main(argv) -> int:
         "--jobs",
         metavar="N",
         type=int,
-        default=os.cpu_count() or 1,
+        default=usable_cores(),
         help="analyses at a time (default: %(default)s)",
     )
     parser.add_argument(

@@ -13,7 +13,6 @@ and measured tests. On which groups an impact depends: `sections`; its cells: `g
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +23,7 @@ from benchmarks.impact.formula import Formula, fit
 from benchmarks.impact.measured import MEASURED
 from benchmarks.impact.sections import SHAPES
 from fecolumn.foundation.atomic import write_csv
+from fecolumn.foundation.cores import usable_cores
 
 
 def main(arguments) -> int:
@@ -33,7 +33,7 @@ def main(arguments) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("-o", "--out", type=Path, default=Path("results/impact/map"))
-    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="cells at once")
+    parser.add_argument("-j", "--jobs", type=int, default=usable_cores(), help="cells at once")
     parser.add_argument("--report", action="store_true", help="compute nothing, tell what is done")
     parser.add_argument("--ratio", type=float, nargs="+", default=grid.RATIOS, choices=grid.RATIOS)
     parser.add_argument("--group", type=float, nargs="+", default=grid.GROUPS, choices=grid.GROUPS)

@@ -13,7 +13,6 @@ fragility surface fitted to it by statsmodels.
 from __future__ import annotations
 
 import argparse
-import os
 import shutil
 import sys
 from pathlib import Path
@@ -24,6 +23,7 @@ from benchmarks.kept import complete, found
 from benchmarks.outcomes import bodies, models
 from benchmarks.outcomes.motions import motions_file
 from benchmarks.outcomes.table import write
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.study.results.outcomes import PACKAGED, outcomes
 
 #: Share of the analyses of each model; rows of a part, in a file of its own.
@@ -42,7 +42,7 @@ def main(arguments=None) -> int:
     parser.add_argument(
         "-n", type=int, default=104_000, metavar="ANALYSES", help="(default: %(default)s)"
     )
-    parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count() or 1, help="at a time")
+    parser.add_argument("-j", "--jobs", type=int, default=usable_cores(), help="at a time")
     parser.add_argument(
         "-o", "--output", metavar="DIR", type=Path, default=Path("results/outcomes")
     )

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import os
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -25,6 +24,7 @@ from pathlib import Path
 from benchmarks.beside import markdown
 from benchmarks.podium.ensemble import SCENARIOS, batches, gathered, responses, write_study
 from fecolumn.foundation.atomic import write_csv
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.pictures.figures.podium_figure import podium_figure
 from fecolumn.study.report.podium_claims import compared, podium_claims
 
@@ -38,7 +38,7 @@ def main() -> None:
         "-j",
         "--jobs",
         type=int,
-        default=os.cpu_count() or 1,
+        default=usable_cores(),
         help="scenarios at a time (default: %(default)s)",
     )
     parser.add_argument("--seed", type=int, default=1, help="of the motions (default: %(default)s)")

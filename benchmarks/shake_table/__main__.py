@@ -20,7 +20,6 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import os
 import sys
 from pathlib import Path
 
@@ -35,6 +34,7 @@ from benchmarks.shake_table.runs import COLUMNS, folder_name, run
 from benchmarks.shake_table.scores import chance, confusion, table
 from benchmarks.shake_table.uncertain import SEED, Setting, settings
 from fecolumn.foundation.atomic import write_csv
+from fecolumn.foundation.cores import usable_cores
 
 
 def chosen(text: str | None, numbers: list[int]) -> set[int]:
@@ -97,7 +97,7 @@ def main(arguments=None) -> None:
         "-j",
         "--jobs",
         type=int,
-        default=os.cpu_count() or 1,
+        default=usable_cores(),
         help="tests at a time (default: %(default)s)",
     )
     parser.add_argument("--tests", metavar="LIST", help="only these, such as 11-135,600")

@@ -19,12 +19,12 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import sys
 from pathlib import Path
 
 from benchmarks.soak import specimens
 from benchmarks.soak.watch import keep_running
+from fecolumn.foundation.cores import usable_cores
 
 _SETTINGS = "soak.json"
 
@@ -38,7 +38,7 @@ def main(argv=None) -> int:
     )
     parser.add_argument("-n", type=int, default=100_000, help="analyses (default: %(default)s)")
     parser.add_argument(
-        "-j", type=int, default=os.cpu_count() or 1, help="workers (default: one a core)"
+        "-j", type=int, default=usable_cores(), help="workers (default: one a core)"
     )
     parser.add_argument(
         "-o",

@@ -14,7 +14,6 @@ number of pairs. Resumed where it was stopped.
 from __future__ import annotations
 
 import argparse
-import os
 from pathlib import Path
 from typing import NamedTuple
 
@@ -22,6 +21,7 @@ import numpy as np
 
 from benchmarks.beside import pair_cells, share_cells
 from fecolumn.engines.ending import lost
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study
@@ -155,7 +155,7 @@ def main() -> None:
         "--jobs",
         metavar="N",
         type=int,
-        default=os.cpu_count() or 1,
+        default=usable_cores(),
         help="analyses at a time (default: %(default)s)",
     )
     parser.add_argument("--finest", action="store_true", help="the steps of 1e-4 s, too")

@@ -18,13 +18,13 @@ from __future__ import annotations
 
 import argparse
 import itertools
-import os
 import signal
 import sys
 from pathlib import Path
 
 from benchmarks.beside import compared, markdown, told
 from benchmarks.tables.study_rows import OUTCOME, worked_off
+from fecolumn.foundation.cores import usable_cores
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.conclusion import settings_of
 from fecolumn.study.plan import Plan, read_plan
@@ -125,7 +125,7 @@ def main(given=None) -> int:
         prog="python -m benchmarks.substeps.paper", description=__doc__.split("\n")[0]
     )
     parser.add_argument("-o", "--output", metavar="DIR", default="results/paper")
-    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("-j", "--jobs", metavar="N", type=int, default=usable_cores())
     parser.add_argument("--motions", metavar="N", type=int, default=115, help="the first of them")
     only = parser.add_mutually_exclusive_group()
     only.add_argument("--fixed", action="store_true", help="the step as it is asked for alone")

@@ -23,7 +23,7 @@ from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.lost import limits_of
 from fecolumn.structures.model import StructureModel
-from fecolumn.structures.place import as_standing
+from fecolumn.structures.standing import as_standing
 from fecolumn.structures.structure import standing_of
 
 #: Gravity (3,) [m/s2] in the table frame, in which z is up.

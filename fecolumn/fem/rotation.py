@@ -66,7 +66,7 @@ def out_of_frames(values: Array, rotation: Array, rows: list[slice]) -> Array:
 
 
 def vector_product(a: Array, b: Array) -> Array:
-    """A x b of vectors (..., 3), as numpy.cross, at a third of its cost for few of them."""
+    """Products a x b (..., 3) of vectors (..., 3), as numpy.cross, which costs more for few."""
     found = np.empty(np.broadcast_shapes(a.shape, b.shape), np.result_type(a, b))
     for k in range(3):
         i, j = (k + 1) % 3, (k + 2) % 3

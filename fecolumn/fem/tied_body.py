@@ -26,20 +26,21 @@ def known_to_all(comm: MPI.Intracomm, make: Callable[..., Any]) -> Any:
     """
     if comm.size == 1:
         return make()
-    result, refusal, failure = None, None, None
+    result: Any = None
+    caught: Exception | None = None
+    told: Any = None  # of an InputError its arguments, of another error a text
     if comm.rank == 0:
         try:
             result = make()
         except InputError as error:
-            refusal = error.file, error.key, error.value, error.allowed
+            caught, told = error, (error.file, error.key, error.value, error.allowed)
         except Exception as error:
-            comm.bcast((None, None, f"{type(error).__name__} on rank 0: {error}"))
-            raise
-    result, refusal, failure = comm.bcast((result, refusal, failure))
-    if refusal:
-        raise InputError(*refusal)
-    if failure:
-        raise RuntimeError(failure)
+            caught, told = error, f"{type(error).__name__} on rank 0: {error}"
+    result, told = comm.bcast((result, told))
+    if caught:
+        raise caught
+    if told:
+        raise RuntimeError(told) if isinstance(told, str) else InputError(*told)
     return result
 
 

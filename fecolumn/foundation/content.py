@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import hashlib
 import re
 from pathlib import Path
@@ -37,13 +38,19 @@ def _others(file: Path, known: set[Path]) -> list[Path]:
     """Files that a file refers to, and these to others, in their order; those not `known`, which
     grows.
     """
-    refers = _REFERS.get(file.suffix.lower())
-    if refers is None:
+    if file.suffix.lower() not in _REFERS:
         return []
     found: list[Path] = []
-    for name in refers.findall(file.read_text(encoding="utf-8", errors="replace")):
+    for name in _names(file, digest_of_file(file)):
         other = (file.parent / name).resolve()
         if other not in known and is_file(other):
             known.add(other)
             found += [other, *_others(other, known)]
     return found
+
+
+@functools.lru_cache(maxsize=256)
+def _names(file: Path, digest: str) -> list[str]:
+    """What a file, which has this digest, refers to by name."""
+    text = file.read_text(encoding="utf-8", errors="replace")
+    return _REFERS[file.suffix.lower()].findall(text)

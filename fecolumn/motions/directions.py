@@ -56,6 +56,11 @@ def direction_of(text: str) -> float | str:
     return _COMPASS.get(word.upper(), "")
 
 
+def lengths_differ(shortest: int, longest: int) -> bool:
+    """Whether numbers of samples of one record differ by more than 1 % and a sample."""
+    return longest > 1.01 * shortest + 1
+
+
 def recorded(
     channels: list[Channel], units: str, path: Path | str, source: str, kind: str
 ) -> Recording:
@@ -86,7 +91,7 @@ def recorded(
     shortest = min(len(channel.values) for channel in channels)
     if any(abs(one.dt / channels[0].dt - 1) > _DT_TOLERANCE for one in channels):
         raise UnusableRecord(f"has channels of different steps ({told})")
-    if max(len(one.values) for one in channels) > 1.01 * shortest + 1:
+    if lengths_differ(shortest, max(len(one.values) for one in channels)):
         raise UnusableRecord(f"has channels of different lengths ({told}); they may differ by 1 %")
     level = [one for one in channels if isinstance(one.direction, float)]
     upright = [one for one in channels if one.direction in ("up", "down")]

@@ -19,13 +19,18 @@ from fecolumn.motions.ensemble import Ensemble
 from fecolumn.motions.intensity import intensity_measures
 from fecolumn.motions.record import MOST_SAMPLES, GroundMotion, UnusableRecord, sound
 
-#: Endings of the names of HDF5 files.
-HDF5_SUFFIXES = (".h5", ".hdf5")
+# Endings of the names of HDF5 files
+_HDF5_SUFFIXES = (".h5", ".hdf5")
 FORMAT = "fecolumn ensemble 1"
 _MEMBER = re.compile(r"(?P<file>.+\.(?:h5|hdf5))#(?P<number>[^#]*)", re.IGNORECASE)
 ALL_MOTIONS = "*"
 #: How the table beside an ensemble begins: now, and in earlier versions
 TABLE_HEADS = ("name,number,dt_s,duration_s,", "name,number,dt_s,length_s,")
+
+
+def is_hdf5_name(path: Path | str) -> bool:
+    """Whether a file is one of HDF5 by the ending of its name."""
+    return Path(path).suffix.lower() in _HDF5_SUFFIXES
 
 
 def file_and_number(source: str) -> tuple[str, str] | None:

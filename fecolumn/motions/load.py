@@ -24,7 +24,7 @@ from fecolumn.motions.at2 import looks_like_at2, read_at2
 from fecolumn.motions.columns import read_columns
 from fecolumn.motions.cosmos import looks_like_cosmos, read_cosmos
 from fecolumn.motions.csmip import looks_like_csmip, read_csmip
-from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, file_and_number, read_member
+from fecolumn.motions.ensemble_file import file_and_number, is_hdf5_name, read_member
 from fecolumn.motions.esm import looks_like_esm, read_esm
 from fecolumn.motions.fema_p695 import read_fema_p695
 from fecolumn.motions.formats import FORMATS
@@ -277,7 +277,7 @@ def recording_of(motion: Motion, key: str, file: Path | str) -> Recording:
             recording = Recording(
                 member.acceleration, tuple(AXES), member.dt, "m/s2", member.name, member.source
             )
-        elif Path(source).suffix.lower() in HDF5_SUFFIXES:
+        elif is_hdf5_name(source):
             recording = read_hdf5_record(source, motion.dt_s)
         elif kind := seismic_format(source):
             recording = read_seismic(source, kind)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from fecolumn.foundation.files import Unreadable, read_bytes
 from fecolumn.motions.column_names import MOVED, named_column, no_acceleration
+from fecolumn.motions.directions import lengths_differ
 from fecolumn.motions.record import Recording, UnusableRecord
 
 #: Formats by the name that ObsPy has for each.
@@ -23,8 +24,6 @@ _INSTALL = "pip install 'obspy>=1.4,<1.6' reads it"
 _AXES = {"E": "x", "N": "y", "Z": "z"}
 # What is no acceleration, by the number that the head of SAC has for it
 _SAC_MOVED = {6: "displacement", 7: "velocity"}
-# Samples of the longest channel over those that all have, at most, as of channels in other files
-_LONGER = 1.01
 
 
 def seismic_format(path: Path | str) -> str | None:
@@ -134,8 +133,7 @@ def _common(traces: list[Any]) -> NDArray[Any]:
     dt = float(traces[0].stats.delta)
     first = [round((max(starts) - start) / dt) for start in starts]
     count = min(trace.stats.npts - skipped for trace, skipped in zip(traces, first))
-    longest = max(trace.stats.npts for trace in traces)
-    if longest > _LONGER * max(count, 0) + 1:
+    if lengths_differ(max(count, 0), max(trace.stats.npts for trace in traces)):
         told = ", ".join(
             f"{trace.id} from {start - min(starts):g} to "
             f"{start - min(starts) + dt * trace.stats.npts:g} s"

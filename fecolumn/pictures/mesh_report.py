@@ -30,10 +30,10 @@ from fecolumn.pictures.mesh_picture import mesh_picture
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.layout import layout_of
 from fecolumn.structures.made_layout import keep_models
-from fecolumn.structures.place import touching
 from fecolumn.structures.reduction import body_of
 from fecolumn.structures.shapes import shape_of
 from fecolumn.structures.size import expected, made_of
+from fecolumn.structures.standing import touching
 from fecolumn.structures.store import kept_body
 from fecolumn.structures.structure import assembled, standing_of
 from fecolumn.structures.tied import OfGrids, built_of

@@ -18,8 +18,9 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import edge_points
 from fecolumn.structures.foot_on_springs import FootOnSprings
 from fecolumn.structures.model import JointModel, StructureModel
-from fecolumn.structures.place import Standing, footing, placed, supports_of
+from fecolumn.structures.place import footing, placed
 from fecolumn.structures.spring_areas import spring_areas
+from fecolumn.structures.standing import Standing, supports_of
 
 # Directions [deg] in which a body is leaned; the least energy is in that of its weakest edge
 _DIRECTIONS = (0.0, 90.0, 180.0, 270.0)

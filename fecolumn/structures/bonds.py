@@ -14,8 +14,8 @@ from fecolumn.case.joint import Joint
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import Bond, JointModel
-from fecolumn.structures.place import Standing, touching
 from fecolumn.structures.spring_areas import spring_areas
+from fecolumn.structures.standing import Standing, touching
 
 
 def with_bonds(

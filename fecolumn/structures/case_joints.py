@@ -20,7 +20,7 @@ from fecolumn.contact.tolerances import LEVEL
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.feet import ball_of, hertz
 from fecolumn.structures.model import BodyModel, JointModel
-from fecolumn.structures.place import Standing, dome_load, loads
+from fecolumn.structures.standing import Standing, dome_load, loads
 
 
 def joint_of(

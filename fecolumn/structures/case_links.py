@@ -14,7 +14,7 @@ from fecolumn.case.case import Case
 from fecolumn.case.link import PULLING, PUSHING
 from fecolumn.contact.points import GROUND
 from fecolumn.structures.model import LinkModel
-from fecolumn.structures.place import Standing
+from fecolumn.structures.standing import Standing
 from fecolumn.structures.store import (
     shape_at,
 )

@@ -25,7 +25,8 @@ from fecolumn.structures.bonds import pulls_of_bonds
 from fecolumn.structures.meeting import Meeting
 from fecolumn.structures.model import JointModel, StructureModel
 from fecolumn.structures.patches import Patch
-from fecolumn.structures.place import Standing, footing
+from fecolumn.structures.place import footing
+from fecolumn.structures.standing import Standing
 
 #: Contact points of one body, above which its compliance alone has more than 3000^2 numbers.
 _MOST_POINTS = 1000
@@ -110,7 +111,8 @@ def check_layout(case: Case, layout: CheckedLayout, file: Path | str) -> None:
     """Refuse copies without a path to the ground, and those that overlap."""
     copies = case.copies
     fixed = {copy for copy in copies if getattr(case.bodies[copy[0]], "fixed", False)}
-    held = {None, *fixed, *case.found}
+    found = set(case.found)
+    held = {None, *fixed, *found}
     while more := [
         contact
         for contact in layout.contacts
@@ -133,8 +135,8 @@ def check_layout(case: Case, layout: CheckedLayout, file: Path | str) -> None:
     ]
     lowest = min(ground.level_m for ground in case.grounds.values())
     for i, one in enumerate(copies):
-        if one in case.found and one not in fixed:
-            _check_planes(case, one, boxes[i], file)
+        if one in found - fixed:
+            _check_planes(case, one, *boxes[i], file)
         if one not in fixed and boxes[i][0][2] < lowest - _DEPTH * np.ptp(boxes[i], axis=0).max():
             raise InputError(
                 file,
@@ -171,16 +173,13 @@ def check_layout(case: Case, layout: CheckedLayout, file: Path | str) -> None:
 
 
 def _check_planes(
-    case: Case,
-    one: tuple[str, int],
-    box: tuple[NDArray[Any], NDArray[Any]],
-    file: Path | str,
+    case: Case, one: tuple[str, int], low: NDArray[Any], high: NDArray[Any], file: Path | str
 ) -> None:
     """Refuse a body whose contact is found and that begins below one of several grounds."""
     body = case.names_of(one[0])[one[1]]
-    for name, ground in case.grounds.items():
-        under = ground.level_m - float(box[0][2])
-        if len(case.grounds) > 1 and under > _DEPTH * np.ptp(box, axis=0).max():
+    for name, ground in case.grounds.items() if len(case.grounds) > 1 else ():
+        under = ground.level_m - float(low[2])
+        if under > _DEPTH * (high - low).max():
             raise InputError(
                 file,
                 "contact.between",

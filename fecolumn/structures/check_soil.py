@@ -14,7 +14,7 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.structures.barrier import feet_on_springs
 from fecolumn.structures.model import StructureModel
 from fecolumn.structures.pads import pad_keys
-from fecolumn.structures.place import Standing
+from fecolumn.structures.standing import Standing
 
 
 def check_soil(

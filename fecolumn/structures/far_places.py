@@ -14,7 +14,7 @@ from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
 from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.tolerances import SOLVED
-from fecolumn.structures.place import Standing
+from fecolumn.structures.standing import Standing
 
 # Distance from the origin over the width of a body at which the rounding of a place is what contact
 # is solved to: 4.5e4. Blocks of 2 mm to 0.1 m go on at 5e4 and stop at 6e4 to 8e4.

@@ -25,7 +25,7 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.base_plate import depths, plate_line
 from fecolumn.structures.feet import edge_points
 from fecolumn.structures.model import BodyModel, JointModel, Part
-from fecolumn.structures.place import Standing
+from fecolumn.structures.standing import Standing
 from fecolumn.structures.store import key_of
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from fecolumn.contact.overturning import FAR, Limits
 from fecolumn.contact.points import GROUND
 from fecolumn.structures.barrier import is_level, stances
 from fecolumn.structures.model import StructureModel
-from fecolumn.structures.place import Standing, Supports, supports_of
+from fecolumn.structures.standing import Standing, Supports, supports_of
 
 
 def limits_of(structure: StructureModel, standing: list[Standing]) -> Limits:

@@ -19,8 +19,8 @@ from fecolumn.contact.pad import pad_below
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import JointModel, StructureModel
-from fecolumn.structures.place import Standing, dome_load, loads
 from fecolumn.structures.spring_areas import spring_areas, stiffer_in_rocking
+from fecolumn.structures.standing import Standing, dome_load, loads
 
 # Steps in a period of the vertical vibration on a pad: needed, and for 3 % in frequency (period
 # error (w dt)^2 / 12)

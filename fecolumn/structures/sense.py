@@ -22,8 +22,8 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import BodyModel, HullOutline, JointModel, StructureModel
-from fecolumn.structures.place import Standing, loads
 from fecolumn.structures.size import LARGE, largest_side
+from fecolumn.structures.standing import Standing, loads
 
 # Mean strain of a body at rest below one of its faces: what elements are made for is a tenth of it
 _STRAIN = 0.1

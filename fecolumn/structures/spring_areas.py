@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from fecolumn.structures.model import JointModel, Surface
 from fecolumn.structures.outlines import cross_product
-from fecolumn.structures.place import Standing, touching
+from fecolumn.structures.standing import Standing, touching
 
 #: Least share of its tributary area that a point keeps: none may be without a spring.
 LEAST_SHARE = 0.3

@@ -32,13 +32,14 @@ from fecolumn.structures.hulls import found_contact
 from fecolumn.structures.made_layout import layout_on_disk
 from fecolumn.structures.model import BodyModel, JointModel, LinkModel, Part, StructureModel
 from fecolumn.structures.pads import with_pads
-from fecolumn.structures.place import Standing, placed
+from fecolumn.structures.place import placed
 from fecolumn.structures.sense import (
     check_sense,
     tell_of_densities,
     tell_of_lengths,
     tell_of_restitution,
 )
+from fecolumn.structures.standing import Standing
 from fecolumn.structures.store import KeptLayout, kept_body
 
 

@@ -81,10 +81,10 @@ def store(ensemble: Ensemble, output: Path | str) -> int:
 def ensemble_path(output: Path | str) -> Path:
     """Path of an ensemble that may be written; its folder is there."""
     from fecolumn.foundation.schema import InputError
-    from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, TABLE_HEADS, is_ensemble
+    from fecolumn.motions.ensemble_file import TABLE_HEADS, is_ensemble, is_hdf5_name
 
     path = Path(output)
-    if path.suffix.lower() not in HDF5_SUFFIXES:
+    if not is_hdf5_name(path):
         raise InputError("fecolumn motions", "-o", str(output), "must end in .h5")
     path.parent.mkdir(parents=True, exist_ok=True)
     if os.path.lexists(path) and not is_ensemble(path):

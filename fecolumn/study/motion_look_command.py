@@ -137,10 +137,10 @@ def add_look_actions(actions: Any) -> None:
 
 def _info(args: argparse.Namespace) -> int:
     from fecolumn.foundation.schema import InputError
-    from fecolumn.motions.ensemble_file import HDF5_SUFFIXES, is_foreign_hdf5, summary
+    from fecolumn.motions.ensemble_file import is_foreign_hdf5, is_hdf5_name, summary
     from fecolumn.motions.ensemble_report import report
 
-    if Path(args.ensemble).suffix.lower() not in HDF5_SUFFIXES or is_foreign_hdf5(args.ensemble):
+    if not is_hdf5_name(args.ensemble) or is_foreign_hdf5(args.ensemble):
         return _info_of_motion(args)
     for key, value in (("--source-y", args.source_y), ("--source-z", args.source_z)):
         if value:
@@ -247,10 +247,10 @@ def _plot(args: argparse.Namespace) -> int:
 def _convert(args: argparse.Namespace) -> int:
     from fecolumn.foundation.folder import written
     from fecolumn.motions.ensemble import Ensemble
-    from fecolumn.motions.ensemble_file import HDF5_SUFFIXES
+    from fecolumn.motions.ensemble_file import is_hdf5_name
     from fecolumn.motions.export import write_text_files
 
-    whole = Path(args.output).suffix.lower() in HDF5_SUFFIXES
+    whole = is_hdf5_name(args.output)
     if whole:
         ensemble_path(args.output)
     motions = all_of(args)

@@ -81,9 +81,8 @@ class Store:
         self.folder.mkdir(parents=True, exist_ok=True)
         self._lock = FolderLock(self.folder, share)
         try:
-            _refuse_foreign(self.folder, identity)  # another driver may have been first
+            known = _refuse_foreign(self.folder, identity)  # another driver may have been first
             told = {"title": plan.title, "axes": plan.axes, "case": plan.case}
-            known = _identity(self.folder)
             # another title, or an axis of one value that the case states now, are the same study
             if known is None or share is None and told != {key: known.get(key) for key in told}:
                 write_json(self.folder / "study.json", {**identity, **told, "version": __version__})
@@ -298,8 +297,10 @@ def _share(plan: Plan, share: tuple[int, int] | None) -> list[tuple[int, Planned
     return sorted(dealt, key=lambda item: item[0])
 
 
-def _refuse_foreign(folder: Path, identity: dict[str, Any]) -> None:
-    """Refuse what this study must not touch, reading only."""
+def _refuse_foreign(folder: Path, identity: dict[str, Any]) -> dict[str, Any] | None:
+    """Refuse what this study must not touch, reading only; what study.json says, None where there
+    is none.
+    """
     if os.path.lexists(folder) and not folder.is_dir():
         raise InputError(
             folder,
@@ -318,7 +319,7 @@ def _refuse_foreign(folder: Path, identity: dict[str, Any]) -> None:
             raise InputError(
                 folder, "", None, "is not empty and holds no study; give another folder"
             )
-        return
+        return None
     if found["study"] != identity["study"]:
         raise InputError(
             folder,
@@ -336,6 +337,7 @@ def _refuse_foreign(folder: Path, identity: dict[str, Any]) -> None:
             f"holds this study run by {found['entry']}, not {identity['entry']}; give "
             "another folder",
         )
+    return found
 
 
 def _identity(folder: Path) -> dict[str, Any] | None:

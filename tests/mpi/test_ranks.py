@@ -193,7 +193,9 @@ for make in (lambda: 7, refused, damaged):
         told = known_to_all(MPI.COMM_WORLD, make)
     except Exception as error:
         told = f"{type(error).__name__}: {error}"
-    print(MPI.COMM_WORLD.rank, told, flush=True)
+    # by one rank, as mpirun mixes what several print
+    for line in MPI.COMM_WORLD.gather(f"{MPI.COMM_WORLD.rank} {told}") or ():
+        print(line, flush=True)
 """
 
 

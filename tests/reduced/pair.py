@@ -9,8 +9,9 @@ from fecolumn.engines.dynamics import gravity
 from fecolumn.engines.reduced import start
 from fecolumn.engines.reduced.observe import COLUMNS
 from fecolumn.engines.reduced_engine import engine_on
-from fecolumn.structures.place import Standing, placed
+from fecolumn.structures.place import placed
 from fecolumn.structures.reduction import with_elasticity
+from fecolumn.structures.standing import Standing
 from fecolumn.verification.models import column_system
 from fecolumn.verification.trial import Trial
 

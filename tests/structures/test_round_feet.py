@@ -19,7 +19,7 @@ from fecolumn.mesh.mass import mass_properties
 from fecolumn.structures.barrier import stances
 from fecolumn.structures.bodies import drawing
 from fecolumn.structures.feet import hertz
-from fecolumn.structures.place import loads
+from fecolumn.structures.standing import loads
 from fecolumn.structures.structure import standing_of, structure_model
 from fecolumn.verification.structures_feet import BLOCK as WIDE
 from fecolumn.verification.structures_feet import (

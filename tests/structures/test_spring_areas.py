@@ -9,13 +9,13 @@ from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.reduced_engine import engine_of
 from fecolumn.structures.outlines import cross_product
-from fecolumn.structures.place import as_standing
 from fecolumn.structures.spring_areas import (
     LEAST_SHARE,
     areas_by_moments,
     overlap_of,
     spring_areas,
 )
+from fecolumn.structures.standing import as_standing
 from fecolumn.structures.structure import structure_model
 
 pytestmark = pytest.mark.filterwarnings("error")

@@ -36,8 +36,15 @@ def body_restitution(
     central_inertia
         about the centre of mass [kg m2].
     """
+    return max(_kept(mass, central_inertia, left, landed), 0.0)
+
+
+def _kept(
+    mass: float, central_inertia: float, left: tuple[float, float], landed: tuple[float, float]
+) -> float:
+    """As `body_restitution`, below 0 where the body turns back."""
     momentum = central_inertia + mass * (left[0] * landed[0] + left[1] * landed[1])
-    return max(momentum / (central_inertia + mass * (landed[0] ** 2 + landed[1] ** 2)), 0.0)
+    return momentum / (central_inertia + mass * (landed[0] ** 2 + landed[1] ** 2))
 
 
 def one_sided_restitution(
@@ -70,9 +77,7 @@ def one_sided_restitution(
     )
     first = body_restitution(mass, central_inertia, leaning, landed)
     last = body_restitution(mass, central_inertia, landed, leaning)
-    kept = central_inertia + mass * (landed[0] * struck[0] + landed[1] * struck[1])
-    about = central_inertia + mass * (struck[0] ** 2 + struck[1] ** 2)
-    return first * max(-kept / about, 0.0) * last
+    return first * max(-_kept(mass, central_inertia, landed, struck), 0.0) * last
 
 
 def frame_restitution(slenderness: float, mass_ratio: float) -> float:

@@ -10,6 +10,7 @@ made from a column's case.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, ClassVar, Protocol
@@ -23,8 +24,17 @@ from fecolumn.motions.record import GroundMotion
 
 #: Terms of the energy that are of a state, not added up over time.
 STATE_TERMS = ("kinetic", "strain", "gravity")
-#: Times the free motion that is followed is doubled for a fall that is bound to come
-PATIENCE = 8
+# Times the free motion that is followed is doubled for a fall that is bound to come
+_PATIENCE = 8
+
+
+def free_times(free_s: float, frequency: float) -> Iterator[float]:
+    """Free motions [s] to try, one after the other, until a fall that is bound to come has come;
+    the first is `free_s`, the others are longer by 2, 4, ... over the frequency parameter [rad/s].
+    """
+    yield free_s
+    for doubled in range(1, _PATIENCE):
+        yield free_s + 2.0**doubled / frequency
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -73,28 +73,23 @@ def start_of(case: Case, file: Path | str) -> Start:
     """
     for name, section in case.own.items():
         start = case.initial[name]
-        _check_direction(name, section, start, refuse_in(file))
+        in_plane = name == "block" and not getattr(section, "depth_m", None)
+        if start.tilt_rad and (in_plane or case.integration.engine in ALONG_X):
+            _check_direction(name, section, start.direction_deg, refuse_in(file))
         return Start(tilt_rad=start.tilt_rad, direction_deg=start.direction_deg)
     return _Reader(case, file).start()
 
 
-def _check_direction(name: str, section: Section, start: Initial, refuse: Refuse) -> None:
-    """Refuse a start across the plane of a model of its own table, or into the wall behind it."""
-    in_plane = name in ("frame", "podium") or name == "block" and not section.depth_m  # type: ignore[attr-defined]
-    if not start.tilt_rad or not in_plane:
-        return
-    if start.direction_deg % 180.0:
-        refuse(
-            "initial.direction_deg",
-            start.direction_deg,
-            f"must be 0 or 180 deg: [{name}] rocks in the plane of x",
-        )
-    if getattr(section, "sides", 2) == 1 and start.direction_deg % 360.0:
-        refuse(
-            "initial.direction_deg",
-            start.direction_deg,
-            "must be 0 deg where block.sides = 1: a wall stands on the other side",
-        )
+def _check_direction(name: str, section: Section, direction: float, refuse: Refuse) -> None:
+    """Refuse a start [deg] across the plane x, z of a model's own table, or into the wall behind
+    it.
+    """
+    key = "initial.direction_deg"
+    if direction % 180.0:
+        refuse(key, direction, f"must be 0 or 180 deg: [{name}] rocks in the plane of x")
+    if getattr(section, "sides", 2) == 1 and direction % 360.0:
+        told = "must be 0 deg where block.sides = 1: a wall stands on the other side"
+        refuse(key, direction, told)
 
 
 def rocking_bodies(case: Case, file: Path | str) -> tuple[str, str]:
@@ -171,7 +166,7 @@ class _Reader:
             self._lacks(f'needs one start for all of "{name}", which lean alike')
         tilt, direction = starts.pop() if starts else (0.0, 0.0)
         start = Start(tilt_rad=tilt, direction_deg=direction)
-        if self.engine in ("rocking_frame", "podium") and start.tilt_rad:
+        if self.engine in ALONG_X and start.tilt_rad:
             if start.direction_deg % 180.0:
                 self._lacks(
                     f"rocks along x: direction_deg = {start.direction_deg:g} must be 0 or 180"

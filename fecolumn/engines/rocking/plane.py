@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike
 
 from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.model import (
-    PATIENCE,
     ModelResponse,
     balanced,
     check_friction,
+    free_times,
     moved_about_edge,
 )
 from fecolumn.engines.rocking.restraint import Restraint
@@ -202,8 +202,7 @@ class Plane:
         followed to its end.
         """
         ground, row = motion.acceleration[:, [self.axis, 2]], self.row
-        for patience in range(PATIENCE):
-            longer = free_s if patience == 0 else free_s + 2.0**patience / row[P2] ** 0.5
+        for longer in free_times(free_s, row[P2] ** 0.5):
             states, impacts, found = rock_one(
                 ground, motion.dt, row, free_s=longer, tilt=tilt, tilt_rate=rate
             )

@@ -14,7 +14,7 @@ import numpy as np
 from fecolumn.case.model_sections import CRV, PodiumModel
 from fecolumn.case.outline_keys import half_and_height
 from fecolumn.case.sections import GRAVITY
-from fecolumn.engines.rocking.model import PATIENCE, ModelResponse, balanced
+from fecolumn.engines.rocking.model import ModelResponse, balanced, free_times
 from fecolumn.engines.rocking.podium_impact import podium_restitution
 from fecolumn.engines.rocking.storeys import ElasticBuilding, storeys
 from fecolumn.foundation.arrays import Array
@@ -119,6 +119,11 @@ class Podium:
         return self.building_mass * GRAVITY * math.tan(self.slenderness)
 
     @property
+    def frequency(self) -> float:
+        """Frequency parameter p of a column [rad/s]."""
+        return math.sqrt(GRAVITY / (self.inertia * self.half_diagonal))
+
+    @property
     def critical_tilt(self) -> float:
         """alpha: the building moves along with the beam [rad]."""
         return self.slenderness
@@ -186,9 +191,7 @@ class Podium:
         )
 
         along = math.cos(direction)
-        p = math.sqrt(GRAVITY / (self.inertia * self.half_diagonal))
-        for patience in range(PATIENCE):
-            longer = free_s if patience == 0 else free_s + 2.0**patience / p
+        for longer in free_times(free_s, self.frequency):
             still = np.zeros((math.ceil(longer / motion.dt), 2))
             ground = np.concatenate([motion.acceleration[:, [0, 2]], still])
             rows, impacts, shears, peak, fallen = self.shake(
@@ -244,10 +247,7 @@ class Podium:
             "eta": (self.eta, "-"),
             "slenderness alpha": (self.slenderness, "rad"),
             "R": (self.half_diagonal, "m"),
-            "frequency parameter p of a column": (
-                math.sqrt(GRAVITY / (self.inertia * self.half_diagonal)),
-                "rad/s",
-            ),
+            "frequency parameter p of a column": (self.frequency, "rad/s"),
             "period of mode 1": (2 * math.pi / building.omega[0], "s"),
             "period of the highest mode": (2 * math.pi / building.omega[-1], "s"),
             "effective mass of mode 1": (building.effective_mass[0], "-"),

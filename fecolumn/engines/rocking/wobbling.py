@@ -22,10 +22,10 @@ from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking import wobbling_equations as equations
 from fecolumn.engines.rocking.column import RigidColumn
 from fecolumn.engines.rocking.model import (
-    PATIENCE,
     ModelResponse,
     balanced,
     check_friction,
+    free_times,
     moved_about_edge,
 )
 from fecolumn.foundation._compiled import interpreted
@@ -207,8 +207,7 @@ class Wobbling:
         start = np.array(
             [max(tilt, LIFTED_TILT) if tilt or tilt_rate else 0.0, direction, tilt_rate, 0.0]
         )
-        for patience in range(PATIENCE):
-            longer = free_s if patience == 0 else free_s + 2.0**patience / self.frequency
+        for longer in free_times(free_s, self.frequency):
             still = np.zeros((math.ceil(longer / motion.dt), 3))
             ground = np.concatenate([motion.acceleration, still])
             rows, passages, fallen = wobble(

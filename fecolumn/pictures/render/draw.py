@@ -128,6 +128,7 @@ def _pictures(
 ) -> list[Path]:
     """Stills, and the sequence figure of them."""
     from fecolumn.pictures.render.canvas import Canvas
+    from fecolumn.pictures.render.frames import Frames
     from fecolumn.pictures.render.sequence import beside, picture_size, sequence_figure
     from fecolumn.pictures.render.still import still_figure, still_size
 
@@ -139,8 +140,10 @@ def _pictures(
         result.frames.interval if len(result.frames.time) > 1 else 0.0,
     )
     frames = _frames(result, options, start, end, instants, interval)
-    if len(once := np.unique(frames.times)) < len(frames):
-        frames = _frames(result, options, start, end, once, interval)
+    if len(once := np.unique(frames.times)) < len(frames):  # with the scales of the same motion
+        frames = Frames(
+            result, once, interval, options.exaggerate, options.color, frames, options.forces
+        )
     drawn = list(frames)
 
     def scene(size: tuple[int, int]) -> Canvas:
