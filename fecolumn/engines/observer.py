@@ -120,7 +120,7 @@ class Observer:
                 f"body/{part.name}/rotation": Rotation.from_matrix(R[b]).as_rotvec(),
                 f"mark/{part.name}.top/displacement": tops[b],
             }
-        poses = poses_of(interface.interfaces, moved + self._centers, R, state.grounds)
+        poses = interface.poses_at(moved + self._centers, R, state.grounds)
         normal = np.bincount(
             interface.points["interface"], np.maximum(forces[:, 2], 0.0), len(poses)
         )

@@ -55,6 +55,8 @@ def into_frames(values: Array, rotation: Array, rows: list[slice]) -> Array:
     rows
         of each body.
     """
+    if len(rows) == 1:
+        return values @ rotation[0]
     return np.concatenate([values[own] @ R for own, R in zip(rows, rotation, strict=True)])
 
 

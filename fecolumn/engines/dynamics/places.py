@@ -160,9 +160,12 @@ class Places:
 
     def poses(self, x: Array, rotation: Array) -> Array:
         """(ni,) of POSE of bodies at positions x (n_owned, 3) turned by `rotation`."""
+        return self.poses_at(self.centers(x), rotation, self._grounds)
+
+    def poses_at(self, centers: Array, rotation: Array, grounds: Array) -> Array:
+        """As `contact.pose.poses_of` of the interfaces, compiled."""
         poses = np.zeros(len(self.interfaces), POSE)
-        frames = frames_at(self.centers(x))
-        find_poses(self.interfaces, self._grounds, frames, rotation, poses, None)
+        find_poses(self.interfaces, grounds, frames_at(centers), rotation, poses, None)
         return poses
 
     def centers(self, x: Array) -> Array:
