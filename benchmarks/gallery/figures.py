@@ -104,10 +104,10 @@ def impact_map(_: Work, target: Path) -> str:
     tables that `python -m benchmarks.impact map` made in hours.
     """
     from benchmarks.impact.figure import draw_map
-    from benchmarks.impact.kept_map import kept_cells, kept_formula
+    from benchmarks.impact.kept_map import kept_cells
 
     cells = kept_cells()
-    draw_map(cells, kept_formula(), target.with_suffix(""))
+    draw_map(cells, target.with_suffix(""))
     return f"{len(cells)} cells of benchmarks/tables/impact_map.csv"
 
 

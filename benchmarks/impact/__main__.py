@@ -3,6 +3,7 @@ step, engine, modes, tilt, slenderness, bricks, damping.
 
     ./containers/run python -m benchmarks.impact [SERIES ...] [-o DIR]
     ./containers/run python -m benchmarks.impact map --help
+    ./containers/run python -m benchmarks.impact formula
 
 Each impact is one line of DIR/impact.csv (results/impact unless given); those there are not made
 again. Ends with two tables, and DIR/impact.png. SERIES are names of `SERIES`, all unless named. All
@@ -21,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.impact import kept_map
 from benchmarks.impact import map as impact_map
 from benchmarks.impact.figure import draw
 from benchmarks.impact.loss import first_impact
@@ -94,6 +96,8 @@ FIELDS = (
 def main(argv) -> int:
     if argv[:1] == ["map"]:
         return impact_map.main(argv[1:])
+    if argv == ["formula"]:
+        return kept_map.main()
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.impact",
         description=__doc__,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.impact.measured import MEASURED
+from benchmarks.impact.formula import STIFF, fit
 from benchmarks.impact.sections import SHAPES
 from fecolumn.pictures.figures.style import (
     BLACK,
@@ -83,12 +83,15 @@ def draw(rows, path) -> None:
         save(figure, path)
 
 
-def draw_map(cells, formula, path):
-    """Loss over Housner's of the cells with friction enough to stick, a panel a section: over the
-    group onto which the slendernesses fall (E B / (rho g H^2) without a formula), with the formula,
-    and in the panel of blocks measured tests. PNG and PDF.
+def draw_map(cells, path):
+    """Loss over Housner's of the cells with friction enough to stick over E B / (rho g H^2), a
+    panel a section, with the formula of stiff bodies where there are cells enough. PNG and PDF.
     """
     colours = (BLACK, BLUE, GREEN, ORANGE, VERMILION)
+    try:
+        formula = fit(cells)
+    except ValueError:
+        formula = None
     with styled():
         figure = new_figure(PAGE_WIDTH_IN, 2.8)
         shapes = [shape for shape in SHAPES if any(one["shape"] == shape for one in cells)]
@@ -96,12 +99,12 @@ def draw_map(cells, formula, path):
         friction = max(one["friction"] for one in cells)
         for axes, shape in zip(panels, shapes):
             own = [one for one in cells if (one["shape"], one["friction"]) == (shape, friction)]
-            for ratio, colour in zip(sorted({one["ratio"] for one in own}), colours):
+            ratios = sorted({one["ratio"] for one in own})
+            for place, (ratio, colour) in enumerate(zip(ratios, colours)):
                 row = [one for one in own if one["ratio"] == ratio and one["releases"]]
                 group = np.array([one["group"] for one in row])
-                at = formula.group(ratio, group) if formula else group
                 axes.errorbar(
-                    at,
+                    group * 1.15 ** (place - len(ratios) // 2),  # beside one another
                     [one["loss"] for one in row],
                     [one["half_width"] for one in row],
                     fmt="o",
@@ -111,25 +114,14 @@ def draw_map(cells, formula, path):
                     label=f"$H/B$ = {ratio:g}",
                 )
                 if formula and shape in formula.base:
-                    fine = np.geomspace(group.min(), group.max(), 50)
-                    axes.plot(
-                        formula.group(ratio, fine),
-                        formula.loss(shape, ratio, fine),
-                        color=colour,
-                        linewidth=0.8,
-                    )
-            if shape == "block":
-                for one in MEASURED:
-                    at = formula.group(one.ratio, one.group) if formula else one.group
-                    (drawn,) = axes.plot([at, at], one.losses, color=GREY, marker="_", linewidth=1)
-                axes.legend([drawn], ["measured"])
+                    lost = formula.loss(shape, ratio)
+                    axes.plot([STIFF, group.max()], [lost, lost], color=colour, linewidth=0.8)
             axes.axhline(1.0, color=GREY, linewidth=0.8)
-            power = f"^{{{formula.power:.1f}}}" if formula else ""
             axes.set(
                 xscale="log",
                 title=shape,
                 ylim=(-0.5, 3.0),
-                xlabel=rf"$E/(\rho g H)\,(B/H){power}$ [-]",
+                xlabel=r"$EB/(\rho g H^2)$ [-]",
             )
         panels[0].set_ylabel("rocking energy lost / Housner's [-]")
         panels[-1].legend()

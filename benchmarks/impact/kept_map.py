@@ -1,13 +1,18 @@
-"""The map of impacts as benchmarks/tables holds it: cells and formula, without their releases."""
+"""The map of impacts as benchmarks/tables holds it: cells without their releases, the formula that
+is fitted to them, and what others measured.
+
+    ./containers/run python -m benchmarks.impact formula
+"""
 
 from __future__ import annotations
 
 import re
 
 from benchmarks import tables
-from benchmarks.impact.formula import Formula
+from benchmarks.beside import markdown
+from benchmarks.impact.formula import Formula, fit
 from benchmarks.impact.grid import BESIDE
-from benchmarks.impact.sections import SHAPES
+from benchmarks.impact.measured import MEASURED
 
 _BODY = re.compile(r"(\w+), friction ([\d.]+), H/B ([\d.]+)")
 _CELL = re.compile(r"([-\d.]+) ± ([\d.]+)(?: \((\d+)\))?")
@@ -36,11 +41,28 @@ def kept_cells() -> list[dict]:
 
 
 def kept_formula() -> Formula:
-    """The formula that was fitted to them."""
-    value = {name: float(text) for name, text in tables.read("impact_formula").rows}
-    return Formula(
-        {shape: value[f"a, {shape}"] for shape in SHAPES if f"a, {shape}" in value},
-        *(value[name] for name in ("b", "c", "G_c", "m", "k")),
-        value["root mean square error"],
-        value["of a slenderness left out"],
-    )
+    """The formula that is fitted to them."""
+    return fit(kept_cells())
+
+
+def main() -> int:
+    """Print the tables of the formula and of what others measured."""
+    formula = kept_formula()
+    measured = [
+        [
+            f"{one.source}, H/B {one.ratio:g}",
+            _span(one.least, one.most),
+            _span(*one.losses),
+            one.said,
+        ]
+        for one in MEASURED
+    ]
+    head = ["measured", "restitution", "loss over Housner's", "said by"]
+    print(markdown(["parameter of the formula", "value"], formula.rows()))
+    print()
+    print(markdown(head, measured))
+    return 0
+
+
+def _span(low: float, high: float) -> str:
+    return f"{low:.2f} to {high:.2f}" if low < high else f"{low:.2f}"

@@ -5,9 +5,9 @@ mesh and modes, over slenderness, stiffness, section and friction.
         [--ratio H/B ...] [--shape SHAPE ...]
 
 Each cell is a file below DIR/cells (results/impact/map unless given): the same command goes on.
-Writes map.csv, a row an impact, and map.png (and .pdf), prints a table of the cells, what finer
-meshes, more modes, a shorter step and another tilt of release change, the formula with its error,
-and measured tests. On which groups an impact depends: `sections`; its cells: `grid`.
+Writes map.csv, a row an impact, and map.png (and .pdf), prints a table of the cells and what finer
+meshes, more modes, a shorter step and another tilt of release change. On which groups an impact
+depends: `sections`; its cells: `grid`; formula and measured tests: `kept_map`.
 """
 
 from __future__ import annotations
@@ -17,10 +17,9 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.beside import markdown
 from benchmarks.impact import grid
 from benchmarks.impact.figure import draw_map
-from benchmarks.impact.formula import Formula, fit
-from benchmarks.impact.measured import MEASURED
 from benchmarks.impact.sections import SHAPES
 from fecolumn.foundation.atomic import write_csv
 from fecolumn.foundation.cores import usable_cores
@@ -48,22 +47,9 @@ def main(arguments) -> int:
         [grid.COLUMNS, *([row[name] for name in grid.COLUMNS] for row in rows)],
     )
     cells = grid.by_cell(rows)
-    try:
-        formula = fit([one for one in cells if one["friction"] == max(grid.FRICTIONS)])
-    except ValueError as error:
-        formula = None
-        print(f"no formula: {error}")
-    print(markdown(rows, cells, formula))
-    print("\nwrote", *draw_map(cells, formula, options.out / "map"))
+    print("\n\n".join([_map_table(cells), _check_table(rows, cells)]))
+    print("\nwrote", *draw_map(cells, options.out / "map"))
     return 0
-
-
-def markdown(rows: list[dict], cells: list[dict], formula: Formula | None) -> str:
-    """Tables: the map, its checks, measured tests; and the formula."""
-    parts = [_map_table(cells), _check_table(rows, cells), _measured_table(formula)]
-    if formula:
-        parts += [formula.text(), _table(["parameter of the formula", "value"], formula.rows())]
-    return "\n\n".join(parts)
 
 
 def _map_table(cells: list[dict]) -> str:
@@ -81,7 +67,7 @@ def _map_table(cells: list[dict]) -> str:
             }
             name = f"{shape}, friction {friction:g}, H/B {ratio:g}"
             lines.append([name, *(_cell(own.get(group)) for group in groups)])
-    return _table(head, lines)
+    return markdown(head, lines)
 
 
 def _cell(one: dict | None) -> str:
@@ -127,26 +113,4 @@ def _check_table(rows: list[dict], cells: list[dict]) -> str:
                     f"{values[np.abs(values).argmax()]:+.3f}",
                 ]
             )
-    return _table(head, lines)
-
-
-def _measured_table(formula: Formula | None) -> str:
-    head = ["measured", "E B/(rho g H²), about", "loss over Housner's", "formula, block"]
-    lines = []
-    for one in MEASURED:
-        low, high = one.losses
-        told = formula and "block" in formula.base
-        lines.append(
-            [
-                f"{one.source}, H/B {one.ratio:g}",
-                f"{one.group:.0e}",
-                f"{low:.2f} to {high:.2f}" if low < high else f"{low:.2f}",
-                f"{formula.loss('block', one.ratio, one.group):.2f}" if told else "-",
-            ]
-        )
-    return _table(head, lines)
-
-
-def _table(head, lines) -> str:
-    rows = [head, ["---"] * len(head), *lines]
-    return "\n".join(f"| {' | '.join(map(str, row))} |" for row in rows)
+    return markdown(head, lines)

@@ -11,19 +11,16 @@ from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import linprog
 from scipy.spatial import cKDTree
 
 from fecolumn.case.case import Case
-from fecolumn.case.sections import GRAVITY
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.tolerances import ROUND_NODES
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
 from fecolumn.structures.bodies import Drawing
-from fecolumn.structures.bonds import pulls_of_bonds
 from fecolumn.structures.meeting import Meeting
-from fecolumn.structures.model import JointModel, StructureModel
+from fecolumn.structures.model import JointModel
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.place import footing
 from fecolumn.structures.standing import Standing
@@ -35,11 +32,6 @@ _MOST_POINTS = 1000
 _DEPTH, _OUTSIDE = 1e-4, 1e-6
 # Over its diameter: how far a circle lies outside the polygon of fewest sides that it is drawn as
 _ROUND = (1 - math.cos(math.pi / ROUND_NODES)) / 2
-# Over the weight: force by which a body may miss equilibrium
-_HELD = 1e-6
-# Directions of friction at a point: a pyramid around the cone, by up to 8 % wider, so that no
-# structure that can rest is refused
-_DIRECTIONS = 8
 
 
 class CheckedContact(Protocol):
@@ -298,104 +290,3 @@ def check_links(case: Case, extents: dict[str, list[list[float]]], file: Path | 
                         told += f', counted from the foot of "{case.names_of(body)[number]}" as '
                         told += "point_m is"
                     raise InputError(file, f"links.{name}.{end}", list(getattr(link, end)), told)
-
-
-def check_rest(
-    case: Case, structure: StructureModel, standing: list[Standing], file: Path | str
-) -> None:
-    """Of a structure that nothing tilts or sets moving, refuse bodies that no contact forces within
-    their cones, and no forces of links, hold at rest: what is missing least is a linear programme.
-
-    standing: as of `place`.
-    """
-    if case.integration.start == "drawn":
-        return
-    if any(start.tilt_rad or start.moves for start in case.initial.values()):
-        return
-    columns, rows = [], 6 * len(structure.parts)
-    bounds: list[tuple[float | None, ...]] = []
-    free = [part.held < 0 and not part.airborne for part in structure.parts]
-    weights = np.array([part.model.mass for part in structure.parts]) * GRAVITY
-    sizes = np.array(
-        [math.sqrt(np.trace(part.model.inertia) / part.model.mass) for part in structure.parts]
-    )
-
-    def act(column: NDArray[Any], place: int, force: NDArray[Any], point: NDArray[Any]) -> None:
-        if place != GROUND and free[place]:
-            column[6 * place : 6 * place + 3] += force
-            column[6 * place + 3 : 6 * place + 6] += (
-                np.cross(point - standing[place].center, force) / sizes[place]
-            )
-
-    for joint in structure.joints:
-        slave = standing[joint.slave]
-        surface = slave.model.surfaces[joint.slave_surface]
-        for place in footing(standing, joint) if not joint.gap else ():
-            point = place + (joint.ball.radius * surface.normal if joint.ball else 0.0)
-            for angle in (
-                2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS if joint.friction else [None]
-            ):
-                along = (
-                    np.zeros(3)
-                    if angle is None
-                    else joint.friction
-                    / math.cos(np.pi / _DIRECTIONS)
-                    * (math.cos(angle) * surface.axes[:, 0] + math.sin(angle) * surface.axes[:, 1])
-                )
-                force, column = along - surface.normal, np.zeros(rows)
-                act(column, joint.slave, force, point)
-                act(column, joint.master, -force, point)
-                columns.append(column)
-                bounds.append((0, None))
-        for point, along, least, most in pulls_of_bonds(standing, joint) if joint.bond else ():
-            column = np.zeros(rows)
-            act(column, joint.slave, along, point)
-            act(column, joint.master, -along, point)
-            columns.append(column)
-            bounds.append((least, most))
-    for link in structure.links:
-        a = standing[link.a].center + link.arm_a
-        b = link.arm_b if link.b == GROUND else standing[link.b].center + link.arm_b
-        if not np.linalg.norm(b - a) or not link.stiffness or link.slack:
-            continue
-        pull, column = (b - a) / np.linalg.norm(b - a), np.zeros(rows)
-        act(column, link.a, pull, a)
-        act(column, link.b, -pull, b)
-        columns.append(column)
-        bounds.append((None if link.pushes else 0, None if link.pulls else 0))
-    load = np.zeros(rows)
-    load[2::6] = weights * free
-    # forces in weights of the heaviest, each row over its body's: the solver takes 1e-9 for nothing
-    unit, scale = weights[free].max(initial=1.0), np.repeat(weights, 6)
-    missing = np.eye(rows)
-    pushes = unit * np.reshape(columns, (-1, rows)).T / scale[:, None]
-    bounds = [tuple(one if one is None else one / unit for one in pair) for pair in bounds]
-    matrix = np.column_stack([pushes, missing, -missing])
-    cost = np.concatenate([np.zeros(len(columns)), np.ones(2 * rows)])
-    found = linprog(
-        cost,
-        A_eq=matrix,
-        b_eq=load / scale,
-        bounds=bounds + [(0, None)] * (2 * rows),
-        method="highs",
-    )
-    if not found.success:
-        return  # the engine's own search for equilibrium has the last word
-    lacks = (
-        np.abs(found.x[len(columns) : len(columns) + rows] - found.x[len(columns) + rows :])
-        .reshape(-1, 6)
-        .sum(axis=1)
-    )
-    if lacks.max() > _HELD:
-        names = ", ".join(
-            f'"{part.name}"' for part, lack in zip(structure.parts, lacks) if lack > _HELD
-        )
-        raise InputError(
-            file,
-            "joints",
-            None,
-            f"{names} cannot rest: no contact forces within friction hold the weight as "
-            "the bodies stand; "
-            "give a start by [initial.NAME] or integration.start = 'drawn', or other places, "
-            "friction, links or bond_tension_pa",
-        )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -22,7 +23,7 @@ SAME_PLANE = 1e-5
 _PARALLEL = 1e-6
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Face:
     """All outer faces of elements of one part of a body in one plane.
 
@@ -37,12 +38,12 @@ class Face:
     cells: NDArray[Any]
     corners: NDArray[Any]
 
-    @property
+    @cached_property
     def area(self) -> float:
         """Area [m2]."""
         return float(np.linalg.norm(_normals(self.corners), axis=1).sum() / 2)
 
-    @property
+    @cached_property
     def axes(self) -> NDArray[Any]:
         """Two tangents and the normal as columns (3, 3), right-handed; the first tangent is the x
         axis where the face is level.
@@ -53,6 +54,17 @@ class Face:
         first = along - self.normal * (along @ self.normal)
         first /= np.linalg.norm(first)
         return np.stack([first, np.cross(self.normal, first), self.normal], axis=1)
+
+    @cached_property
+    def plane(self) -> NDArray[Any]:
+        """Corners (n, 4 or 3, 2) [m] along the tangents, in the drawing of the body."""
+        corners: NDArray[Any] = self.corners.reshape(-1, 3) @ self.axes[:, :2]
+        return corners.reshape(*self.corners.shape[:2], 2)
+
+    @cached_property
+    def box(self) -> NDArray[Any]:
+        """Least and largest (2, 2) [m] of the corners along the tangents."""
+        return np.array([self.plane.min(axis=(0, 1)), self.plane.max(axis=(0, 1))])
 
     @property
     def is_level(self) -> bool:

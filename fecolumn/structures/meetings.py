@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import itertools
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,6 @@ from fecolumn.structures.meeting import MEANT_TO_TOUCH, OPPOSITE, Gap, Meeting, 
 from fecolumn.structures.not_touching import refuse_joint
 from fecolumn.structures.outlines import cross_product
 from fecolumn.structures.overlaps import depth_along
-from fecolumn.structures.patches import plane_box
 from fecolumn.structures.spring_areas import overlap_of
 
 # Over the area of a face: two faces are equal
@@ -76,15 +76,19 @@ def _of_interface(
     masters: Sequence[tuple[str, int] | None] = (
         case.copies_of(interface.on) if ground is None else (None,)
     )
+    both = set(slaves) & set(masters)
     found: list[Meeting] = []
     gaps: list[Gap] = []
-    for slave in slaves:
-        for master in masters:
+    # only where no faces touch does it matter which look at one another from afar
+    for only_near in (True, False):
+        if found or only_near and interface.open:
+            continue
+        gaps = []
+        for slave, master in _pairs(case, slaves, masters, faces, only_near):
             if master == slave or _are_held(case, slave, master):
                 continue
-            meetings, apart = _of_pair(
-                case, name, slave, master, faces, master in slaves and slave in masters
-            )
+            twice = slave in both and master in both
+            meetings, apart = _of_pair(case, name, slave, master, faces, twice)
             found += meetings
             gaps += apart if not meetings else []
     touching: set[tuple[tuple[str, int] | None, int]] = {
@@ -104,6 +108,48 @@ def _of_interface(
     if near or not found:
         refuse_joint(case, name, interface, near or gaps, bool(near), faces, file)
     return found
+
+
+def _pairs(
+    case: Case,
+    slaves: Sequence[tuple[str, int]],
+    masters: Sequence[tuple[str, int] | None],
+    faces: dict[str, list[Face]],
+    only_near: bool,
+) -> Iterator[tuple[tuple[str, int], tuple[str, int] | None]]:
+    """Each slave with each master; with only_near those with faces that may touch or were meant to:
+    their boxes along the axes are no farther apart.
+    """
+    if not only_near or None in masters:
+        yield from itertools.product(slaves, masters)
+        return
+    low, high = _boxes(case, masters, faces)
+    for slave, own_low, own_high in zip(slaves, *_boxes(case, slaves, faces)):
+        margin = MEANT_TO_TOUCH * (own_high - own_low).max()
+        near = (low <= own_high + margin).all(axis=1) & (high >= own_low - margin).all(axis=1)
+        for place in np.flatnonzero(near).tolist():
+            yield slave, masters[place]
+
+
+def _boxes(
+    case: Case, copies: Sequence[Any], faces: dict[str, list[Face]]
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Least and largest places (n, 3) [m] of the faces of copies; of no face inf and -inf."""
+    ends = {
+        body: np.array(
+            [(one.corners.min(axis=(0, 1)), one.corners.max(axis=(0, 1))) for one in faces[body]]
+        ).reshape(-1, 2, 3)
+        for body in {body for body, _ in copies}
+    }
+    spans = {
+        body: (one[:, 0].min(axis=0, initial=np.inf), one[:, 1].max(axis=0, initial=-np.inf))
+        for body, one in ends.items()
+    }
+    low, high = (
+        np.array([spans[copy[0]][side] + place_of(case, copy) for copy in copies])
+        for side in range(2)
+    )
+    return low, high
 
 
 def _are_held(case: Case, slave: tuple[str, int], master: tuple[str, int] | None) -> bool:
@@ -131,11 +177,11 @@ def _across_gaps(gaps: list[Gap]) -> list[Meeting]:
 
 def allowance_of(case: Case, meeting: Meeting, face: Face) -> float:
     """How far [m] the slave of a meeting, with this face, may slide."""
-    stated, box = case.joints[meeting.interface].allowance_m, plane_box(face)
+    stated = case.joints[meeting.interface].allowance_m
     if stated is not None:
         return stated
-    sides = box[1] - box[0], box[3] - box[2]
-    return max(sides) if meeting.gap else min(sides) / 4
+    sides = np.ptp(face.box, axis=0)
+    return float(sides.max() if meeting.gap else sides.min() / 4)
 
 
 def zones_of(
@@ -174,8 +220,7 @@ def _of_pair(
     place = place_of(case, slave)
     normals = np.array([face.normal for face in faces[master[0]]] if master else []).reshape(-1, 3)
     for number, face in enumerate(faces[slave[0]]):
-        box = plane_box(face)
-        width = min(box[1] - box[0], box[3] - box[2])
+        width = float(np.ptp(face.box, axis=0).min())
         if master is None:
             if face.normal[2] < -1 + OPPOSITE:
                 gap = place[2] - face.offset - case.grounds[case.joints[name].on].level_m
@@ -244,9 +289,9 @@ def _overlap(corners: NDArray[Any], other: Face) -> bool:
     """Whether a face, by its corners (n, 4 or 3, 2) [m] in the plane of another, lies over part of
     that, more than an edge.
     """
-    plane = other.corners @ other.axes[:, :2]
+    plane = other.plane
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
-    other_low, other_high = plane.min(axis=(0, 1)), plane.max(axis=(0, 1))
+    other_low, other_high = other.box
     edge = -SAME_PLANE * min((high - low).min(), (other_high - other_low).min())
     if np.any(low - edge > other_high) or np.any(high + edge < other_low):
         return False

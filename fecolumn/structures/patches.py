@@ -119,14 +119,6 @@ def master_patch(face: Face, order: int, zones: Iterable[tuple[float, ...]]) -> 
     )
 
 
-def plane_box(face: Face) -> tuple[float, float, float, float]:
-    """Rectangle (low 1, high 1, low 2, high 2) [m] around a face along its tangents, in the
-    drawing.
-    """
-    plane = face.corners.reshape(-1, 3) @ face.axes[:, :2]
-    return plane[:, 0].min(), plane[:, 0].max(), plane[:, 1].min(), plane[:, 1].max()
-
-
 def face_weights(face: Face, order: int) -> tuple[NDArray[Any], NDArray[Any]]:
     """Positions (k, 3) [m] of a face's nodes and their shares (k,) in a mean over it."""
     whole = whole_face(face, order)

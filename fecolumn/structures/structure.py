@@ -22,9 +22,9 @@ from fecolumn.structures.case_links import links_at_copies, with_shapes
 from fecolumn.structures.check import (
     check_joints,
     check_links,
-    check_rest,
     tell_of_gaps,
 )
+from fecolumn.structures.check_rest import check_rest
 from fecolumn.structures.check_soil import check_soil
 from fecolumn.structures.far_places import tell_of_far_places
 from fecolumn.structures.ground import bases_of

@@ -12,7 +12,7 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
 from fecolumn.structures.bodies import drawing
 from fecolumn.structures.faces import apart_from_side
-from fecolumn.structures.patches import master_patch, plane_box
+from fecolumn.structures.patches import master_patch
 from fecolumn.structures.reduction import body_of
 from fecolumn.structures.structure import structure_model
 
@@ -228,9 +228,8 @@ def test_distances_of_triangles_from_a_side_are_those_of_their_points():
 def test_a_master_is_known_as_far_as_its_slave_may_slide_and_no_farther(way):
     one = drawing(structure(**block(rigid=False, element_size_m=0.02)), "block", "small.toml")
     face = next(face for face in one.faces if face.normal[2] > 0.5)
-    box = np.reshape(plane_box(face), (2, 2))
     # no element ends just there
-    spot = box.mean(axis=1) + [0.0031, 0.0017]
+    spot = face.box.mean(axis=0) + [0.0031, 0.0017]
     whole, patch = (master_patch(face, 1, [(*spot, *spot, reach)]) for reach in (2.0, way))
     corners = [(each.positions @ each.axes[:, :2])[each.triangles] for each in (whole, patch)]
     near = [apart_from_side(triangles, np.stack([spot, spot])) < way for triangles in corners]
