@@ -6,7 +6,9 @@ until each pair of settings is told apart, or told alike within 0.1.
 STUDY names a file of this folder, such as own_mesh. Prints the pairs that differ in one axis:
 motions in both, verdict, how many overturn, D (the largest distance of their distributions), up to
 where the data leave room for it, p of D, how many overturn in one setting alone, McNemar's p. No
-p is corrected; the verdicts are, for pairs and looks (`fecolumn.study.sequential`).
+p is corrected; the verdicts are, for pairs and looks (`fecolumn.study.sequential`). A second table
+has the claims of Katsamakas and Vassiliou on peaks and distributions, put to all motions that are
+done.
 
 The same command goes on where it was stopped. What benchmarks/tables/decided holds is not computed
 again; --keep writes what is done there, --report computes nothing and judges the stages that are
@@ -22,6 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.beside import markdown, pair_cells
+from benchmarks.substeps.paper import claims, claims_table
 from benchmarks.tables.study_rows import keep_rows, kept_rows
 from fecolumn.cli import main as fecolumn
 from fecolumn.foundation.cores import usable_cores
@@ -119,7 +122,12 @@ def main(given=None) -> int:
     if args.keep:
         command = f"python -m benchmarks.decided {args.study} --keep"
         keep_rows(f"decided/{args.study}", plan, rows, command)
-    print(table(plan, rows, verdicts, rule) if verdicts else "no stage is done yet")
+    if verdicts:
+        # what a run took is not kept: claims d1 and d2 are left out
+        judged = [one for one in claims(plan, rows) if not one.key.startswith("d")]
+        print(f"{table(plan, rows, verdicts, rule)}\n\n{claims_table({args.study: judged})}")
+    else:
+        print("no stage is done yet")
     return code
 
 

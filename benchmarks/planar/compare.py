@@ -61,11 +61,14 @@ class Compared:
 
 def compared(one: list[Response], other: list[Response]) -> Compared:
     """Of two programs on the same motions, in one order; motions in which an analysis stopped early
-    are left out.
+    are left out. Of no motions at all the statistics are nan.
     """
     failed = sum(bool(response.failed) for response in (*one, *other))
     whole = [not (a.failed or b.failed) for a, b in zip(one, other, strict=True)]
     one, other = (list(itertools.compress(all_of, whole)) for all_of in (one, other))
+    if not one:
+        nothing = float("nan")
+        return Compared(0, (0, 0), nothing, nothing, 0, nothing, nothing, failed, 0)
     fallen = [np.array([response.fallen for response in responses]) for responses in (one, other)]
     peaks = [np.array([response.peak for response in responses]) for responses in (one, other)]
     test = paired_kolmogorov_smirnov(*(censored(*pair) for pair in zip(peaks, fallen)))

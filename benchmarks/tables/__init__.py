@@ -1,6 +1,7 @@
 """Measured numbers: CSV files, each with a header that tells what made it.
 
-A file begins with one comment line for each of `HEADER`, then the names of the columns, with their
+A file begins with one comment line for each of `HEADER`, and one of "rows" where it is made of rows
+that were measured before: their commits and dates. Then come the names of the columns, with their
 units, then the rows. Cells are kept as they were printed. The first column names the row.
 """
 
@@ -99,6 +100,16 @@ def machines_of(folder: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(one for table in found for one in table.machines))
 
 
+def measured_when(folder: str) -> str:
+    """Commits and dates of the rows kept in a folder of benchmarks/tables, of the first measured
+    first.
+    """
+    about = [read(f"{folder}/{file.stem}").about for file in (FOLDER / folder).glob("*.csv")]
+    made = sorted({(one["date"], one["commit"]) for one in about})
+    commits = ", ".join(dict.fromkeys(commit for _, commit in made))
+    return f"commits {commits}, {made[0][0]} to {made[-1][0]}"
+
+
 def names() -> list[str]:
     """Of all tables."""
     return sorted(file.stem for file in FOLDER.glob("*.csv") if file.stem != QUOTED)
@@ -112,12 +123,18 @@ def write(
     command: str,
     physics: int | str = PHYSICS,
     machines: tuple[str, ...] = (),
+    rows_of: str = "",
 ) -> None:
-    """Write a table as measured by this code, now; machines: that measured it, else this one."""
+    """Write a table as measured by this code, now; machines: that measured it, else this one;
+    rows_of: folder of the kept rows that it is made of, whose machines, commits and dates it tells.
+    """
+    machines = machines_of(rows_of) if rows_of else machines
     machine = "; ".join(dict.fromkeys(machines or [this_machine()]))
     about = (title, command, __version__, commit(), date.today().isoformat(), machine, physics)
     text = io.StringIO()
     text.writelines(f"# {key}: {value}\n" for key, value in zip(HEADER, about))
+    if rows_of:
+        text.write(f"# rows: {measured_when(rows_of)}\n")
     csv.writer(text, lineterminator="\n").writerows([columns, *rows])
     file = FOLDER / f"{name}.csv"
     file.parent.mkdir(parents=True, exist_ok=True)

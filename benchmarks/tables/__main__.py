@@ -9,7 +9,8 @@ second runs the commands that can be run as they stand, one after the other, and
 print; a benchmark that was stopped goes on where it was. The third keeps the last tables of
 printed.txt, in their order, as benchmarks/tables/TABLE.csv. Version, commit, date, machine and
 physics are those of now; title and command are kept of a table that is there. With --rows the
-machines are those of the rows in benchmarks/tables/R, of which the tables are made.
+machines are those of the rows in benchmarks/tables/R, of which the tables are made, and the header
+has their commits and dates, too.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from benchmarks.tables import FOLDER, from_markdown, machines_of, names, read, write
+from benchmarks.tables import FOLDER, from_markdown, names, read, write
 from benchmarks.tables.again import RUNS_AS_IT_STANDS, by_command, measure_again, older
 
 
@@ -71,8 +72,7 @@ def _keep(parser: argparse.ArgumentParser, given: argparse.Namespace) -> None:
         title, command = (getattr(given, key) or old.get(key) for key in ("title", "command"))
         if not (title and command):
             parser.error(f"{name} is a new table: state --title and --command")
-        machines = machines_of(given.rows) if given.rows else ()
-        write(name, columns, rows, title, command, machines=machines)
+        write(name, columns, rows, title, command, rows_of=given.rows or "")
 
 
 if __name__ == "__main__":

@@ -222,7 +222,8 @@ class ReducedAnalysis(OfStructure):
         steps = math.ceil(self.turn_s / self.dt_s)
         if self._advance(min(steps, self.steps - self.step), goes_on=True):
             return True
-        return bool(self.engine.made[:, ENERGY].max(initial=0.0) <= self.still_j)
+        still = self.engine.made[:, ENERGY].max(initial=0.0) <= self.still_j
+        return bool(still) and not self.leans_far()
 
     def _advance_while_quick(self, count: int, pace: Pace) -> bool:
         """So many steps, fewer where they are slow; whether the column is lost or at rest."""

@@ -41,6 +41,8 @@ _LIFTED = 0.02
 # Time for which the kinetic energy must stay low where a structure may rest anywhere, over that in
 # which a body falls by its size: what turns back is slow for a shorter time
 _TURNS = 4.0
+# Over its critical tilt: a body that leans farther may turn back there more slowly still
+_LEANS = 0.9
 
 
 class OfStructure(Analysis):
@@ -114,12 +116,26 @@ class OfStructure(Analysis):
 
     def is_still(self) -> bool:
         """As of Analysis; where the structure may rest anywhere, by its kinetic energy alone, for
-        `turn_s`.
+        `turn_s`, and where no body leans to near its critical tilt.
         """
         if not self.rests_anywhere:
             return super().is_still()
         since = float(self.history.last()["time"]) - self.turn_s
-        return self.history.stayed_below("energy/kinetic", self.still_j, since)
+        still = self.history.stayed_below("energy/kinetic", self.still_j, since)
+        return still and not self.leans_far()
+
+    def leans_far(self) -> bool:
+        """Whether a body leans to near its critical tilt, where what turns back is slow for long;
+        not of bodies that may fall and lie.
+        """
+        if self.collapse:
+            return False
+        last, parts = self.history.last(), self.structure.parts
+        alone = stances(self.structure, standing_of(self.case, self.structure))
+        return any(
+            float(last[f"body/{parts[place].name}/tilt"]) > _LEANS * stance.critical
+            for place, stance in alone.items()
+        )
 
     @property
     def still_j(self) -> float:

@@ -38,10 +38,12 @@ from fecolumn.mesh.weighing import NoSuchDensity, relative_densities
 ShapeRefusal = Callable[[object, str], NoReturn]
 
 _DIMENSION_TOLERANCE = 0.01
-# Of Abaqus: a block of points, and an instance with a shift, or a shift and a rotation
+# Of Abaqus: a block of points, and an instance, whose line a comma continues, with the lines of
+# numbers behind it: a shift, and the axis and the angle of a rotation
 _NODES = re.compile(r"^\*\s*node\s*(?:,|$)", re.IGNORECASE | re.MULTILINE)
-_PLACED = re.compile(
-    r"^\*\s*instance\b[^\n]*\n(?:\*\*[^\n]*\n)*(?P<shift>[ \t]*[-+.\d][^\n]*)",
+_INSTANCE = re.compile(
+    r"^\*\s*instance\b(?:[^\n]*,[ \t]*\n)*[^\n]*\n"
+    r"(?P<placed>(?:\*\*[^\n]*\n|[ \t]*[-+.\d][^\n]*\n)*)",
     re.IGNORECASE | re.MULTILINE,
 )
 _BELOW_THREE_DIMENSIONS = {
@@ -306,12 +308,24 @@ def _check_abaqus(text: str, refuse: ShapeRefusal) -> None:
     """
     if (blocks := len(_NODES.findall(text))) != 1:
         refuse(f"{blocks} *NODE blocks", "must hold one *NODE block: export the column as one part")
-    if placed := _PLACED.search(text):
-        refuse(
-            f"*INSTANCE with the placement {placed['shift'].strip()}",
-            "must have its points where they are: a placement of the instance is not read; export "
-            "the mesh of the assembly, or write the input file with flattened instances",
-        )
+    for instance in _INSTANCE.finditer(text):
+        placed = [line for line in instance["placed"].splitlines() if not line.startswith("**")]
+        if any(map(_moves, placed)):
+            refuse(
+                f"*INSTANCE with the placement {'; '.join(line.strip() for line in placed)}",
+                "must have its points where they are: a placement of the instance is not read; "
+                "export the mesh of the assembly, or write the input file with flattened instances",
+            )
+
+
+def _moves(placed: str) -> bool:
+    """Whether a line of a placement shifts by more than 0, or turns by more than an angle of 0."""
+    numbers = [one.strip() for one in placed.split(",") if one.strip()]
+    try:
+        values = [float(one) for one in numbers]
+    except ValueError:
+        return True
+    return any(values) if len(values) <= 3 else bool(values[-1])
 
 
 def _check_dimensions(own: OwnMesh, case: Upright, refuse: ShapeRefusal) -> None:

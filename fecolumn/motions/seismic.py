@@ -22,8 +22,8 @@ _NAMES = {"KNET": "K-NET or KiK-net", "SAC": "SAC", "MSEED": "miniSEED", "GSE2":
 _INSTALL = "pip install 'obspy>=1.4,<1.6' reads it"
 # Axis by the last letter of a channel such as HNE
 _AXES = {"E": "x", "N": "y", "Z": "z"}
-# What is no acceleration, by the number that the head of SAC has for it
-_SAC_MOVED = {6: "displacement", 7: "velocity"}
+# What is no acceleration, by the number that the head of SAC has for it, and what is
+_SAC_MOVED, _SAC_ACCELERATION = {6: "displacement", 7: "velocity"}, 8
 
 
 def seismic_format(path: Path | str) -> str | None:
@@ -110,15 +110,17 @@ def read_seismic(path: Path | str, kind: str) -> Recording:
 
 
 def _check_quantity(trace: Any, kind: str) -> None:
-    """Refuse what its channel, or the head of SAC, says is a velocity or a displacement."""
-    column = named_column(trace.stats.channel.lower(), "")
-    if column.meaning == MOVED:
-        raise no_acceleration(column)
+    """Refuse what the head of SAC or, where that says nothing, the name of its channel says is a
+    velocity or a displacement: what was differentiated keeps the name.
+    """
     quantity = getattr(trace.stats, "sac", {}).get("idep") if kind == "SAC" else None
     if quantity in _SAC_MOVED:
         raise UnusableRecord(
             f"holds no accelerations: its head says {_SAC_MOVED[quantity]} (IDEP = {quantity})"
         )
+    column = named_column(trace.stats.channel.lower(), "")
+    if column.meaning == MOVED and quantity != _SAC_ACCELERATION:
+        raise no_acceleration(column)
 
 
 def _common(traces: list[Any]) -> NDArray[Any]:

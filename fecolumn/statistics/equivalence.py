@@ -72,22 +72,22 @@ def upper_bound(difference: ArrayLike, confidence: float) -> float:
     as of `paired_error`.
 
     Where few motions differ, all one way, the error of `paired_error` is too small: the bound is
-    that of `score_bound` at least, which is known for differences of -1, 0 and 1.
+    that of `score_bound` at least, to which a record whose motions differ in part counts as a part.
     """
     difference = np.asarray(difference, float)
     centre, error = paired_error(difference)
     bound = np.abs(difference.mean(axis=0)).max()
     bound = max(bound, (np.abs(centre) + normal_quantile(2 * confidence - 1) * error).max())
-    if np.isin(difference, (-1.0, 0.0, 1.0)).all():
-        ups, downs = (difference > 0).sum(axis=0), (difference < 0).sum(axis=0)
-        most, least = np.maximum(ups, downs), np.minimum(ups, downs)
-        bound = max(bound, score_bound(most, least, len(difference), confidence).max())
+    # with records of several sizes a large one counts as more than one
+    ups, downs = (np.clip(sign * difference, 0.0, 1.0).sum(axis=0) for sign in (1, -1))
+    most, least = np.maximum(ups, downs), np.minimum(ups, downs)
+    bound = max(bound, score_bound(most, least, len(difference), confidence).max())
     return float(min(1.0, bound))
 
 
 def score_bound(ups: NDArray[Any], downs: NDArray[Any], n: int, confidence: float) -> NDArray[Any]:
     """Upper bound (...) at a one-sided `confidence` of the difference of two paired proportions, of
-    which `ups` of n motions have the first alone, and `downs` (...) the second.
+    which `ups` of n motions have the first alone, and `downs` (...) the second, parts allowed.
 
     It is the largest difference that the score test does not reject (Tango 1998, Statistics in
     Medicine 17): Wilson's bound where `downs` is 0.

@@ -48,10 +48,9 @@ def meetings_of(case: Case, faces: dict[str, list[Face]], file: Path | str) -> l
         for one in found[name]
     }
     for name in of_arches:
-        found[name] = [
-            one for one in found[name] if frozenset((one.slave, one.master)) not in single
-        ]
-        if not found[name]:
+        every = found[name]
+        found[name] = [one for one in every if frozenset((one.slave, one.master)) not in single]
+        if every and not found[name]:
             told = "must be left out: others name what its bodies meet in, two by two"
             raise InputError(file, f"joints.{name}", None, told)
     return [meeting for meetings in found.values() for meeting in meetings]
@@ -79,18 +78,24 @@ def _of_interface(
     both = set(slaves) & set(masters)
     found: list[Meeting] = []
     gaps: list[Gap] = []
+    held = False
     # only where no faces touch does it matter which look at one another from afar
     for only_near in (True, False):
         if found or only_near and interface.open:
             continue
         gaps = []
         for slave, master in _pairs(case, slaves, masters, faces, only_near):
-            if master == slave or _are_held(case, slave, master):
+            if master == slave:
                 continue
             twice = slave in both and master in both
             meetings, apart = _of_pair(case, name, slave, master, faces, twice)
+            if _are_held(case, slave, master):
+                held |= bool(meetings)
+                continue
             found += meetings
             gaps += apart if not meetings else []
+    if held and not found and not interface.open:
+        return []  # all that meets there is fixed
     touching: set[tuple[tuple[str, int] | None, int]] = {
         (one.slave, one.slave_face) for one in found
     }

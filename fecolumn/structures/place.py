@@ -128,7 +128,8 @@ def _are_upright(
     """Whether all that a part stands on is in its place and does not lean."""
     return all(
         below == GROUND
-        or np.array_equal(found[below].rotation, np.eye(3))
+        or below in found
+        and np.array_equal(found[below].rotation, np.eye(3))
         and np.array_equal(found[below].center, standing[below].center)
         for below, _ in supports
     )

@@ -218,16 +218,19 @@ def _run(
         if meshed and not args.quiet:
             print(expected_of_all(meshed, args.study), file=sys.stderr, flush=True)
     entry, rule = args.entry or ENTRY, _rule(args, share, plan)
-    again = iter([args.retry_failed])  # once, not at each stage
+    tried: set[str] = set()
 
     def work(only: set[str] | None = None) -> list[dict[str, Any]]:
         team = team_of(entry, args.output, share, plan.file) if team_of else None
+        every = {one.id for one in plan.analyses} if only is None else only
+        again = every - tried  # each once, not at each stage
+        tried.update(every)
         return complete_study(
             plan,
             args.output,
             workers=team or args.jobs or usable_cores(),
             entry=entry,
-            retry_failed=next(again, False),
+            retry_failed=again if args.retry_failed else False,
             stream=None if args.quiet else sys.stderr,
             share=share,
             only=only,

@@ -187,15 +187,26 @@ def matched(a: Sample, b: Sample, unpaired: bool) -> tuple[Sample, Sample, bool,
     in_b = set(b.motions)
     common = [motion for motion in a.motions if motion in in_b]
     unique = all(len(set(sample.motions)) == len(sample.motions) for sample in (a, b))
-    if others := _other_contents(a.take(common), b.take(common)) if unique else []:
-        said = f"{len(others)} motions have one name in both and hold something else, such as "
-        return a, b, False, [*notes, f"{said}{others[0]}: independent ensembles"]
-    if unpaired or not unique or len(common) < 2:
+    if unpaired or not unique:
+        return a, b, False, [*notes, "independent ensembles"]
+    others = _other_contents(a.take(common), b.take(common))
+    if others:
+        first, *more = others
+        said = f"{first} has one name in both and comes from files that differ"
+        if more:
+            said = f"{len(others)} motions have one name in both and come from files that differ, "
+            said += f"such as {first}"
+        common = [motion for motion in common if motion not in others]
+        alone = len(common) < 2
+        notes.append(f"{said}: " + ("independent ensembles" if alone else "left out"))
+        if alone:
+            return a, b, False, notes
+    if len(common) < 2:
         return a, b, False, [*notes, "independent ensembles"]
     alone = [
-        f"{len(sample.motions) - len(common)} only in {name}"
+        f"{count} only in {name}"
         for name, sample in (("A", a), ("B", b))
-        if len(sample.motions) > len(common)
+        if (count := len(sample.motions) - len(common) - len(others))
     ]
     return (
         a.take(common),

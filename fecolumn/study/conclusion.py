@@ -16,7 +16,6 @@ from fecolumn.study.plan import Plan, member_of, record_of
 from fecolumn.study.setting_pairs import (
     LEAST_RECORDS,
     MOST_PAIRS,
-    SAMPLED,
     MotionRecords,
     SettingPair,
     pair_count,
@@ -60,11 +59,15 @@ def conclusion(plan: Plan, rows: list[dict[str, Any]]) -> str:
     ]
     if max((count for _, count in counts), default=0) < _FEW:
         return parts_made
-    pairs = pairs_of(settings, records)
-    sampled = len(settings) > SAMPLED and not pair_count(settings)
+    pairs = pairs_of(settings, records, sampled=plan.sampled)
+    sampled = len(plan.sampled) > 1 < len(settings) and not pair_count(settings, plan.sampled)
     parts = [_overturns(settings, records, failed), _shared(*max(counts))]
     if pairs:
-        parts += [_differences(pairs), _not_compared(settings, pairs), _shortfall(pairs)]
+        parts += [
+            _differences(pairs),
+            _not_compared(pair_count(settings, plan.sampled), pairs),
+            _shortfall(pairs),
+        ]
         if any(pair.axis == ALPHA_KEY for pair in pairs):
             parts.append(alpha_note(plan.case, plan.axes))
     if sampled:
@@ -184,9 +187,8 @@ def _differences(pairs: list[SettingPair]) -> str:
     )
 
 
-def _not_compared(settings: list[SettingTables], pairs: list[SettingPair]) -> str:
-    """That not all pairs were compared; "" where they were."""
-    count = pair_count(settings)
+def _not_compared(count: int, pairs: list[SettingPair]) -> str:
+    """That not all pairs, `count`, were compared; "" where they were."""
     if count <= len(pairs):
         return ""
     which = (

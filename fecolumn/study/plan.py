@@ -135,7 +135,7 @@ class PlannedAnalysis:
 @dataclass(frozen=True, slots=True)
 class Plan:
     """A study: its file, its title, its axes and every analysis, in the order of the file; `case`:
-    the tables all analyses share.
+    the tables all analyses share; `sampled`: axes of its `[latin_hypercube]`.
     """
 
     file: Path
@@ -143,6 +143,7 @@ class Plan:
     axes: dict[str, tuple[Any, ...]]
     analyses: tuple[PlannedAnalysis, ...]
     case: dict[str, Any]
+    sampled: tuple[str, ...] = ()
 
     @property
     def id(self) -> str:
@@ -201,7 +202,9 @@ def plan_of(tables: dict[str, Any], path: Path) -> Plan:
     axes = {
         key: values for factor in factors for key, values in zip(factor.keys, zip(*factor.levels))
     }
-    return Plan(path, tables.get("title", "") or path.stem, axes, analyses, common)
+    sampled = [key for one in factors if one.table == "latin_hypercube" for key in one.keys]
+    title = tables.get("title", "") or path.stem
+    return Plan(path, title, axes, analyses, common, tuple(sampled))
 
 
 def _case_tables(case: object, path: Path) -> dict[str, Any]:

@@ -45,7 +45,7 @@ def complete_study(
     *,
     workers: int | Team = 1,
     entry: str = ENTRY,
-    retry_failed: bool = False,
+    retry_failed: bool | set[str] = False,
     stream: TextIO | None = sys.stderr,
     share: tuple[int, int] | None = None,
     only: set[str] | None = None,
@@ -69,7 +69,7 @@ def complete_study(
         "module:function" of the analysis, called as run(case, folder, comm=MPI.COMM_SELF, file=...,
         quiet=True); it writes folder/summary.json atomically.
     retry_failed
-        whether analyses that failed before are run again.
+        whether analyses that failed before are run again; a set of ids: those of them alone.
     stream
         where the progress line goes; None for no progress, and warnings on stderr.
     share
@@ -95,8 +95,9 @@ def complete_study(
     try:
         with Store(folder, plan, entry, share) as store:
             if retry_failed:
+                chosen = only if retry_failed is True else retry_failed
                 failed = store.ledger.in_state(FAILED)
-                store.ledger.plan_again(*(one for one in failed if only is None or one in only))
+                store.ledger.plan_again(*(one for one in failed if chosen is None or one in chosen))
             if entry == ENTRY and (told := other_code(store.rows())):
                 print(told, file=stream or sys.stderr, flush=True)
             if isinstance(workers, int):

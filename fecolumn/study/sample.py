@@ -22,8 +22,11 @@ from fecolumn.statistics.sample import Sample
 from fecolumn.study.plan import ENSEMBLE_AXES, record_of
 from fecolumn.study.store import DONE, read_study
 
-# Commas between choices: one within a list or a text has no axis behind it
-_BETWEEN = re.compile(r",(?=\s*[\w.]+\s*=)")
+# Commas between choices: one within a list or a text has no axis behind it, whose name may have
+# hyphens and blanks
+_BETWEEN = re.compile(r",(?=\s*[^,=\[\]{}\"']+=)")
+# Axes whose files the ledger has digests of, in its order
+_SOURCES = "motion.source", "motion.source_y", "motion.source_z"
 # Of a digest, which tell motions of one name apart
 _DIGITS = 8
 
@@ -109,9 +112,8 @@ def _of_study(folder: str, choice: dict[str, Any]) -> Sample:
     done = [row for row in rows if row["state"] == DONE]
     if not done:
         raise InputError(folder, "", None, f"none of the {len(rows)} analyses chosen is done")
-    motions = _told_apart(
-        [_motion_name(row["axes"]) for row in done], [str(row["motion"] or "") for row in done]
-    )
+    contents = [_content_of(row) for row in done]
+    motions = _told_apart([_motion_name(row["axes"]) for row in done], contents)
     summaries, shown = (
         [row["summary"] for row in done],
         {key: rows[0]["axes"][key] for key in choice},
@@ -132,8 +134,18 @@ def _of_study(folder: str, choice: dict[str, Any]) -> Sample:
         len(rows) - len(done),
         cut_short(summaries),
         tuple(record_of(row["axes"]) for row in done),
-        tuple(str(row["motion"] or "") for row in done),
+        tuple(contents),
     )
+
+
+def _content_of(row: dict[str, Any]) -> str:
+    """What the sources that are axes hold, of a row of the ledger: those that the case states are
+    the same in all runs of a study, and may be others in another one that shares its motions.
+    """
+    contents = str(row["motion"] or "").split()
+    if "motion" not in row["axes"]:
+        contents = contents[: sum(key in row["axes"] for key in _SOURCES)]
+    return " ".join(contents)
 
 
 def _told_apart(names: list[str], contents: list[str]) -> tuple[str, ...]:

@@ -110,7 +110,7 @@ def stages(plan: Plan, rule: Rule) -> list[int]:
             plan.file, "axes", None, "has one setting alone: there is nothing to decide between"
         )
     settings: list[SettingTables] = [(values, {}) for values in planned.values()]
-    if (pairs := pair_count(settings)) > MOST_PAIRS:
+    if (pairs := pair_count(settings, plan.sampled)) > MOST_PAIRS:
         raise InputError(
             plan.file,
             "axes",
@@ -118,7 +118,7 @@ def stages(plan: Plan, rule: Rule) -> list[int]:
             f"has {pairs} pairs of settings that differ in one axis alone; at most {MOST_PAIRS} "
             "are decided on: take fewer levels",
         )
-    if not setting_lines(settings):
+    if not setting_lines(settings, plan.sampled):
         raise InputError(
             plan.file,
             "axes",
@@ -180,7 +180,7 @@ def judge(
         those of this one.
     """
     level = rule.error * motions / sum(looks)
-    pairs = pairs_of(settings_of(plan, rows), records_of(plan), confidence=1 - level)
+    pairs = pairs_of(settings_of(plan, rows), records_of(plan), 1 - level, plan.sampled)
     decided = {verdict.pair.names: verdict for verdict in before if verdict.word != STILL_OPEN}
     corrected = holm([pair.p for pair in pairs])
     found = []

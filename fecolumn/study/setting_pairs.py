@@ -5,7 +5,7 @@ far their distributions are apart.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable, Sequence
+from collections.abc import Collection, Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,7 +25,7 @@ LEAST_RECORDS = 6
 #: Pairs above which only the first and the last setting of each line are compared, and lines above
 #: which these are taken from all axes in turn: a comparison takes some tenths of a second
 MOST_PAIRS = 60
-#: Levels of an axis above which it is taken for a sampled one
+#: Levels of an axis above which a report, which has no study file, takes it for a sampled one
 SAMPLED = 8
 
 #: Record of each motion of a plan
@@ -56,9 +56,11 @@ class SettingPair:
         return counted_unit(self.n, self.records)
 
 
-def setting_lines(settings: list[SettingTables]) -> list[SettingLine]:
+def setting_lines(
+    settings: list[SettingTables], sampled: Collection[str] = ()
+) -> list[SettingLine]:
     """Lines of at least two settings that differ in one axis alone, or in axes that change
-    together (`axes_together`); samples of several axes, all of which differ, are none.
+    together (`axes_together`); samples of several axes, those `sampled`, are none.
     """
     lines: dict[tuple[Any, ...], SettingLine] = {}
     for axes in axes_together([values for values, _ in settings]):
@@ -68,7 +70,7 @@ def setting_lines(settings: list[SettingTables]) -> list[SettingLine]:
     return [
         line
         for line in lines.values()
-        if len(line[1]) > 1 and not (len(line[0]) > 1 and len(line[1]) > SAMPLED)
+        if len(line[1]) > 1 and not (len(line[0]) > 1 and set(line[0]) & set(sampled))
     ]
 
 
@@ -97,15 +99,18 @@ def _together(settings: list[dict[str, Any]], one: str, other: str) -> bool:
 
 
 def pairs_of(
-    settings: list[SettingTables], records: MotionRecords, confidence: float = 0.95
+    settings: list[SettingTables],
+    records: MotionRecords,
+    confidence: float = 0.95,
+    sampled: Collection[str] = (),
 ) -> list[SettingPair]:
     """Pairs of settings of one line, over the motions done in both; records: of each motion;
-    confidence: of the bound of their distance.
+    confidence: of the bound of their distance; sampled: as of `setting_lines`.
 
     Where they are more than 60, the first and the last setting of each line; where there are more
     lines than that, of lines of all axes in turn (`pair_count` has the number of all).
     """
-    lines = setting_lines(settings)
+    lines = setting_lines(settings, sampled)
     chosen = chosen_pairs([(axes, len(line)) for axes, line in lines], MOST_PAIRS)
     found = []
     for place, low, high in chosen:
@@ -138,9 +143,9 @@ def pairs_of(
     return found
 
 
-def pair_count(settings: list[SettingTables]) -> int:
-    """Number of pairs of settings on one line."""
-    return sum(len(line) * (len(line) - 1) // 2 for _, line in setting_lines(settings))
+def pair_count(settings: list[SettingTables], sampled: Collection[str] = ()) -> int:
+    """Number of pairs of settings on one line; sampled: as of `setting_lines`."""
+    return sum(len(line) * (len(line) - 1) // 2 for _, line in setting_lines(settings, sampled))
 
 
 def chosen_pairs(lines: Sequence[tuple[Hashable, int]], most: int) -> list[tuple[int, int, int]]:

@@ -82,10 +82,13 @@ class Store:
         self._lock = FolderLock(self.folder, share)
         try:
             known = _refuse_foreign(self.folder, identity)  # another driver may have been first
-            told = {"title": plan.title, "axes": plan.axes, "case": plan.case}
+            told = json.loads(
+                json.dumps({"title": plan.title, "axes": plan.axes, "case": plan.case})
+            )
             # another title, or an axis of one value that the case states now, are the same study
             if known is None or share is None and told != {key: known.get(key) for key in told}:
-                write_json(self.folder / "study.json", {**identity, **told, "version": __version__})
+                made_by = __version__ if known is None else known.get("version", __version__)
+                write_json(self.folder / "study.json", {**identity, **told, "version": made_by})
             self.analyses = _share(plan, share)
             self.ledger = StudyLedger(
                 self.folder / f"{stem(share)}.sqlite", many_readers=share is None

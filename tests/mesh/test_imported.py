@@ -128,6 +128,12 @@ def test_folded_torn_and_not_finite_meshes_are_refused(tube, with_file):
             "*INSTANCE with the placement 0., 0., 0.",
         ),
         (
+            "continued.inp",
+            b"*Part, name=a\n*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1,1,1,1,1,1\n*End Part\n"
+            b"*Assembly\n*Instance, name=a-1,\n part=a\n 0., 0., 2.5\n*End Instance\n",
+            "*INSTANCE with the placement 0., 0., 2.5",
+        ),
+        (
             "parts.inp",
             b"*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1,1,1,1,1,1\n*Node\n1,0,0,0\n*NODE "
             b"OUTPUT\n",
@@ -139,3 +145,13 @@ def test_unreadable_files_are_refused_naming_file_and_key(tmp_path, capfd, name,
     (tmp_path / name).write_bytes(content)
     assert said in refusal(named(tmp_path / name))
     assert capfd.readouterr() == ("", "")
+
+
+@pytest.mark.parametrize("placed", ["0., 0., 0.\n", "0, 0, 0\n0., 0., 0., 0., 0., 1., 0.\n", ""])
+def test_an_instance_that_is_placed_where_it_was_drawn_is_read(tube, tmp_path, placed):
+    file = tmp_path / "placed.inp"
+    meshio.Mesh(tube.points, [("hexahedron", tube.cells)]).write(file)
+    file.write_text(
+        f"{file.read_text()}*Assembly\n*Instance, name=a-1, part=a\n{placed}*End Instance\n"
+    )
+    assert len(specimen_mesh(named(file)).body.points) >= len(tube.points)

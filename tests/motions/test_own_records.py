@@ -2,6 +2,7 @@
 
 import importlib.util
 import re
+import struct
 import sys
 import types
 
@@ -186,6 +187,8 @@ def test_k_net_is_read_in_its_unit_without_the_recorders_offset(tmp_path):
 
 def test_gaps_and_channels_of_a_network_are_told(tmp_path, monkeypatch):
     class Trace:
+        idep = 5  # unknown
+
         def __init__(self, name, start=0.0, samples=4):
             self.id, self.data = name, np.arange(samples) + round(100 * start)
             self.stats = types.SimpleNamespace(
@@ -194,17 +197,18 @@ def test_gaps_and_channels_of_a_network_are_told(tmp_path, monkeypatch):
                 channel=name,
                 calib=1.0,
                 starttime=types.SimpleNamespace(timestamp=1e9 + start),
+                sac=dict(idep=self.idep),
             )
 
-    def reading(*names, **own):
+    def reading(*names, path=None, **own):
         traces = [Trace(name) for name in names]
         traces += [Trace(name, *values) for name, values in own.items()]
         obspy = types.SimpleNamespace(read=lambda path, format: traces)
         monkeypatch.setitem(sys.modules, "obspy", obspy)
         monkeypatch.setattr(importlib.util, "find_spec", lambda name: obspy)
-        return read_motion(Motion(path, units="m/s2"), "case.toml")
+        return read_motion(Motion(path or mseed, units="m/s2"), "case.toml")
 
-    path = written(tmp_path, "000001D " + "x" * 100, "a.mseed")
+    mseed = written(tmp_path, "000001D " + "x" * 100, "a.mseed")
     assert reading("HNN", "HNE").acceleration[1] == pytest.approx([1, 1, 0])
     # samples are their own time in hundredths of a second
     found = reading(HNE=(0.0, 400), HNN=(0.02, 398)).acceleration
@@ -214,6 +218,16 @@ def test_gaps_and_channels_of_a_network_are_told(tmp_path, monkeypatch):
             reading(HNE=(0.0, 400), HNN=late)
     with pytest.raises(InputError, match="second letter H of a channel stands for a velocity"):
         reading("HHN", "HHE")
+    # what the head of SAC says has the last word
+    sac = tmp_path / "a.sac"
+    sac.write_bytes(bytes(304) + struct.pack("<i", 6) + bytes(324))
+    for idep, refused in ((8, ""), (7, "its head says velocity"), (5, "second letter H")):
+        monkeypatch.setattr(Trace, "idep", idep)
+        if refused:
+            with pytest.raises(InputError, match=refused):
+                reading("HHN", "HHE", path=str(sac))
+        else:
+            assert len(reading("HHN", "HHE", path=str(sac)).acceleration) == 4
     with pytest.raises(InputError, match="gaps: 2 pieces of HNE"):
         reading("HNE", "HNE")
     with pytest.raises(InputError, match="must end in E, N and Z"):

@@ -12,6 +12,7 @@ from fecolumn.statistics.equivalence import (
     upper_bound,
 )
 from fecolumn.statistics.holm import holm
+from fecolumn.statistics.records import by_record
 from fecolumn.statistics.sensitivity import sensitivity
 from fecolumn.statistics.trend import trend
 from fecolumn.statistics.two_sample import kolmogorov_smirnov
@@ -167,6 +168,29 @@ def test_bound_covers_the_true_distance_where_few_motions_differ(n, flips):
         difference = np.where(u < flips[0], 1.0, np.where(u < sum(flips), -1.0, 0.0))
         misses += upper_bound(difference, 0.95) < flips[0] - flips[1]
     assert misses / runs < 0.05 + 3 * np.sqrt(0.05 * 0.95 / runs)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("groups", [40, 80])
+def test_records_that_differ_in_part_do_not_make_the_bound_too_small(groups):
+    """Flips one way of a tenth of the records, a fifth of them in one of two motions."""
+    random, misses, runs = np.random.default_rng(5), 0, 2000
+    records = np.repeat(np.arange(groups), 2).astype(str)
+    share = 0.1 / 0.9  # of records with a flip: the mean difference is 0.1
+    for _ in range(runs):
+        flips = random.random(groups) < share
+        partly = random.random(groups) < 0.2
+        both = np.stack([flips, flips & ~partly], axis=1).ravel()[:, None].astype(float)
+        misses += upper_bound(by_record(both, tuple(records)), 0.95) < share * 0.9
+    assert misses / runs < 0.05 + 3 * np.sqrt(0.05 * 0.95 / runs)
+
+
+def test_a_motion_that_differs_does_not_lower_the_bound():
+    records = tuple(f"r{n // 2}" for n in range(88))
+    none = np.zeros((88, 1))
+    one = none.copy()
+    one[0] = 1.0
+    assert upper_bound(by_record(one, records), 0.95) > upper_bound(by_record(none, records), 0.95)
 
 
 def test_score_bound_of_flips_one_way_is_wilsons():

@@ -58,10 +58,13 @@ def test_a_fixed_body_needs_no_joint(engine, links, tmp_path):
     assert found["steps"] == 20 and found["energy_closure_rel"] < 1e-9
 
 
-def test_a_fixed_voussoir_has_no_joint_with_its_ground(tmp_path):
+@pytest.mark.parametrize("fixed", [(1,), (1, 7)])
+def test_a_fixed_voussoir_has_no_joint_with_its_ground(fixed, tmp_path):
+    """Where both springers are fixed, the joint with the ground has no points at all."""
     arch = dict(kind="arch", mean_radius_m=3.0, thickness_m=0.6, width_m=1.0, voussoirs=7)
     case = structure(
-        bodies={"arch": arch | dict(element_size_m=1.0), "arch 1": dict(fixed=True)},
+        bodies={"arch": arch | dict(element_size_m=1.0)}
+        | {f"arch {number}": dict(fixed=True) for number in fixed},
         joints=dict(ring=dict(between=["arch", "arch"]), feet=dict(between=["arch", "ground"])),
         contact=dict(friction_coefficient=0.7),
         integration=dict(engine="rigid", duration_s=0.1),

@@ -12,9 +12,18 @@ import pytest
 import fecolumn
 from fecolumn.cli import main
 from fecolumn.foundation.schema import InputError
+from fecolumn.statistics.sample import Sample
+from fecolumn.study.compare_command import matched
 from fecolumn.study.plan import read_plan
 from fecolumn.study.run import complete_study
-from fecolumn.study.sample import _BETWEEN, _chosen, _motion_name, _told_apart, read_sample
+from fecolumn.study.sample import (
+    _BETWEEN,
+    _chosen,
+    _content_of,
+    _motion_name,
+    _told_apart,
+    read_sample,
+)
 
 STUDY_TESTS = Path(__file__).parent
 
@@ -178,6 +187,30 @@ def own_motions(folder, factor):
     return folder / "out"
 
 
+def sample_of(contents):
+    names = tuple(f"GM{number}" for number in range(len(contents)))
+    lost = np.zeros(len(names), bool)
+    return Sample("a", "a", {}, names, np.ones(len(names)), lost, lost, contents=contents)
+
+
+def test_motions_whose_files_differ_are_left_out_of_the_pairs():
+    """The others are compared one by one, as they are the same."""
+    one, other = sample_of(tuple("abcde")), sample_of(tuple("abcdX"))
+    a, b, paired, notes = matched(one, other, unpaired=False)
+    assert paired and a.motions == b.motions == ("GM0", "GM1", "GM2", "GM3")
+    assert notes[0] == ("GM4 has one name in both and comes from files that differ: left out")
+    assert notes[1].startswith("4 motions in both") and "only in" not in notes[1]
+    assert not matched(one, sample_of(tuple("vwxyz")), unpaired=False)[2]
+
+
+def test_only_sources_that_are_axes_tell_motions_apart():
+    """A vertical component that the case of one study adds makes no other motion."""
+    row = dict(axes={"motion.source": "a.csv"}, motion="aa bb")
+    assert _content_of(row) == "aa"
+    assert _content_of(row | dict(axes={"motion.source": "a", "motion.source_z": "b"})) == "aa bb"
+    assert _content_of(row | dict(motion=None)) == ""
+
+
 @pytest.mark.long
 @pytest.mark.filterwarnings("ignore")
 def test_motions_of_one_name_in_two_studies_are_no_pairs_where_they_differ(tmp_path, capsys):
@@ -185,7 +218,7 @@ def test_motions_of_one_name_in_two_studies_are_no_pairs_where_they_differ(tmp_p
     again = own_motions(tmp_path / "again", 1.0)
     assert "6 motions in both, compared one by one" in compared(capsys, near, again)
     said = compared(capsys, near, far)
-    assert "6 motions have one name in both and hold something else, such as GM0.csv" in said
+    assert "6 motions have one name in both and come from files that differ" in said
     assert "independent ensembles" in said and "one by one" not in said
 
 
@@ -195,5 +228,11 @@ def test_motions_of_one_name_in_one_study_are_told_apart_by_what_they_hold():
 
 
 def test_a_list_is_chosen_as_it_is_written():
+    wall = "integration.dt_s=1e-3,bodies.my-wall.length_m=0.3, initial.drum 2.tilt_rad=0.1"
+    assert [_chosen("", part)[0] for part in _BETWEEN.split(wall)] == [
+        "integration.dt_s",
+        "bodies.my-wall.length_m",
+        "initial.drum 2.tilt_rad",
+    ]
     parts = _BETWEEN.split('motion.strong_part=[0.0, 0.9],integration.dt_s=1e-3, a.b="x, y"')
     assert [_chosen("", part)[1] for part in parts] == [[0.0, 0.9], 1e-3, "x, y"]

@@ -129,10 +129,38 @@ def test_a_study_whose_settings_differ_in_several_axes_is_not_decided(tmp_path):
 
 
 def test_samples_of_several_axes_are_no_pairs():
-    """All samples of a Latin hypercube differ in all of its axes."""
-    sampled = [{HEIGHT: 1.0 + 0.01 * k, WIDTH: 0.1 + 0.003 * k} for k in range(20)]
-    assert pair_count(tables(sampled)) == 0 and not pairs_of(tables(sampled), records())
-    assert pair_count(tables(sampled[:4])) == 6  # a [[zip]] of four rows
+    """All samples of a Latin hypercube differ in all of its axes, as do the rows of a [[zip]]."""
+    rows = [{HEIGHT: 1.0 + 0.01 * k, WIDTH: 0.1 + 0.003 * k} for k in range(20)]
+    assert pair_count(tables(rows)) == 190
+    sampled = dict(sampled=(HEIGHT, WIDTH))
+    assert pair_count(tables(rows), **sampled) == 0
+    assert not pairs_of(tables(rows), records(), **sampled)
+
+
+@pytest.mark.parametrize("levels", [3, 9])
+def test_the_plan_says_which_axes_are_sampled(tmp_path, levels):
+    """However many they are, rows of a [[zip]] are compared, and samples are not."""
+    zipped = (
+        f'[[zip]]\n"{HEIGHT}" = {[1 + 0.1 * k for k in range(levels)]}\n'
+        f'"{WIDTH}" = {[0.06 + 0.01 * k for k in range(levels)]}\n'
+    )
+    sampled = (
+        f'[latin_hypercube]\nsamples = {levels}\nseed = 1\n"{HEIGHT}" = [1.0, 2.0]\n'
+        f'"{WIDTH}" = [0.06, 0.14]\n'
+    )
+    for name, extra in (("zip", zipped), ("samples", sampled)):
+        (tmp_path / name).mkdir()
+        plan = read_plan(
+            write_study(tmp_path / name, dt=(1e-3,), alpha=(0,), pulses=range(40), extra=extra)
+        )
+        settings = [
+            (dict(one), {})
+            for one in {repr(a.combination): a.combination for a in plan.analyses}.values()
+        ]
+        count = pair_count(settings, plan.sampled)
+        assert (plan.sampled, count) == (
+            ((), levels * (levels - 1) // 2) if name == "zip" else ((HEIGHT, WIDTH), 0)
+        )
 
 
 @pytest.mark.parametrize("steps, told", [(12, "has 66 pairs of settings"), (11, "")])
