@@ -3,6 +3,7 @@ a trilith and a frame in near-fault motions, rigid and elastic, with exact frict
 
     ./containers/run python -m benchmarks.fragility [STRUCTURE ...] [-n MOTIONS] [-j N] [--dt S]
         [-o DIR] [--report] [--keep]
+    ./containers/run python -m benchmarks.fragility check --help
 
 Each structure is a study of its own in DIR; the same command goes on where it was stopped. What
 benchmarks/tables/fragility holds is not computed again; --keep writes what is done there. A motion
@@ -17,6 +18,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from benchmarks.fragility import check
 from benchmarks.fragility.figure import draw
 from benchmarks.fragility.report import markdown
 from benchmarks.fragility.run import COLUMNS, STEP_S, keep, rows_of
@@ -26,6 +28,9 @@ from fecolumn.foundation.cores import usable_cores
 
 
 def main(arguments=None) -> int:
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if arguments[:1] == ["check"]:
+        return check.main(arguments[1:])
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.fragility",
         description=__doc__,

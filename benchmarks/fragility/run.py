@@ -39,8 +39,10 @@ _KEYS = ("motion.source",)
 STEP_S = 2e-3
 
 
-def plan_of(name: str, file: Path, count: int, dt: float) -> Plan:
-    """The study of a structure in the motions 1 ... count of a file, with steps of dt [s]."""
+def plan_of(name: str, file: Path, count: int, dt: float, rest_s: float = REST_S) -> Plan:
+    """The study of a structure in the motions 1 ... count of a file, with steps of dt [s], followed
+    until all is at rest or for rest_s [s] after the motion.
+    """
     sources = tuple(f"{file}#{number}" for number in range(1, count + 1))
     analyses = []
     for source in sources:
@@ -48,7 +50,7 @@ def plan_of(name: str, file: Path, count: int, dt: float) -> Plan:
             name,
             dict(
                 title=name,
-                motion=dict(source=source, free_vibration_s="rest", rest_ceiling_s=REST_S),
+                motion=dict(source=source, free_vibration_s="rest", rest_ceiling_s=rest_s),
                 # one of 11,000 needs more than the four that a case has unless it says so
                 integration=dict(dt_s=dt, duration_s=0.0, max_cuts=8),
                 output=dict(history_every_s=0.05, states_every_s=0.0),
@@ -70,20 +72,23 @@ def keep(name: str, rows: list[dict]) -> None:
     write_runs(kept_name(name), runs, title, f'python -m benchmarks.fragility "{name}" --keep')
 
 
-def rows_of(name: str, folder: Path, count: int, dt: float, workers: int) -> list[dict]:
+def rows_of(
+    name: str, folder: Path, count: int, dt: float, workers: int, rest_s: float = REST_S
+) -> list[dict]:
     """Rows of COLUMNS of a structure in so many motions; those that neither the repository nor the
-    folder holds are computed, by no workers none.
+    folder holds are computed, by no workers none. rest_s: as of `plan_of`.
     """
-    kept = read_runs(kept_name(name)) if dt == STEP_S else {}
+    kept = read_runs(kept_name(name)) if (dt, rest_s) == (STEP_S, REST_S) else {}
     rows = {number: dict(structure=name, motion=number, **row) for number, row in kept.items()}
     whole = range(1, count + 1)
     if rows.keys() >= set(whole):
         return [rows[number] for number in whole]
     file = ensemble_file(folder, count)
-    plan = plan_of(name, file, count, dt)
+    plan = plan_of(name, file, count, dt, rest_s)
     missing = {one.id for number, one in enumerate(plan.analyses, 1) if number not in rows}
     drawn = parameters(file)
-    into = folder / f"{name.replace(' ', '-')}-{count}-{dt:g}"
+    longer = "" if rest_s == REST_S else f"-{rest_s:g}"
+    into = folder / f"{name.replace(' ', '-')}-{count}-{dt:g}{longer}"
     only = missing if workers else set()
     ledger = complete_study(plan, into, workers=max(workers, 1), entry=ENTRY, only=only)
     for number, entry in enumerate(ledger, 1):
