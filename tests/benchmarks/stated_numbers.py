@@ -1,0 +1,32 @@
+"""Numbers of README that no table of measurements has to hold, by the words around them."""
+
+#: What is given: systems, settings of a study or a figure, bodies, names
+GIVEN = (
+    "a study: 40 ground motions at two time steps",
+    "You need Debian 12 or 13, and root",
+    "through 40 ground motions, each at the time steps 0.02 s and 1e-3 s",
+    "the Loma Prieta earthquake (1989)",
+    "| 3DEC, UDEC |",
+    "shaken by 1.5 times the acceleration",
+    "with friction solved to 1e-10",
+    "How many of 115 motions overturn two structures",
+    "significantly (p < 0.05)",
+    "of 490 shake-table tests",
+    "a steel tube 1.5 m high",
+    "at alpha 0 and -0.2, steps of 0.02, 1e-3 and 1e-4 s",
+    "Released from 0.3 of its critical tilt",
+    "The figure has 1.03 times",
+    "by +a for 0.1 s, then by -a/2 for 0.2 s",
+    "The figure has 0.34 s and 0.5 g",
+    "Licence: [LGPL-3.0-or-later]",
+)
+#: What `fecolumn verify` computes again, beside a closed form, with what others published
+VERIFIED = (
+    "at a constant base acceleration of 0.1599 g",
+    "at 0.99 times that and falls at 1.01 times",
+    "They stand at 4.0 g and fall at 4.4 g",
+    "HybriDFEM 4.16, LMGC90 4.3, UDEC 3.6 g",
+    "at 0.34 s falls and stands alternate",
+)
+#: What `tests/benchmarks/test_results_derived.py` computes from several cells
+DERIVED = ("In 640 to 1,000 motions", "differ by less than D = 0.1")
