@@ -168,6 +168,44 @@ def colonnade(work: Work, target: Path) -> str:
     return film(work.folder / "colonnade", file, target)
 
 
+def models(work: Work, target: Path, *options: str) -> str:
+    """Distributions of the models beside full order, from the rows that come with the
+    repository.
+    """
+    from benchmarks.models import main
+
+    folder = work.folder / "models"
+    main(["--full", "--report", "-o", str(folder), *options])
+    study = "own_mesh" if options else "beside"
+    shutil.copy(folder / study / "models.png", target)
+    return f"rows of benchmarks/tables/models/{study}"
+
+
+def models_own_mesh(work: Work, target: Path) -> str:
+    """The same on the specimen's own mesh."""
+    return models(work, target, "--own-mesh")
+
+
+def fragility(work: Work, target: Path) -> str:
+    """Fragilities of drums, monolith, trilith and frame, from the rows that come with the
+    repository.
+    """
+    from benchmarks.fragility.__main__ import main
+
+    main(["--report", "-o", str(work.folder / "fragility")])
+    shutil.copy(work.folder / "fragility" / "fragility.png", target)
+    return "rows of benchmarks/tables/fragility"
+
+
+def reliability(_: Work, target: Path) -> str:
+    """How often the granite rock overturned, by the probability told, from a table."""
+    from benchmarks.shake_table.figure import draw_reliability
+    from benchmarks.shake_table.kept import kept_classes
+
+    draw_reliability(kept_classes(), target.with_suffix(""))
+    return "benchmarks/tables/shake_table_reliability.csv"
+
+
 #: Figures by name: place in the repository and the function that makes them, of (Work, target),
 #: which says from what.
 FIGURES = {
@@ -181,6 +219,10 @@ FIGURES = {
     "arch": ("fecolumn/case/manual/arch.png", arch),
     "colonnade": ("fecolumn/case/manual/colonnade.gif", colonnade),
     "impact-map": ("fecolumn/case/manual/impact-map.png", impact_map),
+    "models": ("benchmarks/models.png", models),
+    "models-own-mesh": ("benchmarks/models_own_mesh.png", models_own_mesh),
+    "fragility": ("benchmarks/fragility.png", fragility),
+    "reliability": ("benchmarks/reliability.png", reliability),
 }
 
 

@@ -29,9 +29,7 @@ _JUDGE = 1e-4
 #: Impacts until which histories are compared
 _IMPACTS = dict(block=3, drums=1, trilith=3)
 HEAD = (
-    "program",
-    "step [s]",
-    "setting",
+    "program, step and setting",
     *(f"{name}: off [%]" for name in PLANE),
     "fed in, most [%]",
     *(f"{name}: creep [um]" for name in PLANE),
@@ -139,9 +137,7 @@ def table(programs) -> str:
             print(".", end="", file=sys.stderr, flush=True)
             rows.append(
                 (
-                    BY_NAME[program].label.partition(",")[0],
-                    f"{dt:g}",
-                    words,
+                    f"{BY_NAME[program].label.partition(',')[0]}, {dt:g} s, {words}",
                     *(f"{100 * one:.2g}" for one in off),
                     f"{100 * risen:.2g}",
                     *(f"{1e6 * one:.2g}" for one in creep),

@@ -28,7 +28,7 @@ import numpy as np
 from benchmarks.kept import complete, found, keep_settings
 from benchmarks.shake_table.campaign import Campaign, read_campaign
 from benchmarks.shake_table.figure import draw, draw_reliability
-from benchmarks.shake_table.probability import ensemble_report, told_by
+from benchmarks.shake_table.probability import ensemble_report, reliability, told_by
 from benchmarks.shake_table.rock import Stone
 from benchmarks.shake_table.runs import COLUMNS, folder_name, run
 from benchmarks.shake_table.scores import chance, confusion, table
@@ -212,7 +212,10 @@ def probabilities(draws: dict[int, list[dict]], folder: Path) -> None:
         [list(told[0]), *(list(row.values()) for row in told)],
     )
     print(ensemble_report(draws, told))
-    draw_reliability(told, folder / "reliability")
+    measured, probability = (
+        np.array([row[name] for row in told], float) for name in ("measured", "probability")
+    )
+    draw_reliability(reliability(measured == 1, probability), folder / "reliability")
     print(f"wrote {folder}")
 
 

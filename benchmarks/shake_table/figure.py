@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.shake_table.probability import reliability
+from benchmarks.shake_table.probability import Class
 from fecolumn.pictures.figures.style import (
     BLACK,
     BLUE,
@@ -91,14 +91,10 @@ def draw(rows: list[dict], path):
         return save(figure, path)
 
 
-def draw_reliability(told: list[dict], path):
+def draw_reliability(classes: list[Class], path):
     """Share of tests that overturned over the probability told, with intervals of 95 %, and how
-    many tests had each; rows of `probability.told_by`. PNG and PDF.
+    many tests are in each class of `probability.reliability`. PNG and PDF.
     """
-    measured, probability = (
-        np.array([row[name] for row in told], float) for name in ("measured", "probability")
-    )
-    classes = reliability(measured == 1, probability)
     means = np.array([one.told for one in classes])
     shares = np.array([one.share for one in classes])
     ends = np.array([one.interval for one in classes])
@@ -118,6 +114,8 @@ def draw_reliability(told: list[dict], path):
         )
         upper.set(ylabel="share that overturned [-]", ylim=(-0.03, 1.03))
         upper.legend(loc="upper left")
-        lower.hist(probability, np.linspace(0, 1, 21), color=BLUE)
+        lows, highs = (np.array([getattr(one, end) for one in classes]) for end in ("low", "high"))
+        counts = [one.n for one in classes]
+        lower.bar(lows, counts, highs - lows, align="edge", color=BLUE, edgecolor="white")
         lower.set(xlabel="told P(overturn) [-]", ylabel="tests", yscale="log")
         return save(figure, path)

@@ -9,6 +9,7 @@ from benchmarks import tables
 from benchmarks.gallery.__main__ import main
 from benchmarks.gallery.figures import FIGURES, ROOT, Work, make
 from benchmarks.gallery.made import TABLE, digest
+from benchmarks.results import RESULTS
 from fecolumn.foundation.sources import PHYSICS
 
 PAGES = [ROOT / "README.md", *sorted((ROOT / "fecolumn" / "case" / "manual").glob("*.md"))]
@@ -16,11 +17,11 @@ PLACES = {place for place, _ in FIGURES.values()}
 
 
 def _shown() -> dict[str, str]:
-    """Pictures that README and manual show, each with the page."""
+    """Pictures that README and manual show and RESULTS links, each with the page."""
     return {
         str((page.parent / name).resolve().relative_to(ROOT)): page.name
-        for page in PAGES
-        for name in re.findall(r"!\[[^]]*\]\(([^)\s]+)\)", page.read_text(encoding="utf-8"))
+        for page, link in [*((page, r"!\[[^]]*\]") for page in PAGES), (RESULTS, r"\[figure\]")]
+        for name in re.findall(link + r"\(([^)\s]+)\)", page.read_text(encoding="utf-8"))
     }
 
 
