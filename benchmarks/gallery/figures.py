@@ -168,22 +168,16 @@ def colonnade(work: Work, target: Path) -> str:
     return film(work.folder / "colonnade", file, target)
 
 
-def models(work: Work, target: Path, *options: str) -> str:
-    """Distributions of the models beside full order, from the rows that come with the
-    repository.
+def models(work: Work, target: Path) -> str:
+    """Distributions of the models beside full order on the specimen's own mesh, from the rows that
+    come with the repository.
     """
     from benchmarks.models import main
 
     folder = work.folder / "models"
-    main(["--full", "--report", "-o", str(folder), *options])
-    study = "own_mesh" if options else "beside"
-    shutil.copy(folder / study / "models.png", target)
-    return f"rows of benchmarks/tables/models/{study}"
-
-
-def models_own_mesh(work: Work, target: Path) -> str:
-    """The same on the specimen's own mesh."""
-    return models(work, target, "--own-mesh")
+    main(["--own-mesh", "--full", "--report", "-o", str(folder)])
+    shutil.copy(folder / "own_mesh" / "models.png", target)
+    return "rows of benchmarks/tables/models"
 
 
 def fragility(work: Work, target: Path) -> str:
@@ -219,8 +213,7 @@ FIGURES = {
     "arch": ("fecolumn/case/manual/arch.png", arch),
     "colonnade": ("fecolumn/case/manual/colonnade.gif", colonnade),
     "impact-map": ("fecolumn/case/manual/impact-map.png", impact_map),
-    "models": ("benchmarks/models.png", models),
-    "models-own-mesh": ("benchmarks/models_own_mesh.png", models_own_mesh),
+    "models": ("benchmarks/models_own_mesh.png", models),
     "fragility": ("benchmarks/fragility.png", fragility),
     "reliability": ("benchmarks/reliability.png", reliability),
 }
