@@ -43,7 +43,7 @@ _TICKS = 0.2, 0.5, 1, 2
 
 def draw(found: dict[str, list[dict]], path):
     """Panels: share lost over PGV; PGV that loses half over the number of drums, by pulse period;
-    residual shift over PGV. Rows of `run.COLUMNS` by structure. PNG and PDF.
+    shift at the end over PGV. Rows of `run.COLUMNS` by structure. PNG and PDF.
     """
     with styled():
         figure = new_figure(PAGE_WIDTH_IN, 3.2)
@@ -64,7 +64,7 @@ def draw(found: dict[str, list[dict]], path):
             xscale="log",
             yscale="log",
             xlabel="PGV [m/s]",
-            ylabel="median residual shift of those that stand [m]",
+            ylabel="median shift at the end, not lost [m]",
         )
         for axes in (left, right):
             axes.set_xticks(_TICKS, [f"{one:g}" for one in _TICKS])
