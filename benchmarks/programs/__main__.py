@@ -9,7 +9,7 @@ Structures: tube (three dimensions), block, drums and trilith (in their plane). 
 (closed form of the block), judge (the planar program of this repository, not of the tube), mujoco,
 siconos and, of the tube, siconos-tube at their best settings, mujoco-defaults, siconos-defaults,
 and fecolumn's engines rigid, rigid-fine (shorter steps, not of the block), reduced and full; full
-takes hours and runs only where it is named. A program that is not installed is said and left
+takes hours, runs only where it is named, and is reported as far as it is done. A program that is not installed is said and left
 out: `python -m benchmarks.peers --install` installs them.
 
 All have the same bodies, friction, motions (straight lines between their samples) and rest after
@@ -161,7 +161,7 @@ def arguments(given=None):
     args = parser.parse_args(given)
     if not 1 <= args.motions <= structures.MOTIONS:
         parser.error(f"--motions {args.motions}: must be in [1, {structures.MOTIONS}]")
-    args.program = args.program or [one.name for one in PROGRAMS if not one.asked]
+    args.program = args.program or [one.name for one in PROGRAMS if args.report or not one.asked]
     args.structure = args.structure or list(structures.NAMES)
     return args
 
