@@ -9,13 +9,17 @@ from scipy.stats import binomtest
 
 from benchmarks.fragility.motions import PGV
 from benchmarks.fragility.structures import ELASTIC
-from fecolumn.engines.ending import OVERTURNED, SLID_OFF
+from fecolumn.engines.ending import OVERTURNED, SLID_OFF, STILL_ROCKING
 from fecolumn.statistics.binary_regression import DegenerateData, fit_binary
 from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.store import FAILED
 
 #: Pulse periods [s] at which the PGV that overturns half is told.
 PERIODS = (0.7, 1.5, 3.0)
+#: Edges of the classes of pulse periods in which shifts are told [s]
+EDGES = (0.0, 1.0, 2.5, np.inf)
+#: Ensembles drawn from the motions with repetition, by which the interval of that PGV is told
+_DRAWN = 400
 MONOLITH = "monolith"
 
 
@@ -52,9 +56,56 @@ def _within(pgv: float) -> str:
     return f"> {high:g}" if not pgv <= high else f"< {low:g}" if pgv < low else f"{pgv:.2f}"
 
 
+def half_intervals(rows: list[dict]) -> list[tuple[str, str]]:
+    """At each of PERIODS the PGV that loses half, and its 95 % interval by drawing the motions
+    with repetition (percentiles).
+    """
+    fit, random = surface(rows), np.random.default_rng(0)
+    if fit is None:
+        return [("-", "-")] * len(PERIODS)
+    drawn = []
+    for _ in range(_DRAWN):
+        again = surface([rows[place] for place in random.integers(len(rows), size=len(rows))])
+        if again is not None:
+            drawn.append(half_lost(again, np.array(PERIODS)))
+    # where more PGV does not overturn more, no PGV loses half
+    ends = np.quantile(np.nan_to_num(drawn, nan=np.inf), (0.025, 0.975), axis=0, method="nearest")
+    return [
+        (_within(float(half_lost(fit, period))), " to ".join(dict.fromkeys(map(_within, both))))
+        for period, *both in zip(PERIODS, *ends.tolist())
+    ]
+
+
+def periods_table(found: dict[str, list[dict]]) -> str:
+    """By pulse period: PGV that loses half with its interval, and shift at the end."""
+    names = [f"pulses of {low:g} to {high:g} s" for low, high in zip(EDGES, EDGES[1:])]
+    names[0], names[-1] = f"pulses below {EDGES[1]:g} s", f"pulses of {EDGES[-2]:g} s and more"
+    head = ["structure"]
+    for period in PERIODS:
+        head += [
+            f"PGV that loses half, pulse of {period:g} s [m/s]",
+            f"95 % interval, {period:g} s",
+        ]
+    head += [f"shift at the end, median, {name} [m]" for name in names]
+    table = []
+    for name, rows in found.items():
+        told = [row for row in rows if row["outcome"] != FAILED]
+        shifts = [
+            [
+                row["shift_m"]
+                for row in told
+                if not lost(row) and low <= row["pulse_period_s"] < high
+            ]
+            for low, high in zip(EDGES, EDGES[1:])
+        ]
+        halves = [cell for pair in half_intervals(told) for cell in pair]
+        table.append([name, *halves, *(f"{np.median(one or [np.nan]):.2g}" for one in shifts)])
+    return _table(head, table)
+
+
 def markdown(found: dict[str, list[dict]]) -> str:
-    """Two tables: what became of each structure, and rigid bodies or drums beside others in the
-    same motions.
+    """Three tables: what became of each structure; that by pulse period; and rigid bodies or drums
+    beside others in the same motions.
     """
     head = [
         "structure",
@@ -62,8 +113,8 @@ def markdown(found: dict[str, list[dict]]) -> str:
         "P(lost)",
         "95 % interval",
         "of them slid off",
-        *(f"PGV that loses half, pulse of {period:g} s [m/s]" for period in PERIODS),
-        "shift of those that stand, median [m]",
+        "still rocking at the end",
+        "shift at the end of those not lost, median [m]",
         "9 of 10 below [m]",
         "failed",
         "CPU s an analysis",
@@ -72,7 +123,6 @@ def markdown(found: dict[str, list[dict]]) -> str:
     for name, rows in found.items():
         told = [row for row in rows if row["outcome"] != FAILED]
         number = sum(map(lost, told))
-        fit = surface(told)
         shifts = [row["shift_m"] for row in told if not lost(row)] or [np.nan]
         low, high = proportion_interval(number, len(told)) if told else (np.nan, np.nan)
         table.append(
@@ -82,10 +132,7 @@ def markdown(found: dict[str, list[dict]]) -> str:
                 f"{number / max(len(told), 1):.3f}",
                 f"{low:.3f} to {high:.3f}",
                 sum(row["outcome"] == SLID_OFF for row in told),
-                *(
-                    "-" if fit is None else _within(float(half_lost(fit, period)))
-                    for period in PERIODS
-                ),
+                sum(row["outcome"] == STILL_ROCKING for row in told),
                 *(f"{value:.2g}" for value in np.quantile(shifts, (0.5, 0.9))),
                 len(rows) - len(told),
                 f"{np.nanmean([row['cpu_s'] for row in told]) if told else np.nan:.2f}",
@@ -102,7 +149,8 @@ def markdown(found: dict[str, list[dict]]) -> str:
         [f"{one} and {other}", *beside(found[one], found[other])]
         for one, other in pairs_of(list(found))
     ]
-    return f"{_table(head, table)}\n\n{_table(pairs_head, pairs)}"
+    tables = _table(head, table), periods_table(found), _table(pairs_head, pairs)
+    return "\n\n".join(tables)
 
 
 def pairs_of(names: list[str]) -> list[tuple[str, str]]:

@@ -9,8 +9,8 @@ Structures: tube (three dimensions), block, drums and trilith (in their plane). 
 (closed form of the block), judge (the planar program of this repository, not of the tube), mujoco,
 siconos and, of the tube, siconos-tube at their best settings, mujoco-defaults, siconos-defaults,
 and fecolumn's engines rigid, rigid-fine (shorter steps, not of the block), reduced and full; full
-takes hours, runs only where it is named, and is reported as far as it is done. A program that is not installed is said and left
-out: `python -m benchmarks.peers --install` installs them.
+takes hours, runs only where it is named, and is reported as far as it is done. A program that is
+not installed is said and left out: `python -m benchmarks.peers --install` installs them.
 
 All have the same bodies, friction, motions (straight lines between their samples) and rest after
 these; no restitution. Bodies that do not deform touch at their corners or on their rim; elastic
