@@ -116,8 +116,8 @@ PROGRAMS = (
         "Siconos, best of the tube",
         1e-4,
         "in space; Moreau-Jean, theta 1/2, NSGS to 1e-6",
-        "at 5e-4 s rolling feeds in five times as much; NSGS to 1e-10 takes 2.5 times as long "
-        "while the tube stands, and it stands as still",
+        "at longer steps rolling feeds in more; NSGS to 1e-10 takes longer while the tube stands, "
+        "and it stands as still; points of the rim are a script of this repository",
         dict(theta=0.5, tolerance=1e-6, sweeps=20000, newton=1e-9),
         structures=("tube",),
     ),
