@@ -37,6 +37,7 @@ FEATURES = {
     "dashpot",
     "restrainer",
     "dome",
+    "found contact",
     "rounded edge",
     "storeys",
     "MPI",
