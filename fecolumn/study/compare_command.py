@@ -197,10 +197,7 @@ def matched(a: Sample, b: Sample, unpaired: bool) -> tuple[Sample, Sample, bool,
             said = f"{len(others)} motions have one name in both and come from files that differ, "
             said += f"such as {first}"
         common = [motion for motion in common if motion not in others]
-        alone = len(common) < 2
-        notes.append(f"{said}: " + ("independent ensembles" if alone else "left out"))
-        if alone:
-            return a, b, False, notes
+        notes.append(said if len(common) < 2 else f"{said}: left out")
     if len(common) < 2:
         return a, b, False, [*notes, "independent ensembles"]
     alone = [
