@@ -45,6 +45,15 @@ def test_every_program_has_the_motion_of_the_planar_program(name, tmp_path):
         assert ground[:, 0] == pytest.approx(given, abs=1e-9) and not ground[:, 1:].any()
 
 
+def test_the_kept_settings_are_those_of_the_programs():
+    kept = {row[0]: row[2:] for row in tables.read("programs_settings").rows}
+    assert set(kept) == {program.label for program in PROGRAMS}
+    for program in PROGRAMS:
+        step, said, reason = kept[program.label]
+        assert float(step) == program.dt and reason == program.reason
+        assert said.startswith(program.said)
+
+
 def test_bodies_of_the_block_are_those_of_its_formulas():
     width, height = structures.MONOLITH
     mass = 2500 * width * width * height
