@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -49,6 +50,21 @@ def begins_unstrained(case: Case, model: StructureModel) -> bool:
     return case.integration.start == "drawn" or any(part.rotation[2, 2] < 1 for part in model.parts)
 
 
+class TooManyPoints(ValueError):
+    """So many contact points that this machine has no room for what they give one another."""
+
+
+def _check_room(points: int) -> None:
+    """Refuse contact points whose matrix, `contact.problem.room`, is larger than the memory."""
+    needed, there = 72 * points**2, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    if needed > there:
+        raise TooManyPoints(
+            f"have {points:,} contact points: what these give one another takes "
+            f"{needed / 2**30:.0f} GiB, and this machine has {there / 2**30:.0f}; a larger "
+            "element_size_m of the bodies, or contact.interior_points = 0, makes them fewer"
+        )
+
+
 def engine_of(
     case: Case, model: StructureModel, file: Path | str, stands: bool | None = None
 ) -> Engine:
@@ -59,7 +75,8 @@ def engine_of(
     Raises
     ------
     InputError
-        a link too stiff for the step. NoEquilibrium: as of `start.gravity_equilibrium`.
+        a link too stiff for the step, more contact points than this machine has room for.
+        NoEquilibrium: as of `start.gravity_equilibrium`.
     """
     plan = case.integration
     stands = not begins_unstrained(case, model) if stands is None else stands
@@ -75,6 +92,8 @@ def engine_of(
     except StiffLink as error:
         name, _, told = str(error).partition(": ")
         raise InputError(file, name, None, told) from None
+    except TooManyPoints as error:
+        raise InputError(file, "joints", None, str(error)) from None
 
 
 def engine_on(
@@ -111,11 +130,15 @@ def engine_on(
     ------
     StiffLink
         a link is too stiff for the step.
+    TooManyPoints
+        as of its name.
     """
 
     def build(step: HHT, meetings: int | None = None) -> tuple[Structure, Array]:
         parts = PARTS if plan.substeps == "impacts" else 1
-        return structure_of(standing, step, gravity, parts, meetings)
+        made = structure_of(standing, step, gravity, parts, meetings)
+        _check_room(len(made[1]))
+        return made
 
     structure, _ = build(hht)
     weight = float(structure.bodies.body["mass"].sum()) * float(np.linalg.norm(gravity))

@@ -20,7 +20,7 @@ from fecolumn.structures.foot_on_springs import FootOnSprings
 from fecolumn.structures.model import JointModel, StructureModel
 from fecolumn.structures.place import footing, placed
 from fecolumn.structures.spring_areas import spring_areas
-from fecolumn.structures.standing import Standing, supports_of
+from fecolumn.structures.standing import Standing, Supports, from_below, supports_of
 
 # Directions [deg] in which a body is leaned; the least energy is in that of its weakest edge
 _DIRECTIONS = (0.0, 90.0, 180.0, 270.0)
@@ -104,6 +104,7 @@ def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
     """
     joints, alone, lifts = list(structure.joints), stances(structure, standing), []
     upright = [replace(part, start=None) for part in standing]
+    supports = supports_of(standing, joints)
     for place, foot in alone.items():
         alike = [k for k, part in enumerate(standing) if part.model is standing[place].model]
         weakest = math.degrees(math.atan2(*overturning.weakest(foot.corners)[1][::-1]))
@@ -115,7 +116,7 @@ def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
                     for k, part in enumerate(upright)
                 ]
                 try:
-                    there = placed(trial, joints, "")
+                    there = placed(trial, joints, "", _with_what_stands_on(leaning, supports))
                 except InputError:
                     continue
                 lifts.append(
@@ -129,6 +130,15 @@ def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
     lifts += [overturning.barrier(one) for _, one, _ in together]
     lifts += [foot.barrier for _, _, foot in together if foot is not None]
     return float(min((lift for lift in lifts if lift > 0), default=0.0))
+
+
+def _with_what_stands_on(places: list[int], supports: list[Supports]) -> set[int]:
+    """These parts and all that stands on them, directly or not."""
+    found = set(places)
+    for place in from_below(supports):
+        if any(below in found for below, _ in supports[place]):
+            found.add(place)
+    return found
 
 
 def _together(

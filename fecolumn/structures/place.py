@@ -5,7 +5,7 @@ velocity and spin.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -46,13 +46,17 @@ class Placement:
 
 
 def placed(
-    standing: Sequence[Standing], joints: Sequence[JointModel], file: Path | str
+    standing: Sequence[Standing],
+    joints: Sequence[JointModel],
+    file: Path | str,
+    only: Collection[int] | None = None,
 ) -> list[Placement]:
     """Places of all parts at the start.
 
     A part leans by its own tilt about the point of its foot that is farthest in the direction in
     which it leans against what it stands on; what stands on it keeps its own tilt, 0 unless stated,
-    and comes along with the point on which it then stands.
+    and comes along with the point on which it then stands. only: those that lean and what stands on
+    them, where the others are known to be upright.
 
     Raises
     ------
@@ -64,6 +68,10 @@ def placed(
     found: dict[int, Placement] = {}
     for place in from_below(supports):
         part, centers = standing[place], []
+        if only is not None and place not in only:
+            still = np.zeros(3)
+            found[place] = Placement(part.center, turns[place], still, still)
+            continue
         pivot: NDArray[Any] | None = None
         for below, between in supports[place]:
             pivot, center = _on(standing, between, place, below, turns, found)

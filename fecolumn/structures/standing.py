@@ -16,6 +16,10 @@ from fecolumn.structures.model import BodyModel, JointModel, StructureModel
 
 # Vertical part of a face's normal below which it carries nothing
 _LEVEL = 1e-9
+# What touches, of the bodies asked for last, by what decides it: it is asked for again with each
+# body that leans. The models are kept along, so that no other one has the identity of one of them
+_KEPT = 5000
+_touching: dict[Any, tuple[Any, NDArray[Any]]] = {}
 #: What a part stands on, GROUND or the places of parts, each with the joints between.
 Supports = list[tuple[int, list[JointModel]]]
 
@@ -49,12 +53,18 @@ def touching(standing: Sequence[Standing], joint: JointModel) -> NDArray[Any]:
     if joint.master == GROUND or joint.master_surface is None:
         return np.arange(len(surface.nodes))
     master = standing[joint.master]
-    face = master.model.surfaces[joint.master_surface]
-    corners = face.plane(master.model.arms[face.nodes])[:, :2]
-    points = face.plane(slave.center + slave.model.arms[surface.nodes] - master.center)[:, :2]
-    return np.flatnonzero(
-        over(points, corners[face.triangles], 1e-9 * np.ptp(corners, axis=0).max())
-    )
+    of = slave.model, joint.slave_surface, master.model, joint.master_surface
+    key = tuple(map(id, of)), slave.center.tobytes(), master.center.tobytes()
+    if key not in _touching:
+        face = master.model.surfaces[joint.master_surface]
+        corners = face.plane(master.model.arms[face.nodes])[:, :2]
+        points = face.plane(slave.center + slave.model.arms[surface.nodes] - master.center)[:, :2]
+        tolerance = 1e-9 * np.ptp(corners, axis=0).max()
+        rows = np.flatnonzero(over(points, corners[face.triangles], tolerance))
+        if len(_touching) >= _KEPT:
+            _touching.clear()
+        _touching[key] = of, rows
+    return _touching[key][1]
 
 
 def supports_of(standing: Sequence[Standing], joints: Iterable[JointModel]) -> list[Supports]:
@@ -104,13 +114,13 @@ def from_below(supports: list[Supports]) -> list[int]:
     are.
     """
     order: list[int] = []
+    done = {GROUND}
     left = list(range(len(supports)))
     while left:
         ready = [
-            place
-            for place in left
-            if all(below == GROUND or below in order for below, _ in supports[place])
+            place for place in left if all(below in done for below, _ in supports[place])
         ] or left
         order += ready
-        left = [place for place in left if place not in ready]
+        done |= set(ready)
+        left = [place for place in left if place not in done]
     return order
