@@ -168,6 +168,29 @@ def colonnade(work: Work, target: Path) -> str:
     return film(work.folder / "colonnade", file, target)
 
 
+def steps(_: Work, target: Path) -> str:
+    """Distributions at three time steps, fixed and with rolling substeps, from the rows of the
+    paper's study that come with the repository.
+    """
+    from benchmarks.tables.runs import read_runs
+    from fecolumn.pictures.figures.cdf_figure import CdfPanel, cdf_figure
+    from fecolumn.statistics.ecdf import ecdf
+
+    panels = []
+    for study, title in (
+        ("paper_study", "fixed steps"),
+        ("paper_parts", "substeps while the foot rolls fast (default)"),
+    ):
+        lines = []
+        for dt in ("0.02", "0.001", "0.0001"):
+            runs = read_runs(f"paper/{study}-{dt}--0.2").values()
+            peaks, lost = ([run[key] for run in runs] for key in ("u_max_m", "overturned"))
+            lines.append((f"dt = {dt} s, n = {len(peaks)}", ecdf(peaks, lost)))
+        panels.append(CdfPanel(title, tuple(lines)))
+    cdf_figure(panels, target.with_suffix(""), formats=("png",))
+    return "rows of benchmarks/tables/paper"
+
+
 def models(work: Work, target: Path) -> str:
     """Distributions of the models beside full order on the specimen's own mesh, from the rows that
     come with the repository.
@@ -205,6 +228,7 @@ def reliability(_: Work, target: Path) -> str:
 FIGURES = {
     "rocking": ("meshes/rocking.png", rocking),
     "cdf": ("benchmarks/cdf.png", cdf),
+    "steps": ("benchmarks/steps.png", steps),
     "impact": ("fecolumn/case/manual/impact.png", impact),
     "rolling": ("fecolumn/case/manual/rolling.png", rim),
     "two-sides": ("fecolumn/case/manual/two-sides.png", two_sides),
