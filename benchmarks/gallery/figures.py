@@ -228,7 +228,6 @@ def reliability(_: Work, target: Path) -> str:
 FIGURES = {
     "rocking": ("meshes/rocking.png", rocking),
     "cdf": ("benchmarks/cdf.png", cdf),
-    "steps": ("benchmarks/steps.png", steps),
     "impact": ("fecolumn/case/manual/impact.png", impact),
     "rolling": ("fecolumn/case/manual/rolling.png", rim),
     "two-sides": ("fecolumn/case/manual/two-sides.png", two_sides),
@@ -237,6 +236,7 @@ FIGURES = {
     "arch": ("fecolumn/case/manual/arch.png", arch),
     "colonnade": ("fecolumn/case/manual/colonnade.gif", colonnade),
     "impact-map": ("fecolumn/case/manual/impact-map.png", impact_map),
+    "steps": ("benchmarks/steps.png", steps),
     "models": ("benchmarks/models_own_mesh.png", models),
     "fragility": ("benchmarks/fragility.png", fragility),
     "reliability": ("benchmarks/reliability.png", reliability),
