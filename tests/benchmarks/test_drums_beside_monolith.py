@@ -5,8 +5,16 @@ import pytest
 
 from benchmarks import tables
 from benchmarks.fragility.__main__ import main
+from benchmarks.fragility.check import HEAD, line
 from benchmarks.fragility.motions import PGV, drawn_motion, ensemble_file, parameters, peak_velocity
-from benchmarks.fragility.report import beside, half_lost, markdown, pairs_of, surface
+from benchmarks.fragility.report import (
+    beside,
+    half_intervals,
+    half_lost,
+    markdown,
+    pairs_of,
+    surface,
+)
 from benchmarks.fragility.run import kept_name
 from benchmarks.fragility.structures import COLUMN, NAMES, case_of
 from benchmarks.tables.runs import read_runs, write_runs
@@ -150,3 +158,28 @@ def test_the_header_names_the_machines_of_all_rows(tmp_path, monkeypatch):
     write_runs("rows/one", first, "T.", "python -m x", machines=("B, 2 cores", "A, 2 cores"))
     write_runs("rows/two", again, "T.", "python -m x")
     assert tables.machines_of("rows") == ("B, 2 cores", "A, 2 cores", "C, 2 cores")
+
+
+def test_the_pgv_that_loses_half_lies_within_its_interval():
+    """Half are lost at 0.8 m/s and a pulse of 1 s, so at 0.8 / sqrt(T) at a period T."""
+    found = half_intervals(rows_of("4 drums", 0.8, 300))
+    for (value, interval), period in zip(found, (0.7, 1.5, 3.0)):
+        low, high = map(float, interval.split(" to "))
+        assert low < float(value) < high < 2 * low
+        assert low < 0.8 * period**-0.5 < high
+
+
+def test_a_check_tells_whose_fate_it_changes():
+    before = rows_of("4 drums", 0.8, 50)
+    after = [dict(row) for row in before]
+    stands = next(row for row in after if row["outcome"] == "still rocking")
+    stands |= dict(outcome="overturned")
+    another = [row for row in after if row["outcome"] == "still rocking"][:2]
+    another[0] |= dict(outcome="at rest", shift_m=2 * another[0]["shift_m"])
+    another[1] |= dict(outcome=FAILED)
+    told = dict(zip(HEAD, line("4 drums, a change", before, after)))
+    assert told["motions"] == 49
+    assert told["lost with the change"] == told["lost before"] + 1
+    assert (told["lost before alone"], told["lost with it alone"]) == (0, 1)
+    assert told["still rocking before"] == told["still rocking with it"] + 2
+    assert told["shift that differs by more than a tenth"] == 1
