@@ -31,6 +31,8 @@ _STRAIN = 0.1
 _LIGHT, _HEAVY = 5.0, 25_000.0
 # [Pa]: Young's modulus from which on a body is as stiff as stone or metal
 _STIFF = 1e9
+# Contact points from which on those of rigid bodies are told of: steps take milliseconds
+_MANY_POINTS = 1000
 # Over the weight of the lighter body: force of a link that cannot be told from none
 _FORCE = 1e-6
 
@@ -144,6 +146,25 @@ def tell_of_densities(
                 stacklevel=2,
             )
         told.add(own)
+
+
+def tell_of_points(structure: StructureModel, file: Path | str) -> None:
+    """Warn of many contact points of bodies that do not deform: their corners suffice."""
+    counts = {
+        joint.name: len(structure.parts[joint.slave].model.surfaces[joint.slave_surface].nodes)
+        for joint in structure.joints
+        if not joint.round  # whose rim needs its points
+    }
+    total = sum(counts.values())
+    rigid = not any(part.model.flexibility.any() for part in structure.parts)
+    if rigid and total > _MANY_POINTS:
+        most = max(counts, key=lambda name: counts[name])
+        warnings.warn(
+            f"{file}: {total:,} contact points of rigid bodies, {counts[most]} in joint "
+            f'"{most}": the corners of a face suffice, and steps cost a small part: set '
+            "contact.interior_points = 0 and element_size_m to the bodies' shorter sides",
+            stacklevel=3,
+        )
 
 
 def _check_forces(case: Case, structure: StructureModel, file: Path | str) -> None:

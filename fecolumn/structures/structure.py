@@ -37,6 +37,7 @@ from fecolumn.structures.sense import (
     check_sense,
     tell_of_densities,
     tell_of_lengths,
+    tell_of_points,
     tell_of_restitution,
 )
 from fecolumn.structures.standing import Standing
@@ -153,6 +154,7 @@ def assembled(
     tell_of_far_places(case, standing, extents, file)
     tell_of_restitution(case, met, standing, file)
     tell_of_densities(case, bodies, layout["outlines"], file)
+    tell_of_points(structure, file)
     check_sense(case, structure, standing, extents, file)
     check_rest(case, structure, standing, file)
     check_soil(case, structure, standing, extents, file)

@@ -1,6 +1,7 @@
 """Structures of many copies: what touches, what leans, and how many points there is room for."""
 
 import itertools
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -88,6 +89,16 @@ def test_a_block_that_leans_lifts_what_stands_on_it_and_no_other(monkeypatch):
     mass = 0.4 * 0.4 * 1.0 * 2000.0
     barrier = least_barrier(model, standing_of(case, model))
     assert barrier == pytest.approx(mass * 9.80665 * rise, rel=1e-9)
+
+
+def test_many_points_of_rigid_bricks_are_told_of():
+    case = wall()
+    brick = {"bodies.brick.element_size_m": 0.02, "contact.interior_points": 64}
+    with pytest.warns(UserWarning, match=r"[\d,]+ contact points of rigid bodies, \d+ in joint"):
+        structure_model(case.replace(brick), "wall")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        structure_model(case, "wall")
 
 
 def test_more_points_than_the_machine_has_room_for_are_refused(tmp_path, monkeypatch):
