@@ -76,14 +76,16 @@ def test_steps_with_rolling_substeps_are_told_apart_as_the_text_says():
     assert f"(-0.333: p < 0.001, else {min(others):.2f} to {max(others):.2f})" in PAGE
     told = {alpha: one[1] for alpha, one in shortest.items() if one[1] < 0.05}
     assert list(told) == ["-0.05", "-0.1", "-0.333"]
-    assert "(-0.05, -0.1 and -0.333: 0.016, 0.004 and < 0.001; by Holm's rule for the ten" in PAGE
+    assert (
+        "(-0.05, -0.1 and -0.333: 0.016, 0.004 and < 0.001), by Holm's rule for these ten" in PAGE
+    )
     ten = [*short.values(), *shortest.values()]
     corrected = holm([one[1] for one in ten])
     told = [alpha for alpha, p in zip([*short, *shortest], corrected) if p < 0.05]
     assert told == ["-0.333", "-0.1", "-0.333"]
-    assert "with a shorter step at the last two" in PAGE
+    assert "for these ten pairs at the last two" in PAGE
     least = sorted(one[1] for one in fine.values())[:2]
-    told = f"1e-3 and 1e-4 s at two ({least[0]} and {least[1]}; by Holm's rule for five at none)"
+    told = f"1e-3 and 1e-4 s at two ({least[0]} and {least[1]}), by Holm's rule for five at none"
     assert told in PAGE and min(holm([one[1] for one in fine.values()])) > 0.05
     flips = [one[2] for one in ten]
     assert min(holm(flips)) > 0.05 and f"(least McNemar's p {min(flips):.3f})" in PAGE
@@ -108,11 +110,27 @@ def test_about_half_of_the_difference_is_gone_with_rolling_substeps():
         for reading, dt in found
         if dt != "0.02"
     }
-    told = "{} fewer fall at 0.02 s than at 1e-3 s with fixed steps and {} fewer with rolling"
-    assert told.format(*(fewer[one, "0.001"] for one in ("fixed step", "rolling substeps"))) in PAGE
-    told = "than at 1e-4 s, {} and {} fewer"
-    more = [fewer[one, "0.0001"] for one in ("fixed step", "rolling substeps")]
-    assert told.format(*more) in PAGE and 0.4 < more[1] / more[0] < 0.6
+    fixed = [fewer["fixed step", dt] for dt in ("0.001", "0.0001")]
+    told = f"with fixed steps {fixed[0]} fewer columns fall at 0.02 s than at 1e-3 s and {fixed[1]}"
+    assert f"{told} fewer than at 1e-4 s" in PAGE
+    more = [fewer["rolling substeps", dt] for dt in ("0.001", "0.0001")]
+    assert f"with rolling substeps {more[0]} fewer (p" in PAGE
+    assert f"and {more[1]} fewer (p" in PAGE
+    assert 0.4 < more[1] / fewer["fixed step", "0.0001"] < 0.6
+
+
+def test_the_alpha_at_which_steps_differ_even_with_substeps():
+    table = tables.read("paper_parts_overturned")
+    place = table.columns.index("alpha -0.333")
+    fallen = [
+        next(row[place] for row in table.rows if row[0] == f"rolling substeps, {dt} s")
+        for dt in ("0.02", "0.001")
+    ]
+    counts = [cell.partition(" of ")[0] for cell in fallen]
+    p = pairs("paper_parts_steps", "rolling substeps, 0.02 and 0.001 s")["-0.333"][1]
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    told = f"At alpha -0.333 the two steps differ even so ({counts[0]} and {counts[1]}, p < 0.001)"
+    assert told in readme and p <= 0.001
 
 
 def swapped_p(differences):
@@ -145,7 +163,8 @@ def test_fewer_falls_at_a_long_step_are_not_confirmed_by_more_motions():
     }
     assert max(p["paper_study", dt] for dt in ("0.001", "0.0001")) < 0.001
     told = [f"{p['paper_parts', dt]:.3f}" for dt in ("0.001", "0.0001")]
-    assert f"p < 0.001 with fixed steps, {told[0]} and {told[1]} with rolling substeps" in PAGE
+    assert "than at 1e-4 s (both p < 0.001); with rolling substeps" in PAGE
+    assert f"fewer (p {told[0]}) and" in PAGE and f"fewer (p {told[1]}). This p swaps" in PAGE
     each = [
         fewer_at_a_long_step("decided/own_mesh", dt, ("0", "-0.2"), range(1, 1001))
         for dt in ("0.001", "0.0001")
@@ -153,9 +172,10 @@ def test_fewer_falls_at_a_long_step_are_not_confirmed_by_more_motions():
     first, rest = (
         [int(part.sum()) for part in one] for one in zip(*((a[:115], a[115:]) for a in each))
     )
-    assert f"{first[0]} and {first[1]} of the first 115 motions' columns fewer do" in PAGE
-    assert f"and {-rest[0]} and {-rest[1]} more of the other 885 motions'" in PAGE
-    assert "(all: p {:.2f} and {:.2f})".format(*map(swapped_p, each)) in PAGE
+    told = f"in the first 115 motions {first[0]} fewer columns fall at 0.02 s than at 1e-3 s and"
+    assert f"{told} {first[1]} fewer than at 1e-4 s" in PAGE
+    assert f"in the other 885 motions {-rest[0]} and {-rest[1]} more fall" in PAGE
+    assert "significant (p {:.2f} and {:.2f})".format(*map(swapped_p, each)) in PAGE
 
 
 def test_what_rolling_leaves_of_finding_b_at_one_alpha():
@@ -305,7 +325,7 @@ def test_cost_of_shaken_structures():
         for row, cell in column("shaken", "peak, MuJoCo [m]").items()
         if row.endswith(("0.1 of uplift", "0.5 of uplift"))
     ]
-    assert f"should stand by up to {min(moved):.1f} to {max(moved):.1f} mm" in PAGE
+    assert f"should stand by {min(moved):.1f} to {max(moved):.1f} mm" in PAGE
 
 
 def test_models_agree_more_often_than_by_chance():
@@ -372,14 +392,15 @@ def test_steps_and_alphas_that_1000_motions_show_alike():
     verdicts = column("own_mesh", "verdict").values()
     assert set(verdicts) == {"alike within 0.1"} and len(verdicts) == 9
     bounds = [float(cell) for cell in column("own_mesh", "at most").values()]
-    assert f"(four after 640 motions; a distance above {max(bounds):.3f} is excluded)" in PAGE
+    assert (
+        f"in each a distance above {max(bounds):.3f} is excluded" in PAGE
+        and "four of them with 640" in PAGE
+    )
     assert sorted(column("own_mesh", "motions").values()) == ["1000"] * 5 + ["640"] * 4
     p = [float(cell) for cell in column("own_mesh", "p").values()]
     assert f"p = {min(p):.3f}, by Holm's rule for nine pairs {min(holm(p)):.2f}" in PAGE
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert (
-        "In 640 to 1,000 motions, by default and at alpha 0 and -0.2, steps of 0.02, 1e-3" in readme
-    )
+    assert "With substeps and alpha 0 and -0.2, 640 to 1,000 motions exclude that any two" in readme
 
 
 def test_drums_beside_the_monolith_by_pulse_period():
