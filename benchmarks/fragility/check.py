@@ -57,6 +57,8 @@ def line(name: str, before: list[dict], after: list[dict]) -> tuple:
         for n in sorted(first.keys() & second.keys())
         if FAILED not in (first[n]["outcome"], second[n]["outcome"])
     ]
+    if not both:
+        return (name, 0, *("-",) * (len(HEAD) - 2))
     sides = list(zip(*both))
     stand = [(a["shift_m"], b["shift_m"]) for a, b in both if not lost(a) and not lost(b)]
     a, b = np.array(stand or [(np.nan, np.nan)]).T

@@ -4,8 +4,8 @@
 
 fitted by least squares to all cells alike. What it misses is told beside what the mean of the cells
 misses: a formula that is no better explains nothing. Both are told where nothing was fitted, too:
-cells of one slenderness by the fit to the others, or by the mean of these. Of softer bodies, and
-with a term of the stiffness or of the friction, no formula was found that is better there.
+cells of one slenderness by the fit to the others, or by the mean of these. Of softer bodies no
+formula was found that is better there, and a term of the stiffness makes it worse.
 """
 
 from __future__ import annotations
@@ -81,13 +81,20 @@ def fit(cells: list[dict]) -> Formula:
 
 
 def _left_out(cells: list[dict]) -> list[tuple[list[dict], list[dict]]]:
-    """Of each slenderness the cells of the others, and its own."""
-    return [
+    """Of each slenderness the cells of the others, where these have all its sections, and its
+    own.
+    """
+    parts = [
         (
             [one for one in cells if one["ratio"] != ratio],
             [one for one in cells if one["ratio"] == ratio],
         )
         for ratio in sorted({one["ratio"] for one in cells})
+    ]
+    return [
+        (rest, own)
+        for rest, own in parts
+        if {one["shape"] for one in rest} >= {one["shape"] for one in own}
     ]
 
 

@@ -219,11 +219,10 @@ class ReducedAnalysis(OfStructure):
         """
         if not self.rests_anywhere or self.engine.fallen(self.steepest_at(self.step)) != STANDS:
             return True
-        steps = math.ceil(self.turn_s / self.dt_s)
+        steps = math.ceil(self.still_s() / self.dt_s)
         if self._advance(min(steps, self.steps - self.step), goes_on=True):
             return True
-        still = self.engine.made[:, ENERGY].max(initial=0.0) <= self.still_j
-        return bool(still) and not self.leans_far()
+        return bool(self.engine.made[:, ENERGY].max(initial=0.0) <= self.still_j)
 
     def _advance_while_quick(self, count: int, pace: Pace) -> bool:
         """So many steps, fewer where they are slow; whether the column is lost or at rest."""

@@ -43,6 +43,8 @@ _LIFTED = 0.02
 _TURNS = 4.0
 # Over its critical tilt: a body that leans farther may turn back there more slowly still
 _LEANS = 0.9
+# Over the usual time: how long it must be still there
+_NEAR_EDGE = 10.0
 
 
 class OfStructure(Analysis):
@@ -116,15 +118,22 @@ class OfStructure(Analysis):
 
     def is_still(self) -> bool:
         """As of Analysis; where the structure may rest anywhere, by its kinetic energy alone, for
-        `turn_s`, and where no body leans to near its critical tilt.
+        `still_s`.
         """
         if not self.rests_anywhere:
             return super().is_still()
-        since = float(self.history.last()["time"]) - self.turn_s
-        still = self.history.stayed_below("energy/kinetic", self.still_j, since)
-        return still and not self.leans_far()
+        now = float(self.history.last()["time"])
 
-    def leans_far(self) -> bool:
+        def still(for_s: float) -> bool:
+            return self.history.stayed_below("energy/kinetic", self.still_j, now - for_s)
+
+        return still(self.turn_s) and still(self.still_s())
+
+    def still_s(self) -> float:
+        """`turn_s`, longer where a body leans to near its critical tilt."""
+        return self.turn_s * (_NEAR_EDGE if self._leans_far() else 1.0)
+
+    def _leans_far(self) -> bool:
         """Whether a body leans to near its critical tilt, where what turns back is slow for long;
         not of bodies that may fall and lie.
         """

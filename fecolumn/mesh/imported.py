@@ -42,7 +42,7 @@ _DIMENSION_TOLERANCE = 0.01
 # numbers behind it: a shift, and the axis and the angle of a rotation
 _NODES = re.compile(r"^\*\s*node\s*(?:,|$)", re.IGNORECASE | re.MULTILINE)
 _INSTANCE = re.compile(
-    r"^\*\s*instance\b(?:[^\n]*,[ \t]*\n)*[^\n]*\n"
+    r"^\*\s*instance\b(?:[^\n]*,[ \t]*\n(?![ \t]*[-+.\d]))*[^\n]*\n"
     r"(?P<placed>(?:\*\*[^\n]*\n|[ \t]*[-+.\d][^\n]*\n)*)",
     re.IGNORECASE | re.MULTILINE,
 )

@@ -72,7 +72,8 @@ def upper_bound(difference: ArrayLike, confidence: float) -> float:
     as of `paired_error`.
 
     Where few motions differ, all one way, the error of `paired_error` is too small: the bound is
-    that of `score_bound` at least, to which a record whose motions differ in part counts as a part.
+    that of `score_bound` at least, to which what differs in part counts as more, smaller
+    differences of as much variance.
     """
     difference = np.asarray(difference, float)
     centre, error = paired_error(difference)
@@ -80,14 +81,19 @@ def upper_bound(difference: ArrayLike, confidence: float) -> float:
     bound = max(bound, (np.abs(centre) + normal_quantile(2 * confidence - 1) * error).max())
     # with records of several sizes a large one counts as more than one
     ups, downs = (np.clip(sign * difference, 0.0, 1.0).sum(axis=0) for sign in (1, -1))
-    most, least = np.maximum(ups, downs), np.minimum(ups, downs)
-    bound = max(bound, score_bound(most, least, len(difference), confidence).max())
+    # differences in part are more and smaller ones: of this size, with a whole one besides, as none
+    # that was seen says nothing of the size of others
+    size = ((np.clip(np.abs(difference), 0.0, 1.0) ** 2).sum(axis=0) + 1) / (ups + downs + 1)
+    most, least, n = np.maximum(ups, downs) / size, np.minimum(ups, downs) / size, 1 / size
+    bound = max(bound, score_bound(most, least, len(difference) * n, confidence).max())
     return float(min(1.0, bound))
 
 
-def score_bound(ups: NDArray[Any], downs: NDArray[Any], n: int, confidence: float) -> NDArray[Any]:
+def score_bound(
+    ups: NDArray[Any], downs: NDArray[Any], n: NDArray[Any] | int, confidence: float
+) -> NDArray[Any]:
     """Upper bound (...) at a one-sided `confidence` of the difference of two paired proportions, of
-    which `ups` of n motions have the first alone, and `downs` (...) the second, parts allowed.
+    which `ups` of n (...) motions have the first alone and `downs` (...) the second, or parts.
 
     It is the largest difference that the score test does not reject (Tango 1998, Statistics in
     Medicine 17): Wilson's bound where `downs` is 0.

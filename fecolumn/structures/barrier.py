@@ -20,7 +20,13 @@ from fecolumn.structures.foot_on_springs import FootOnSprings
 from fecolumn.structures.model import JointModel, StructureModel
 from fecolumn.structures.place import footing, placed
 from fecolumn.structures.spring_areas import spring_areas
-from fecolumn.structures.standing import Standing, Supports, from_below, supports_of
+from fecolumn.structures.standing import (
+    Standing,
+    Supports,
+    from_below,
+    remembered,
+    supports_of,
+)
 
 # Directions [deg] in which a body is leaned; the least energy is in that of its weakest edge
 _DIRECTIONS = (0.0, 90.0, 180.0, 270.0)
@@ -102,7 +108,22 @@ def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
     it is carried along upright; it leans as one rigid body with all that stands on it; or all parts
     of its model lean, as the columns of a frame.
     """
-    joints, alone, lifts = list(structure.joints), stances(structure, standing), []
+    joints = list(structure.joints)
+    with remembered():
+        lifts = _lifts(joints, stances(structure, standing), standing)
+    together = _together(standing, joints)
+    lifts += [overturning.barrier(one) for _, one, _ in together]
+    lifts += [foot.barrier for _, _, foot in together if foot is not None]
+    return float(min((lift for lift in lifts if lift > 0), default=0.0))
+
+
+def _lifts(
+    joints: list[JointModel], alone: dict[int, Stance], standing: list[Standing]
+) -> list[float]:
+    """Energy [J] that leans each part with a stance, `alone`, by its critical tilt, by itself or
+    with all of its model, whatever stands on it being carried along.
+    """
+    lifts: list[float] = []
     upright = [replace(part, start=None) for part in standing]
     supports = supports_of(standing, joints)
     for place, foot in alone.items():
@@ -126,10 +147,7 @@ def least_barrier(structure: StructureModel, standing: list[Standing]) -> float:
                     )
                 )
                 break
-    together = _together(standing, joints)
-    lifts += [overturning.barrier(one) for _, one, _ in together]
-    lifts += [foot.barrier for _, _, foot in together if foot is not None]
-    return float(min((lift for lift in lifts if lift > 0), default=0.0))
+    return lifts
 
 
 def _with_what_stands_on(places: list[int], supports: list[Supports]) -> set[int]:

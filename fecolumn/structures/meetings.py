@@ -94,8 +94,8 @@ def _of_interface(
                 continue
             found += meetings
             gaps += apart if not meetings else []
-    if held and not found and not interface.open:
-        return []  # all that meets there is fixed
+    if held and not found and not gaps and not interface.open:
+        return []  # all that meets or looks at one another there is fixed
     touching: set[tuple[tuple[str, int] | None, int]] = {
         (one.slave, one.slave_face) for one in found
     }

@@ -153,7 +153,8 @@ def tell_of_points(structure: StructureModel, file: Path | str) -> None:
     counts = {
         joint.name: len(structure.parts[joint.slave].model.surfaces[joint.slave_surface].nodes)
         for joint in structure.joints
-        if not joint.round  # whose rim needs its points
+        # a round rim needs its points, and so does what gives or is glued over the face
+        if not (joint.round or joint.pad or joint.bond or joint.law.any())
     }
     total = sum(counts.values())
     rigid = not any(part.model.flexibility.any() for part in structure.parts)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import contextlib
+from collections.abc import Iterable, Iterator, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,10 +18,8 @@ from fecolumn.structures.model import BodyModel, JointModel, StructureModel
 
 # Vertical part of a face's normal below which it carries nothing
 _LEVEL = 1e-9
-# What touches, of the bodies asked for last, by what decides it: it is asked for again with each
-# body that leans. The models are kept along, so that no other one has the identity of one of them
-_KEPT = 5000
-_touching: dict[Any, tuple[Any, NDArray[Any]]] = {}
+# What touches in each joint, by its identity, within `remembered`; None elsewhere
+_known: ContextVar[dict[int, NDArray[Any]] | None] = ContextVar("touching", default=None)
 #: What a part stands on, GROUND or the places of parts, each with the joints between.
 Supports = list[tuple[int, list[JointModel]]]
 
@@ -53,18 +53,30 @@ def touching(standing: Sequence[Standing], joint: JointModel) -> NDArray[Any]:
     if joint.master == GROUND or joint.master_surface is None:
         return np.arange(len(surface.nodes))
     master = standing[joint.master]
-    of = slave.model, joint.slave_surface, master.model, joint.master_surface
-    key = tuple(map(id, of)), slave.center.tobytes(), master.center.tobytes()
-    if key not in _touching:
-        face = master.model.surfaces[joint.master_surface]
-        corners = face.plane(master.model.arms[face.nodes])[:, :2]
-        points = face.plane(slave.center + slave.model.arms[surface.nodes] - master.center)[:, :2]
-        tolerance = 1e-9 * np.ptp(corners, axis=0).max()
-        rows = np.flatnonzero(over(points, corners[face.triangles], tolerance))
-        if len(_touching) >= _KEPT:
-            _touching.clear()
-        _touching[key] = of, rows
-    return _touching[key][1]
+    known = _known.get()
+    if known is not None and id(joint) in known:
+        return known[id(joint)]
+    face = master.model.surfaces[joint.master_surface]
+    corners = face.plane(master.model.arms[face.nodes])[:, :2]
+    points = face.plane(slave.center + slave.model.arms[surface.nodes] - master.center)[:, :2]
+    rows = np.flatnonzero(
+        over(points, corners[face.triangles], 1e-9 * np.ptp(corners, axis=0).max())
+    )
+    if known is not None:
+        known[id(joint)] = rows
+    return rows
+
+
+@contextlib.contextmanager
+def remembered() -> Iterator[None]:
+    """Within it `touching` finds the rows of a joint once: for one list of joints, whose bodies
+    have the same models and upright places throughout.
+    """
+    token = _known.set({})
+    try:
+        yield
+    finally:
+        _known.reset(token)
 
 
 def supports_of(standing: Sequence[Standing], joints: Iterable[JointModel]) -> list[Supports]:

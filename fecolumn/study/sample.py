@@ -140,11 +140,13 @@ def _of_study(folder: str, choice: dict[str, Any]) -> Sample:
 
 def _content_of(row: dict[str, Any]) -> str:
     """What the sources that are axes hold, of a row of the ledger: those that the case states are
-    the same in all runs of a study, and may be others in another one that shares its motions.
+    the same in all runs of a study, and may be others in another one that shares its motions. All
+    where the first source is no axis.
     """
-    contents = str(row["motion"] or "").split()
-    if "motion" not in row["axes"]:
-        contents = contents[: sum(key in row["axes"] for key in _SOURCES)]
+    contents, chosen = str(row["motion"] or "").split(), [key in row["axes"] for key in _SOURCES]
+    # the ledger has the digests of all stated sources in this order, and which are is not known
+    if chosen[0] and "motion" not in row["axes"] and chosen == sorted(chosen, reverse=True):
+        contents = contents[: sum(chosen)]
     return " ".join(contents)
 
 

@@ -1,5 +1,5 @@
 """The multi-drum column of HybriDFEM's benchmark: least accelerations of a pulse that overturn it,
-beside three programs and an independent planar one.
+beside three programs and the planar one of benchmarks/planar.
 
 Seven drums of 0.82 m and a capital of 0.21 m, whose widths taper from 1.11 to 0.90 m so that
 neighbouring faces are equal; rigid bodies, steps of 1e-3 s.
@@ -24,11 +24,10 @@ from fecolumn.verification.result import Row
 DRUMS_DT = 1e-3
 # Heights [m] from below, widths of foot and head of the column [m], density [kg/m3], friction
 _HEIGHTS, _WIDTHS, _DENSITY, _FRICTION = 7 * (0.82,) + (0.21,), (1.11, 0.90), 2620.0, 0.7
-#: Of a first half of the pulse [s], accelerations [g] and whether the independent planar program
-#: (1e-4 s) says that they overturn. UDEC, HybriDFEM and LMGC90 say 3.6, 4.16, 4.3 g at 0.1 s; .27,
-#: .25, .25 at 0.5 s; .20, .21, .21 at 1 s; .46, .39, .44 at 0.34 s, where the planar one has
-#: windows: .435 to .445, .465 to .475, .490 to .505, and from .757 on. At 0.1 s rounding decides
-#: from 4.1 to 4.3 g: there a pulse stronger by 1e-9 g overturns it or does not.
+#: Of a first half of the pulse [s], accelerations [g] and whether the planar program (1e-4 s) says
+#: that they overturn; benchmarks/tables/drums_pushed.csv has both programs' scan, and what UDEC,
+#: HybriDFEM and LMGC90 say. At 0.1 s rounding decides between 4.12 and 4.32 g: there a pulse
+#: stronger by 1e-9 g overturns it or does not.
 OUTCOMES = {
     0.1: {4.0: False, 4.4: True},
     0.34: {

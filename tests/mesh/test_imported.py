@@ -134,6 +134,12 @@ def test_folded_torn_and_not_finite_meshes_are_refused(tube, with_file):
             "*INSTANCE with the placement 0., 0., 2.5",
         ),
         (
+            "comma.inp",
+            b"*Part, name=a\n*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1,1,1,1,1,1\n*End Part\n"
+            b"*Assembly\n*Instance, name=a-1, part=a,\n 0., 0., 2.5\n*End Instance\n",
+            "*INSTANCE with the placement 0., 0., 2.5",
+        ),
+        (
             "parts.inp",
             b"*NODE\n1,0,0,0\n*ELEMENT,TYPE=C3D8\n1,1,1,1,1,1,1,1,1\n*Node\n1,0,0,0\n*NODE "
             b"OUTPUT\n",

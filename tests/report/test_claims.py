@@ -101,7 +101,7 @@ def test_claims_on_alpha_say_what_the_scheme_builds_in(chaotic, tmp_path):
 
 
 def test_claims_say_how_many_motions_they_need(chaotic, tmp_path):
-    """The paper's margin is what its 115 motions show: 130 are enough, 40 are not."""
+    """The margin is what two samples of 115 motions show: of these 130 are enough, 40 are not."""
     found = claims(tmp_path, motions=40, scatter=0.6)
     assert (
         "With 40 motions a KS distance below 0.30 cannot be told from 0: the claim of "

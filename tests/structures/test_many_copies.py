@@ -4,7 +4,6 @@ import itertools
 import warnings
 from pathlib import Path
 
-import numpy as np
 import pytest
 from small_structures import structure
 
@@ -12,10 +11,10 @@ from fecolumn.case.case import load_case
 from fecolumn.engines import reduced_engine
 from fecolumn.foundation.schema import InputError
 from fecolumn.simulation import run
-from fecolumn.structures import meetings
+from fecolumn.structures import barrier, meetings
 from fecolumn.structures.barrier import least_barrier
 from fecolumn.structures.bodies import drawing
-from fecolumn.structures.standing import from_below, supports_of
+from fecolumn.structures.standing import from_below, remembered, supports_of, touching
 from fecolumn.structures.structure import standing_of, structure_model
 
 MESHES = Path(__file__).parents[2] / "meshes"
@@ -74,21 +73,28 @@ def test_parts_come_after_what_they_stand_on():
         assert all(one < 0 or order.index(one) < order.index(place) for one, _ in below)
 
 
-def test_a_block_that_leans_lifts_what_stands_on_it_and_no_other(monkeypatch):
-    """Two equal towers of two blocks: the least barrier is that of one upper block."""
-    block = dict(kind="block", length_m=0.4, width_m=0.4, height_m=1.0, density_kg_m3=2000.0)
-    block |= dict(rigid=True, element_size_m=0.4)
-    case = structure(
-        bodies=dict(block=block | dict(copies_m=[[0, 0, 0], [0, 0, 1], [2, 0, 0], [2, 0, 1]])),
-        joints=dict(foot=dict(between=["block", "ground"]), joint=dict(between=["block", "block"])),
-        contact=dict(friction_coefficient=0.6, interior_points=0),
-        integration=dict(engine="rigid", duration_s=0.01),
-    )
-    model = structure_model(case, "towers")
-    rise = (np.hypot(0.4, 1.0) - 1.0) / 2
-    mass = 0.4 * 0.4 * 1.0 * 2000.0
-    barrier = least_barrier(model, standing_of(case, model))
-    assert barrier == pytest.approx(mass * 9.80665 * rise, rel=1e-9)
+@pytest.mark.parametrize("file", ["rocking_frame", "colonnade_that_collapses", "trilith"])
+def test_what_stands_on_a_body_that_leans_is_all_that_moves(file, monkeypatch):
+    """The least barrier is that of placing all bodies anew with each that leans."""
+    case = load_case(MESHES / f"{file}.toml").replace({"integration.engine": "rigid"})
+    model = structure_model(case, file)
+    found = least_barrier(model, standing_of(case, model))
+    monkeypatch.setattr(barrier, "_with_what_stands_on", lambda places, supports: None)
+    assert found == pytest.approx(least_barrier(model, standing_of(case, model)), rel=1e-12)
+    monkeypatch.setattr(barrier, "_with_what_stands_on", lambda places, supports: set(places))
+    alone = least_barrier(model, standing_of(case, model))
+    assert alone < 0.9 * found
+
+
+def test_nothing_of_a_structure_is_kept_for_others():
+    case = wall()
+    model = structure_model(case, "wall")
+    standing = standing_of(case, model)
+    least_barrier(model, standing)
+    first = touching(standing, model.joints[-1])
+    assert first is not touching(standing, model.joints[-1])
+    with remembered():
+        assert touching(standing, model.joints[-1]) is touching(standing, model.joints[-1])
 
 
 def test_many_points_of_rigid_bricks_are_told_of():

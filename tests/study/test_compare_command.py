@@ -209,6 +209,9 @@ def test_only_sources_that_are_axes_tell_motions_apart():
     assert _content_of(row) == "aa"
     assert _content_of(row | dict(axes={"motion.source": "a", "motion.source_z": "b"})) == "aa bb"
     assert _content_of(row | dict(motion=None)) == ""
+    # of directions of a stated record nothing is left out, nor where only the second is an axis
+    for axes in ({"motion.rotation_deg": 30.0}, {"motion.source_y": "b.csv"}):
+        assert _content_of(row | dict(axes=axes)) == "aa bb"
 
 
 @pytest.mark.long

@@ -174,7 +174,7 @@ def _look(question: Any, args: argparse.Namespace, pool: Any) -> None:
     # of two values the middle one is the last
     places = list(dict.fromkeys([0, len(question.grid) // 2, len(question.grid) - 1]))
     spent = 0.0
-    again = iter([args.retry_failed])  # once, not in each look
+    tried: set[str] = set()
     while places:
         ids = question.ids(places)
         began = time.monotonic()
@@ -183,9 +183,10 @@ def _look(question: Any, args: argparse.Namespace, pool: Any) -> None:
             args.output,
             workers=pool,
             only=ids,
-            retry_failed=next(again, False),
+            retry_failed=ids - tried if args.retry_failed else False,  # each once
             stream=None if args.quiet else sys.stderr,
         )
+        tried |= ids
         spent += time.monotonic() - began
         try:
             question.take(places, rows)
