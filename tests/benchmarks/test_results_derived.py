@@ -456,3 +456,11 @@ def test_pushes_that_verify_checks_lie_in_the_bands_of_the_scan():
     for tp, outcomes in OUTCOMES.items():
         for a, falls in outcomes.items():
             assert falls_at(bands[f"{tp:g}"], a) == falls, (tp, a)
+
+
+def test_drums_of_which_least_and_most_still_rock():
+    rocking = {
+        name: int(cell) for name, cell in column("fragility", "still rocking at the end").items()
+    }
+    drums = {name: n for name, n in rocking.items() if name.endswith("drums") and "el" not in name}
+    assert min(drums, key=drums.get) == "3 drums" and max(drums, key=drums.get) == "8 drums"
