@@ -32,10 +32,10 @@ def complete(function: Callable, jobs: dict[Path, tuple], workers: int, what: st
     what
         the files are called on the line of progress.
     """
+    for folder in sorted({file.parent for file in jobs}):
+        _note_physics(folder)
     todo = [file for file in jobs if not file.exists()]
     todo = [todo[i] for i in np.random.default_rng(0).permutation(len(todo))]
-    for folder in {file.parent for file in todo}:
-        folder.mkdir(parents=True, exist_ok=True)
     progress = CountProgress(len(todo), what)
     if workers == 1:
         for done, file in enumerate(todo, 1):
@@ -48,6 +48,20 @@ def complete(function: Callable, jobs: dict[Path, tuple], workers: int, what: st
                 write_json(futures[future], future.result())
                 progress.show(done)
     progress.end()
+
+
+def _note_physics(folder: Path) -> None:
+    """Note in a folder of which physics its results are; ends the program where they are of older
+    one.
+    """
+    file = folder / "physics.json"
+    if file.exists() and (before := json.loads(file.read_text())) != PHYSICS:
+        raise SystemExit(
+            f"{folder} holds results of physics {before}, and this code has {PHYSICS}: choose "
+            "another folder by -o"
+        )
+    folder.mkdir(parents=True, exist_ok=True)
+    write_json(file, PHYSICS)
 
 
 def found(jobs) -> list:
