@@ -31,9 +31,17 @@ def complete(function: Callable, jobs: dict[Path, tuple], workers: int, what: st
         processes; 1: this one.
     what
         the files are called on the line of progress.
+
+    Raises
+    ------
+    SystemExit
+        a folder holds results of older physics.
     """
-    for folder in sorted({file.parent for file in jobs}):
-        _note_physics(folder)
+    try:
+        for folder in sorted({file.parent for file in jobs}):
+            keep_settings(folder, {})
+    except ValueError as error:
+        raise SystemExit(str(error)) from None
     todo = [file for file in jobs if not file.exists()]
     todo = [todo[i] for i in np.random.default_rng(0).permutation(len(todo))]
     progress = CountProgress(len(todo), what)
@@ -48,20 +56,6 @@ def complete(function: Callable, jobs: dict[Path, tuple], workers: int, what: st
                 write_json(futures[future], future.result())
                 progress.show(done)
     progress.end()
-
-
-def _note_physics(folder: Path) -> None:
-    """Note in a folder of which physics its results are; ends the program where they are of older
-    one.
-    """
-    file = folder / "physics.json"
-    if file.exists() and (before := json.loads(file.read_text())) != PHYSICS:
-        raise SystemExit(
-            f"{folder} holds results of physics {before}, and this code has {PHYSICS}: choose "
-            "another folder by -o"
-        )
-    folder.mkdir(parents=True, exist_ok=True)
-    write_json(file, PHYSICS)
 
 
 def found(jobs) -> list:
@@ -89,5 +83,6 @@ def keep_settings(folder: Path, settings: dict) -> None:
             raise ValueError(
                 f"{folder} holds results with {', '.join(other)}: choose another folder by -o"
             )
+        return
     folder.mkdir(parents=True, exist_ok=True)
     write_json(file, settings)

@@ -7,6 +7,7 @@ from itertools import combinations
 import numpy as np
 from scipy.stats import binomtest
 
+from benchmarks.beside import markdown as as_markdown
 from benchmarks.fragility.motions import PGV
 from benchmarks.fragility.structures import ELASTIC
 from fecolumn.engines.ending import OVERTURNED, SLID_OFF, STILL_ROCKING
@@ -100,7 +101,7 @@ def periods_table(found: dict[str, list[dict]]) -> str:
         ]
         halves = [cell for pair in half_intervals(told) for cell in pair]
         table.append([name, *halves, *(f"{np.median(one or [np.nan]):.2g}" for one in shifts)])
-    return _table(head, table)
+    return as_markdown(head, table)
 
 
 def markdown(found: dict[str, list[dict]]) -> str:
@@ -149,7 +150,7 @@ def markdown(found: dict[str, list[dict]]) -> str:
         [f"{one} and {other}", *beside(found[one], found[other])]
         for one, other in pairs_of(list(found))
     ]
-    tables = _table(head, table), periods_table(found), _table(pairs_head, pairs)
+    tables = as_markdown(head, table), periods_table(found), as_markdown(pairs_head, pairs)
     return "\n\n".join(tables)
 
 
@@ -176,8 +177,3 @@ def beside(one: list[dict], other: list[dict]) -> list:
     second = sum(fates[1][n] and not fates[0][n] for n in both)
     p = binomtest(first, first + second).pvalue if first + second else 1.0
     return [len(both), first, second, f"{p:.2g}"]
-
-
-def _table(head, rows) -> str:
-    lines = [head, ["---"] * len(head), *rows]
-    return "\n".join(f"| {' | '.join(map(str, line))} |" for line in lines)

@@ -140,16 +140,11 @@ def _boxes(
     case: Case, copies: Sequence[Any], faces: dict[str, list[Face]]
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """Least and largest places (n, 3) [m] of the faces of copies; of no face inf and -inf."""
-    ends = {
-        body: np.array(
-            [(one.corners.min(axis=(0, 1)), one.corners.max(axis=(0, 1))) for one in faces[body]]
-        ).reshape(-1, 2, 3)
-        for body in {body for body, _ in copies}
-    }
-    spans = {
-        body: (one[:, 0].min(axis=0, initial=np.inf), one[:, 1].max(axis=0, initial=-np.inf))
-        for body, one in ends.items()
-    }
+    spans = {}
+    for body in {body for body, _ in copies}:
+        corners = [np.zeros((0, 3)), *(one.corners.reshape(-1, 3) for one in faces[body])]
+        points = np.concatenate(corners)
+        spans[body] = points.min(axis=0, initial=np.inf), points.max(axis=0, initial=-np.inf)
     low, high = (
         np.array([spans[copy[0]][side] + place_of(case, copy) for copy in copies])
         for side in range(2)

@@ -23,8 +23,10 @@ def test_what_is_there_is_not_made_again_and_what_is_missing_is(tmp_path):
 def test_results_of_older_physics_are_refused(tmp_path, monkeypatch):
     jobs = {tmp_path / "1.json": (1,)}
     kept.complete(float, jobs, 1, "numbers")
-    assert json.loads((tmp_path / "physics.json").read_text()) == kept.PHYSICS
+    assert json.loads((tmp_path / "settings.json").read_text()) == {"physics": kept.PHYSICS}
     older = kept.PHYSICS
     monkeypatch.setattr(kept, "PHYSICS", older + 1)
-    with pytest.raises(SystemExit, match=f"results of physics {older}, and this code has"):
+    with pytest.raises(
+        SystemExit, match=f"holds results with physics {older}: choose another folder by -o"
+    ):
         kept.complete(float, jobs, 1, "numbers")

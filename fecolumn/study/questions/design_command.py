@@ -174,7 +174,6 @@ def _look(question: Any, args: argparse.Namespace, pool: Any) -> None:
     # of two values the middle one is the last
     places = list(dict.fromkeys([0, len(question.grid) // 2, len(question.grid) - 1]))
     spent = 0.0
-    tried: set[str] = set()
     while places:
         ids = question.ids(places)
         began = time.monotonic()
@@ -183,10 +182,9 @@ def _look(question: Any, args: argparse.Namespace, pool: Any) -> None:
             args.output,
             workers=pool,
             only=ids,
-            retry_failed=ids - tried if args.retry_failed else False,  # each once
+            retry_failed=args.retry_failed,  # no value is looked at twice
             stream=None if args.quiet else sys.stderr,
         )
-        tried |= ids
         spent += time.monotonic() - began
         try:
             question.take(places, rows)
