@@ -30,7 +30,7 @@ VERIFIED = (
     "HybriDFEM 4.16, LMGC90 4.3, UDEC 3.6 g",
     "at 0.34 s falls and stands alternate",
 )
-#: What `tests/benchmarks/test_results_derived.py` computes from several cells
+#: What `tests/benchmarks/test_results_steps.py` computes from several cells
 DERIVED = (
     "640 to 1,000 motions exclude",
     "differ by more than D = 0.1",
