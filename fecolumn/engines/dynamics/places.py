@@ -220,10 +220,8 @@ class Places:
         centers = self._into_frames(
             np.repeat(self.centers(x), self.bodies.body["count"], axis=0), rotation
         )
-        positions, self._arms_now = (
-            self.at_points(self._out_of_frames(self.reference + moved, rotation)),
-            self.reference + moved - centers,
-        )
+        positions = self.at_points(self._out_of_frames(self.reference + moved, rotation))
+        self._arms_now = self.reference + moved - centers
         on = np.flatnonzero(self.points["master"] == GROUND)
         positions[on] -= poses["origin"][self.points["interface"][on]]
         if self.moving:
