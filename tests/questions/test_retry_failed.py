@@ -44,6 +44,23 @@ def fail(folder, count):
             )
 
 
+def watch(monkeypatch):
+    """The looks of a command from now on: the ids each runs again where they failed, and its
+    stream of progress.
+    """
+    looks, whole = [], fecolumn.study.run.complete_study
+
+    def watched(plan, *args, **options):
+        again, only = options["retry_failed"], options["only"]
+        every = {one.id for one in plan.analyses} if only is None else only
+        ids = (every if again is True else every & again) if again else set()
+        looks.append((ids, options["stream"]))
+        return whole(plan, *args, **options)
+
+    monkeypatch.setattr(fecolumn.study.run, "complete_study", watched)
+    return looks
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("command", ["design", "screen"])
 def test_what_failed_is_told_and_tried_again(asked, tmp_path, capsys, command):
@@ -63,15 +80,10 @@ def test_what_failed_is_told_and_tried_again(asked, tmp_path, capsys, command):
 @pytest.mark.long
 def test_design_tries_once_in_all_its_looks(asked, tmp_path, monkeypatch):
     words = ["design", *asked["design"], "-o", str(tmp_path / "out"), "--retry-failed"]
-    tried, whole = [], fecolumn.study.run.complete_study
-
-    def counted(*args, **options):
-        tried.append(options["retry_failed"])
-        return whole(*args, **options)
-
-    monkeypatch.setattr(fecolumn.study.run, "complete_study", counted)
+    looks = watch(monkeypatch)
     assert main(words) == 0
-    assert len(tried) > 1 and tried == [True] + [False] * (len(tried) - 1)
+    again = [one for ids, _ in looks for one in ids]
+    assert len(looks) > 1 and len(again) == len(set(again)) == 30
 
 
 @pytest.mark.long
@@ -126,17 +138,13 @@ def test_stages_of_a_study_try_once_what_failed(tmp_path, monkeypatch, capsys):
         "[case.block]\nwidth_m = 0.3\nheight_m = 2.0\n[case.integration]\ndt_s = 0.01\n"
         '[axes]\n"block.restitution" = [0.9, 0.9001]\n"motion.source" = ["lick:1-80"]\n'
     )
-    tried, whole = [], fecolumn.study.run.complete_study
-
-    def counted(*args, **options):
-        tried.append((options["retry_failed"], options["stream"]))
-        return whole(*args, **options)
-
-    monkeypatch.setattr(fecolumn.study.run, "complete_study", counted)
+    looks = watch(monkeypatch)
     words = ["study", str(tmp_path / "study.toml"), "-o", str(tmp_path / "out"), "-j", "1", "-q"]
     more = ["--until", "decided", "--retry-failed"]
     assert main([*words, *more]) == 0
-    assert tried == [(True, None)] + [(False, None)] * (len(tried) - 1) and len(tried) > 1
+    again = [one for ids, _ in looks for one in ids]
+    assert len(looks) > 1 and len(again) == len(set(again)) > 0
+    assert {stream for _, stream in looks} == {None}
     told = capsys.readouterr()
     assert (
         "analyses," not in told.err
