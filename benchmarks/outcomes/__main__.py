@@ -2,12 +2,12 @@
 
     ./containers/run python -m benchmarks.outcomes [-n ANALYSES] [-j N] [-o DIR] [--keep]
 
-Of the analyses 68 % are planar rocking blocks, 22 % rolling columns, 8 % rigid and 2 % elastic
-bodies with contact and friction; motions are near-fault ones, the Lick ensemble at three time
+Of the analyses 50 % are rigid and 28 % elastic bodies with contact and friction, 14 % planar
+rocking blocks and 8 % rolling columns; motions are near-fault ones, the Lick ensemble at three time
 scales and pulses. The same command goes on where it was stopped. Writes DIR/outcomes.h5; --keep
 also puts it in the place of the table that comes with the package,
-fecolumn/study/results/outcomes.h5. Prints what became of each model, the size of the file, and a
-fragility surface fitted to it by statsmodels.
+fecolumn/study/results/outcomes.h5. Prints what became of each model, the size of the file, and
+fragility surfaces fitted to it by statsmodels.
 """
 
 from __future__ import annotations
@@ -19,15 +19,18 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.beside import markdown
 from benchmarks.kept import complete, found
 from benchmarks.outcomes import bodies, models
+from benchmarks.outcomes.draws import DENSITY
 from benchmarks.outcomes.motions import motions_file
 from benchmarks.outcomes.table import write
+from fecolumn.case.sections import GRAVITY
 from fecolumn.foundation.cores import usable_cores
 from fecolumn.study.results.outcomes import PACKAGED, outcomes
 
 #: Share of the analyses of each model; rows of a part, in a file of its own.
-SHARES = {models.BLOCK: 0.68, models.ROLLING: 0.22, bodies.RIGID: 0.08, bodies.ELASTIC: 0.02}
+SHARES = {models.BLOCK: 0.14, models.ROLLING: 0.08, bodies.RIGID: 0.5, bodies.ELASTIC: 0.28}
 PARTS = {models.BLOCK: (models.planar_blocks, 2000), models.ROLLING: (models.rolling_columns, 250)}
 #: Near-fault motions, with half as many others; of fewer analyses a fortieth.
 NEAR_FAULT = 2000
@@ -40,7 +43,7 @@ def main(arguments=None) -> int:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        "-n", type=int, default=104_000, metavar="ANALYSES", help="(default: %(default)s)"
+        "-n", type=int, default=130_000, metavar="ANALYSES", help="(default: %(default)s)"
     )
     parser.add_argument("-j", "--jobs", type=int, default=usable_cores(), help="at a time")
     parser.add_argument(
@@ -80,40 +83,46 @@ def _rows(model: str, args, file: Path, folder: Path) -> list[dict]:
 
 
 def told(table: Path) -> str:
-    """Counts of the outcomes by model, the size of the file, a fragility surface."""
+    """Counts of the outcomes by model, the size of the file, fragility surfaces."""
     frame = outcomes(file=table)
     counts = frame.groupby(["model", "outcome"], observed=False).size().unstack()
     head = ["model", "analyses", *map(str, counts.columns)]
-    lines = [head, ["---", *["---:"] * (len(head) - 1)]]
-    lines += [[name, *map(str, (row.sum(), *row))] for name, row in counts.iterrows()]
-    text = "\n".join(f"| {' | '.join(map(str, line))} |" for line in lines)
+    rows = [[str(name), *map(str, (row.sum(), *row))] for name, row in counts.iterrows()]
     size = f"{table}: {table.stat().st_size / 1e6:.2f} MB, {len(frame)} analyses"
-    return f"{text}\n\n{size}\n\n{surface(frame)}"
+    head_of_surface = ["bodies", "ln of", "parameter", "standard error"]
+    fitted = [
+        [kind, *line] for kind in (bodies.RIGID, bodies.ELASTIC) for line in surface(frame, kind)
+    ]
+    return f"{markdown(head, rows)}\n\n{size}\n\n{markdown(head_of_surface, fitted)}"
 
 
-def surface(frame) -> str:
-    """Parameters of P(overturned) = Phi(c x) of rigid bodies, x the logarithms of PGV over p R, of
-    the slenderness and of the friction, as a table.
+def surface(frame, kind: str) -> list[list[str]]:
+    """Parameters of P(overturned) = Phi(c x), x the logarithms of PGV over p R, of the slenderness,
+    of the friction and, of elastic bodies, of E B / (rho g H^2): [name, parameter, standard error].
+    Analyses of one motion, or of one body, are not independent: errors are those of clusters.
     """
     from statsmodels.discrete.discrete_model import Probit
     from statsmodels.tools import add_constant
 
-    rigid = frame[frame.model == bodies.RIGID]
-    radius = np.hypot(rigid.width_m, rigid.height_m) / 2
-    x = np.column_stack(
-        [
-            np.log(rigid.pgv_m_s / (rigid.p_rad_s * radius)),
-            np.log(rigid.slenderness_rad),
-            np.log(rigid.friction),
-        ]
+    some = frame[frame.model == kind]
+    radius = np.hypot(some.width_m, some.height_m) / 2
+    x = {
+        "PGV / (p R)": some.pgv_m_s / (some.p_rad_s * radius),
+        "slenderness": some.slenderness_rad,
+        "friction": some.friction,
+    }
+    if kind == bodies.ELASTIC:
+        weight = DENSITY * GRAVITY * some.height_m**2
+        x["E B / (rho g H^2)"] = some.youngs_modulus_pa * some.width_m / weight
+    given = add_constant(np.log(np.column_stack(list(x.values()))))
+    alike = [some.motion, some.groupby(["shape", "width_m", "height_m"], observed=True).ngroup()]
+    fit = Probit((some.outcome == "overturned").to_numpy(float), given).fit(
+        disp=False, cov_type="cluster", cov_kwds={"groups": np.column_stack(alike)}
     )
-    fit = Probit((rigid.outcome == "overturned").to_numpy(float), add_constant(x)).fit(disp=False)
-    lines = ["| ln of | parameter | standard error |", "|---|---:|---:|"]
-    for name, value, error in zip(
-        ("1", "PGV / (p R)", "slenderness", "friction"), fit.params, fit.bse
-    ):
-        lines.append(f"| {name} | {value:.3f} | {error:.3f} |")
-    return "\n".join(lines)
+    return [
+        [name, f"{value:.3f}", f"{error:.3f}"]
+        for name, value, error in zip(("1", *x), fit.params, fit.bse)
+    ]
 
 
 if __name__ == "__main__":

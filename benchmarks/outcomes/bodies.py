@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from benchmarks.outcomes.draws import DENSITY, Drawn, drawn
@@ -17,8 +18,8 @@ RIGID, ELASTIC = "rigid body", "elastic body"
 #: Step [s], time followed after a motion unless all is at rest before [s]; elastic modes; elements
 #: around a cylinder and along the side of a block.
 STEP, REST_S, MODES, AROUND, ALONG = 2e-3, 2.0, 10, 12, 3
-#: Elastic bodies that are made, each shaken by many motions: a body's model takes seconds.
-MADE = 24
+#: Analyses of each elastic body that is made, one after the other: a body's model takes seconds.
+SHAKEN = 100
 _ENGINES = {RIGID: "rigid", ELASTIC: "reduced"}
 _KEYS = ("number",)
 
@@ -57,13 +58,13 @@ def case_of(kind: str, one: Drawn, file: Path) -> Case:
 
 
 def draws_of(kind: str, count: int, file: Path) -> list[Drawn]:
-    """So many draws; elastic ones are of MADE bodies in turn, friction and motion their own."""
+    """So many draws; of elastic ones SHAKEN are of one body, friction and motion their own."""
     ensemble = stored(file)
     made = drawn(kind, 0, count, ensemble, False)
     if kind == RIGID:
         return made
-    few = drawn(kind, 1, MADE, ensemble, False)
-    return [_shaken(one, few[place % len(few)]) for place, one in enumerate(made)]
+    few = drawn(kind, 1, math.ceil(count / SHAKEN), ensemble, False)
+    return [_shaken(one, few[place // SHAKEN]) for place, one in enumerate(made)]
 
 
 def _shaken(one: Drawn, body: Drawn) -> Drawn:

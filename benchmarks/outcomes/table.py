@@ -21,7 +21,9 @@ COLUMNS = {
         "and friction in three dimensions",
         words=(BLOCK, ROLLING, RIGID, ELASTIC),
     ),
-    "shape": TableColumn("of the body, homogeneous, on a flat ground", words=("block", "cylinder")),
+    "shape": TableColumn(
+        "of the body, homogeneous of 2500 kg/m3, on a flat ground", words=("block", "cylinder")
+    ),
     "width_m": TableColumn("side of a block's square foot, or diameter", "m"),
     "height_m": TableColumn("of the body", "m"),
     "slenderness_rad": TableColumn("alpha: angle whose tangent is width over height", "rad"),
