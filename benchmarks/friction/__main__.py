@@ -25,6 +25,7 @@ from pathlib import Path
 
 import numpy as np
 
+from benchmarks.beside import markdown
 from benchmarks.friction.assemblies import problems
 from benchmarks.friction.fclib import read_problem
 from benchmarks.friction.figure import performance_figure
@@ -135,17 +136,6 @@ def compared(given: list[Problem], folder: Path) -> tuple[list[dict], str]:
     return records, remark
 
 
-def _table(rows) -> str:
-    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
-    lines = [
-        "| " + " | ".join(cell.ljust(width) for cell, width in zip(row, widths)) + " |"
-        for row in rows
-    ]
-    return "\n".join(
-        [lines[0], "|" + "|".join("-" * (width + 2) for width in widths) + "|", *lines[1:]]
-    )
-
-
 def summary(records) -> str:
     """A row an assembly or structure: problems solved, worst violation, median and longest time of
     each solver.
@@ -177,7 +167,7 @@ def summary(records) -> str:
             for factor, key in ((1, "points"), (3, "points"), (1, "rank"))
         )
         rows.append((name, *sizes, *cells))
-    return _table(rows)
+    return markdown(rows[0], rows[1:])
 
 
 def _range(values) -> str:
@@ -220,7 +210,7 @@ def shares(records) -> str:
                 f"{np.median(judged):.0e}, {max(judged):.0e}" if judged else "-",
             )
         )
-    return _table(rows)
+    return markdown(rows[0], rows[1:])
 
 
 def detail(records) -> str:
@@ -256,7 +246,7 @@ def detail(records) -> str:
                 *cells,
             )
         )
-    return _table(rows)
+    return markdown(rows[0], rows[1:])
 
 
 def main(arguments=None) -> int:

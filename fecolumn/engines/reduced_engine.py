@@ -59,7 +59,7 @@ def _check_room(points: int) -> None:
     needed, there = 72 * points**2, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     if needed > there:
         raise TooManyPoints(
-            f"the joints have {points:,} contact points: what these give one another takes "
+            f"{points:,} contact points in all: what these give one another takes "
             f"{needed / 2**30:.0f} GiB, and this machine has {there / 2**30:.0f}; a larger "
             "element_size_m of the bodies, or contact.interior_points = 0, makes them fewer"
         )
@@ -93,8 +93,7 @@ def engine_of(
         name, _, told = str(error).partition(": ")
         raise InputError(file, name, None, told) from None
     except TooManyPoints as error:
-        told = str(error).removeprefix("the joints ")
-        raise InputError(file, "joints", None, told) from None
+        raise InputError(file, "joints", None, str(error)) from None
 
 
 def engine_on(

@@ -109,5 +109,5 @@ def test_many_points_of_rigid_bricks_are_told_of():
 
 def test_more_points_than_the_machine_has_room_for_are_refused(tmp_path, monkeypatch):
     monkeypatch.setattr(reduced_engine.os, "sysconf", lambda name: 1024)
-    with pytest.raises(InputError, match=r"joints: have [\d,]+ contact points: what these give"):
+    with pytest.raises(InputError, match=r"joints: [\d,]+ contact points in all: what these give"):
         run(wall(), tmp_path / "out", quiet=True)
