@@ -15,14 +15,18 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
-import sys
-import time
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from multiprocessing import get_context
 from pathlib import Path
 
 from benchmarks.beside import markdown
-from benchmarks.podium.ensemble import SCENARIOS, batches, gathered, responses, write_study
+from benchmarks.kept import complete, found
+from benchmarks.podium.ensemble import (
+    SCENARIOS,
+    batches,
+    file_of,
+    gathered,
+    responses,
+    write_study,
+)
 from fecolumn.foundation.atomic import write_csv
 from fecolumn.foundation.cores import usable_cores
 from fecolumn.pictures.figures.podium_figure import podium_figure
@@ -56,32 +60,22 @@ def main() -> None:
             f"{file.parent / 'results'}"
         )
         return
-    folder, began = Path(args.output), time.perf_counter()
-    (folder / "scenarios").mkdir(parents=True, exist_ok=True)
-    parts = [(scenario, batch) for batch in batches(args.n) for scenario in SCENARIOS]
-    files = {}
-    with ProcessPoolExecutor(args.jobs, mp_context=get_context("spawn")) as pool:
-        futures = {
-            pool.submit(responses, *part, args.seed, folder / "scenarios"): part for part in parts
-        }
-        for number, future in enumerate(as_completed(futures), 1):
-            files[futures[future]] = future.result()
-            if number % 10 == 0 or number == len(parts):
-                print(
-                    f"{number} of {len(parts)} parts of {len(SCENARIOS)} scenarios, "
-                    f"{time.perf_counter() - began:.0f} s",
-                    file=sys.stderr,
-                    flush=True,
-                )
-    found = gathered(files[part] for part in parts)
-    buildings = compared(found)
+    folder = Path(args.output)
+    jobs = {
+        file_of(scenario, batch, args.seed, folder / "scenarios"): (scenario, batch, args.seed)
+        for batch in batches(args.n)
+        for scenario in SCENARIOS
+    }
+    complete(responses, jobs, args.jobs, "parts")
+    responses_found = gathered(found(jobs))
+    buildings = compared(responses_found)
     names = [field.name for field in dataclasses.fields(buildings[0]) if field.name != "drawn"]
     write_csv(
         folder / "buildings.csv",
         [names, *([getattr(one, name) for name in names] for one in buildings)],
     )
-    podium_figure(found, "tilt", r"$\theta_{\max}/\alpha$", (0.0, 1.05), folder / "tilt")
-    podium_figure(found, "shear", r"$V_{\max}/V_{st}$", (1.0, 4.0), folder / "shear")
+    podium_figure(responses_found, "tilt", r"$\theta_{\max}/\alpha$", (0.0, 1.05), folder / "tilt")
+    podium_figure(responses_found, "shear", r"$V_{\max}/V_{st}$", (1.0, 4.0), folder / "shear")
     print(f"{args.n * len(SCENARIOS)} motions, {len(buildings)} buildings\n")
     head = "claim", "in the paper", "here", "verdict", "rule"
     claims = podium_claims(buildings)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import csv
+import itertools
 import json
 import math
 from pathlib import Path
@@ -12,7 +12,7 @@ import numpy as np
 from fecolumn.case.model_sections import LAWS
 from fecolumn.engines.rocking.podium import study_podium
 from fecolumn.engines.rocking.storeys import PROFILES
-from fecolumn.foundation.atomic import write_bytes, write_csv
+from fecolumn.foundation.atomic import write_bytes
 from fecolumn.motions.ensemble_file import write_ensemble
 from fecolumn.motions.near_fault import DISTANCES, MAGNITUDES, near_fault_ensemble
 
@@ -20,15 +20,6 @@ STOREYS = (3, 6, 9)
 BUILDINGS = tuple((profile, n) for profile in PROFILES for n in STOREYS)
 SCENARIOS = tuple((magnitude, distance) for magnitude in MAGNITUDES for distance in DISTANCES)
 _BATCH = 10  # motions of a scenario in a file
-_HEAD = [
-    "profile",
-    "storeys",
-    "law",
-    "motion",
-    "tilt_over_alpha",
-    "overturned",
-    "shear_over_static",
-]
 # R = 1.5 m, tan(alpha) = 0.15, gamma = 10 with four columns, beam as heavy as a floor, T_1 = n/10
 # s, damping 5 %
 _CASE = f"""title = "Podium of Bantilas, Kavvadias and Vasiliadis"
@@ -47,16 +38,19 @@ def batches(count: int) -> tuple[tuple[int, int], ...]:
     return tuple((first, min(first + _BATCH - 1, count)) for first in range(1, count + 1, _BATCH))
 
 
-def responses(scenario, batch, seed: int, folder: Path) -> Path:
-    """File with the peak tilt over alpha and base shear over V_st of every building under the
-    motions of a batch of a scenario; made where it is missing.
+def file_of(scenario, batch, seed: int, folder: Path) -> Path:
+    """File that a batch of a scenario is kept in."""
+    first, last = batch
+    return folder / f"M{scenario[0]:g}_R{scenario[1]:g}_seed{seed}_{first}-{last}.json"
+
+
+def responses(scenario, batch, seed: int) -> list[dict]:
+    """Peak tilt over alpha and base shear over V_st of every building under the motions of a batch
+    of a scenario, a dict each.
     """
     first, last = batch
-    file = folder / f"M{scenario[0]:g}_R{scenario[1]:g}_seed{seed}_{first}-{last}.csv"
-    if file.exists():
-        return file
     motions = near_fault_ensemble(scenario[:1], scenario[1:], last, seed=seed).motions[first - 1 :]
-    rows = [_HEAD]
+    rows = []
     for profile, n in BUILDINGS:
         for law in LAWS:
             podium = study_podium(profile, n, law)
@@ -64,37 +58,33 @@ def responses(scenario, batch, seed: int, folder: Path) -> Path:
                 _, _, shears, peak, fallen = podium.shake(motion.acceleration[:, [0, 2]], motion.dt)
                 shear = podium.building_mass * shears[0] / podium.static_shear
                 rows.append(
-                    [
-                        profile,
-                        n,
-                        law,
-                        number,
-                        f"{peak / podium.slenderness:.8g}",
-                        int(fallen),
-                        f"{shear:.8g}",
-                    ]
+                    {
+                        "profile": profile,
+                        "storeys": n,
+                        "law": law,
+                        "motion": number,
+                        "overturned": bool(fallen),
+                        "tilt_over_alpha": float(f"{peak / podium.slenderness:.8g}"),
+                        "shear_over_static": float(f"{shear:.8g}"),
+                    }
                 )
-    write_csv(file, rows)
-    return file
+    return rows
 
 
-def gathered(files) -> dict[tuple[str, int, str], dict[str, np.ndarray]]:
+def gathered(batches_of_rows) -> dict[tuple[str, int, str], dict[str, np.ndarray]]:
     """By (profile, storeys, law): tilt over alpha, inf where overturned, and shear over V_st,
     (motions,) each, in one order of motions.
     """
-    found: dict = {}
-    for file in files:
-        with open(file, newline="") as text:
-            for row in csv.DictReader(text):
-                one = found.setdefault(
-                    (row["profile"], int(row["storeys"]), row["law"]), {"tilt": [], "shear": []}
-                )
-                one["tilt"].append(
-                    float("inf") if row["overturned"] == "1" else float(row["tilt_over_alpha"])
-                )
-                one["shear"].append(float(row["shear_over_static"]))
+    of_buildings: dict = {}
+    for row in itertools.chain.from_iterable(batches_of_rows):
+        one = of_buildings.setdefault(
+            (row["profile"], row["storeys"], row["law"]), {"tilt": [], "shear": []}
+        )
+        one["tilt"].append(math.inf if row["overturned"] else row["tilt_over_alpha"])
+        one["shear"].append(row["shear_over_static"])
     return {
-        key: {name: np.array(values) for name, values in one.items()} for key, one in found.items()
+        key: {name: np.array(values) for name, values in one.items()}
+        for key, one in of_buildings.items()
     }
 
 
