@@ -20,7 +20,11 @@ _STEPS = 64  # of the range: finer than any interval of some hundred motions
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Arguments of `fecolumn design`."""
     take_values_below_zero(parser)
-    parser.add_argument("case", metavar="CASE.toml", help="case file; its own motion is not used")
+    parser.add_argument(
+        "case",
+        metavar="CASE.toml",
+        help="case file; --motions takes the place of its motion.source, other keys stay",
+    )
     parser.add_argument(
         "--vary",
         nargs=2,
