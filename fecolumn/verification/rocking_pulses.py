@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fecolumn.case.sections import GRAVITY
 from fecolumn.engines.rocking.critical_input import critical_motion, least_impulse, tilt_velocities
 from fecolumn.engines.rocking.impact import (
     housner_restitution,
@@ -21,6 +22,7 @@ from fecolumn.engines.rocking.overturning import (
     linear_overturning,
     overturning_bands,
     pulse_outcomes,
+    rectangular_slenderness,
     slenderness_factor,
 )
 from fecolumn.engines.rocking.swing import rock_one
@@ -158,6 +160,37 @@ def _closed_forms() -> Iterator[Row]:
             float(slenderness_factor(gamma, pulse)),
             1e-12,
         )
+    # the block is slender and starts at the pulse's begin
+    for duration in (0.5, 1.0, 2.0, 4.0):
+        yield Row(
+            f"rectangular pulse, p T_p {duration:g}: least a_p/(g tan alpha) that overturns [-] "
+            "(Housner 1963)",
+            1 / float(rectangular_slenderness(duration)),
+            _least_rectangular(duration),
+            1e-4,
+        )
+
+
+def _least_rectangular(duration: float) -> float:
+    """Least a_p/(g tan alpha) of a rectangular pulse that overturns a slender block, p T_p =
+    `duration`, by bisection of its analyses.
+    """
+    alpha, count = 1e-3, 400
+    # the acceleration falls to 0 within the last step, which counts half
+    step = duration / (count + 0.5)
+    pulse = np.zeros((count + 2, 2))
+    pulse[:-1, 0] = GRAVITY * math.tan(alpha)
+    row = row_of_block(alpha, 1.0, housner_restitution(alpha))
+
+    def stands(amplitude: float) -> bool:
+        results = rock_one(amplitude * pulse, step, row, free_s=20.0)[2]
+        return not math.isinf(results[PEAK_TILT])
+
+    low, high = 1.0, 10.0
+    while high - low > 1e-6:
+        middle = (low + high) / 2
+        low, high = (middle, high) if stands(middle) else (low, middle)
+    return low
 
 
 def _boundaries() -> Iterator[Row]:

@@ -161,13 +161,37 @@ def linear_overturning(shape: str, frequency: ArrayLike) -> Array:
     return least
 
 
-def slenderness_factor(duration: ArrayLike, pulse: str = "rectangular") -> Array:
-    """Factor phi by which a block has to be slender to survive a pulse (Makris and Vassiliou 2012).
+def rectangular_slenderness(duration: ArrayLike) -> Array:
+    """Factor phi of the least tan(alpha) = phi a_p / g with which a slender block stands a
+    rectangular pulse: 1 - exp(-p T_p), exact (Housner 1963).
 
-    A slender block on rigid ground does not overturn where tan(alpha) >= phi a_p / g. Here alpha
-    is its slenderness angle [rad], a_p the amplitude of the ground acceleration [m/s2] and g
+    Housner's cosh(p T_p) = 1 + 1/(2 r (r - 1)) is the same, r = 1/phi = a_p / (g tan(alpha)). A
+    block that just overturns has the tilt alpha - theta'/p at the end of the pulse. All computed
+    one-sine and one-cosine pulses of `benchmarks.rocking.design` need less, of equal a_p and T_p.
+
+    Parameters
+    ----------
+    duration
+        (...,) or one number, p T_p [-]: frequency parameter p of the block [rad/s] times duration
+        T_p of the pulse [s].
+
+    Returns
+    -------
+    phi [-], in the shape of `duration`.
+    """
+    factor: Array = -np.expm1(-np.asarray(duration, float))
+    return factor
+
+
+def slenderness_factor(duration: ArrayLike, pulse: str = "rectangular") -> Array:
+    """First estimate of the factor phi by which a block has to be slender to survive a pulse, by
+    the formula of Makris and Vassiliou (2012).
+
+    The least tan(alpha) is estimated as phi a_p / g. Here alpha is the slenderness angle of a
+    slender block on rigid ground [rad], a_p the amplitude of the ground acceleration [m/s2] and g
     gravity. The factor is phi = p T_p / (gamma + p T_p): 0 for a very short pulse, 1 for a very
-    long one.
+    long one. It leaves out the tilt that the block has at the end of the pulse, and is too small: a
+    block of this slenderness falls, see `rectangular_slenderness`.
 
     Parameters
     ----------
