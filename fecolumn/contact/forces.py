@@ -283,10 +283,17 @@ def _coupling(problem: Problem, stick: Stick) -> Coupling:
 
 @njit
 def find_forces(
-    problem: Problem, points: Array, interfaces: Array, stick: Stick, after: Array, counts: Array
+    problem: Problem,
+    points: Array,
+    interfaces: Array,
+    stick: Stick,
+    after: Array,
+    stalled: bool,
+    counts: Array,
 ) -> int:
     """Forces in `after` that obey the laws as far as the compliance tells: OK, or the code of what
-    failed.
+    failed. stalled: whether Newton on the slips of feet that stand has come to its end before, so
+    that what it leaves is too much.
     """
     usable, tight, listed, sticks = np.inf, np.inf, _active(problem), problem.flags[STICKS_STILL]
     for i in listed:
@@ -296,11 +303,12 @@ def find_forces(
         )
     tight *= SHARP
     if sticks:
+        enough = tight if stalled else usable
         residual, newtons = solve_sticking(
-            stick, points, near_points(problem), problem.slack, problem.active, after, tight, usable
+            stick, points, near_points(problem), problem.slack, problem.active, after, tight, enough
         )
         counts[N_CONTACT] += newtons
-        if residual <= usable:
+        if residual <= enough:
             return OK
     count, coupling = len(listed), _coupling(problem, stick)
     q, old, friction = np.empty((count, 3)), np.empty((count, 3)), np.empty(count)
@@ -422,7 +430,7 @@ def solve_linear(
         for j in range(k):
             for a in range(3):
                 old[3 * j + a] = after[listed[j]].force[a]
-        answer = find_forces(problem, points, interfaces, stick, after, counts)
+        answer = find_forces(problem, points, interfaces, stick, after, False, counts)
         if answer != OK:
             return answer, residual
         for j in range(k):

@@ -36,6 +36,10 @@ APART = 1e-2
 FEW_SIDES = 8
 #: Iterations of a step: Newton takes two to five, more where points come and go.
 ITERATIONS = 25
+#: Iterations, and share of the last residual that is left, from which on a step has stalled: Newton
+#: on the slips of feet that stand goes round and round, as in thin rings, whose points depend on
+#: one another; then the other ways of the friction solver are tried.
+STALLED, STALLED_BY = 4, 0.5
 
 # --- Friction solver: steps of Newton, then other ways; found by trial on 10^5 problems of rocking
 # columns ------------------------------------

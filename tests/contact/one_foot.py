@@ -167,7 +167,7 @@ class Foot:
                 break
             assert (
                 interpreted(find_forces)(
-                    self.problem, self.points, self.interface, stick, after, self.counts
+                    self.problem, self.points, self.interface, stick, after, False, self.counts
                 )
                 == OK
             )

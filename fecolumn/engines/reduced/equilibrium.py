@@ -36,6 +36,8 @@ from fecolumn.contact.tolerances import (
     IN_PLACE_TURN,
     ITERATIONS,
     LEVEL,
+    STALLED,
+    STALLED_BY,
 )
 from fecolumn.engines.reduced.elastic import (
     END,
@@ -388,11 +390,12 @@ def find_equilibrium(
             )
             return OK
         slow = iteration > 2 and residual > max(IN_PLACE_SLOW * last, 1.0)
+        stalled = iteration >= STALLED and residual > STALLED_BY * last
         again, last = residual <= 1.0, residual
         if iteration == 0 and problem.flags[STICKS_STILL]:
             predict_slips(work.secant, near_points(problem), problem.slack)
             foreseen = True
-        answer = find_forces(problem, points, interfaces, work.stick, end.contact, counts)
+        answer = find_forces(problem, points, interfaces, work.stick, end.contact, stalled, counts)
         if by_operator and (answer != OK or slow and anew):
             problem.flags[STICKS_STILL], work.stick.key[1] = False, 0.0
         elif answer != OK:
