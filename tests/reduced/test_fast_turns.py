@@ -21,7 +21,7 @@ def test_a_free_body_keeps_its_energy_whatever_its_turn(slender, angle):
     still = np.zeros((3, 3))
     start = rotation.as_matrix()
     given = Turning(body[0], advance, start, 0.0, still, np.zeros(3), moment, halfway)
-    turning(given, turn)
+    assert turning(given, turn)
     after = Rotation.from_rotvec(-turn).as_matrix() @ inertia @ advance
     energy = advance @ inertia @ advance
     assert after @ np.linalg.solve(inertia, after) == pytest.approx(energy, rel=1e-11)

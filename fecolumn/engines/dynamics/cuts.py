@@ -74,7 +74,7 @@ def in_halves(
     state
         at the start of the step.
     before, after
-        (3,) ground acceleration at the ends of the step [m/s2].
+        (3 G,) accelerations of all grounds at the ends of the step [m/s2].
     cuts
         halvings made so far.
 
@@ -89,7 +89,7 @@ def in_halves(
             failure.stop,
             f"{failure} (step cut {cuts} times to {hht.dt:.3g} s; integration.max_cuts = {cuts} "
             "allows no more)"
-            if cuts
+            if 0 < cuts == halving.max_cuts
             else str(failure),
             failure.joints,
         )

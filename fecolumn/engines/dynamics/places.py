@@ -94,12 +94,6 @@ class Places:
         # Positions and their centres of mass
         self._centers: tuple[Any, Any] = (None, None)
 
-    @property
-    def width(self) -> float:
-        """Least width [m] of the feet with a round rim, of all where none has one."""
-        rolls = self.interfaces["rim_count"] > 0
-        return float(self.interfaces["width"][rolls if rolls.any() else slice(None)].min())
-
     def take_grounds(self, start: Array, end: Array) -> None:
         """Let the grounds be where they are at start and end of a step, each (G,) of
         GROUND_STATE.

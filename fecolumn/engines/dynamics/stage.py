@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from petsc4py import PETSc
 
 from fecolumn.engines.dynamics.cuts import Stop
 from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation, vector_product
@@ -326,7 +327,10 @@ def equilibrate(
             and size > tolerance
             and system.kinematics.has_tangent
         ):
-            operators = system.refresh(operators, x)
+            try:
+                operators = system.refresh(operators, x)
+            except PETSc.Error:  # the tangent is singular
+                return ended(Stop.DIVERGED)
             nodal = _nodal(interface, operators, scale)
         previous = size
 

@@ -52,8 +52,8 @@ class Stepper:
     1988), the state of least kinetic energy that non-adhesive impulses reach. This removes the
     rebound that the trapezoidal rule invents; in the rigid limit it is Housner's impact.
 
-    impact = "none" is the literal HHT scheme: contact forces are part of the accelerations, without
-    filter or impact law; those of links and rolling resistance act as above.
+    impact = "none" is nearly the literal HHT scheme: contact forces at the end of the step are part
+    of the accelerations, without filter or impact law; those of links act as above.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class Stepper:
         self.substeps, self.record = SUBSTEPS.index(substeps), Record()
 
     def step(self, state: State, ground: Array) -> State:
-        """State one dt later, under the ground acceleration `ground` (3,) [m/s2] at that time.
+        """State one dt later; ground: (3 G,) accelerations [m/s2] of all grounds at that time.
 
         Raises
         ------

@@ -47,9 +47,8 @@ class State:
     [m/s2], grounds: (G,) of GROUND_STATE, relative to the first.
     rims: (ni,) of RIM. ties: (nl,) of TIE. surface_a: (n_owned, 3) acceleration of the contact
     forces in the last step, with what gives them and internal forces their moments [m/s2], and
-    surface_forces: (N, 3) the forces
-        on the surface nodes that it is of [N], both in the frames of the bodies; None before the
-            first step.
+    surface_forces: (N, 3) the forces on the surface nodes that it is of [N], both in the frames of
+    the bodies; None before the first step.
     """
 
     time: float

@@ -23,6 +23,7 @@ from fecolumn.contact.problem import (
     ITERATIONS_SPENT,
     N_COUNTS,
     N_CUTS,
+    N_ITERATIONS,
     NO_ROOM,
     OFF_BASE,
     OFF_PATCH,
@@ -39,7 +40,7 @@ from fecolumn.engines.reduced.equilibrium import work_of
 from fecolumn.engines.reduced.found_of_model import NoRoom
 from fecolumn.engines.reduced.ledger import N_PLACES
 from fecolumn.engines.reduced.model import scheme
-from fecolumn.engines.reduced.observe import ENERGY, outcome_of_row
+from fecolumn.engines.reduced.observe import ENERGY, ITERATIONS_MADE, outcome_of_row
 from fecolumn.engines.reduced.run import LENGTHS, StepBatch, StepState, advance
 from fecolumn.foundation._compiled import compile_for, interpreted
 from fecolumn.foundation.arrays import Array
@@ -288,12 +289,14 @@ class Engine:
             self.made = rows[:done]
             if answer == ENDED:
                 return rows[:done], True
+            spent = self.counts[N_ITERATIONS]
             if answer == FAR_BASE:
                 self.extend_base(self.spare)
             elif answer == NO_ROOM or answer != OK and not self._cut(grounds[done], answer):
                 self.make_room(2 * len(self.motion.meetings.rows))
             elif answer != OK:
                 rows[done] = self.row()
+                rows[done, ITERATIONS_MADE] = self.counts[N_ITERATIONS] - spent
                 done += 1
                 self.made = rows[:done]
                 kinetic, strain, gravity = rows[done - 1, ENERGY : ENERGY + 3]

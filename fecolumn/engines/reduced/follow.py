@@ -86,7 +86,8 @@ def follow(
     which has all that carry, and of the links.
 
     Forces act along the frames that the interfaces have in the middle of the step, and links along
-    their mean direction, which are found along with the motion. Returns: whether they were.
+    their mean direction, which are found along with the motion. Returns: whether they were, and the
+    turn of each body.
 
     The elastic displacement of points that carry is the last one known at the END, a guess; end
     gets center, rotation and modal coordinates, action the conjugates.
@@ -106,7 +107,8 @@ def follow(
             change = max(change, pull_links(structure, start, end, scheme.dt, action.pulls))
         if sweep > 0 and change <= SETTLED:
             break
-        _carry_bodies(structure, scheme, start, free_center, advance, end, action)
+        if not _carry_bodies(structure, scheme, start, free_center, advance, end, action):
+            return False
         if linked and free_modal.shape[1] > 0:
             _carry_modes(structure, scheme, points, listed, start, free_modal, end, action)
     _carry_modes(structure, scheme, points, listed, start, free_modal, end, action)
@@ -150,8 +152,10 @@ def _carry_bodies(
     advance: Array,
     end: MotionState,
     action: Action,
-) -> None:
-    """`follow`, with frames and links where they are, without modes."""
+) -> bool:
+    """`follow`, with frames and links where they are, without modes; whether each turn was
+    found.
+    """
     bodies, arm = structure.bodies.body, np.empty(3)
     spread = np.zeros((len(bodies), 3, 3))
     for b in range(len(bodies)):
@@ -196,7 +200,7 @@ def _carry_bodies(
             end.frames[b].center[a] = (
                 free_center[b, a] + scheme.half * action.push[b, a] * bodies[b].inverse_mass
             )
-        turning(
+        if not turning(
             Turning(
                 bodies[b],
                 advance[b],
@@ -208,8 +212,10 @@ def _carry_bodies(
                 action.halfway[b],
             ),
             action.turn[b],
-        )
+        ):
+            return False
         turn_by(start.rotation[b], action.turn[b], end.rotation[b])
+    return True
 
 
 @njit

@@ -51,7 +51,7 @@ def column_index(column: str, columns: tuple[tuple[str, int], ...] = COLUMNS) ->
     return sum(count for _, count in columns[: names.index(column)])
 
 
-_TOP, _TILT, _TWIST, _SLIDE, _FORCE, _ACTIVE, _DEPTH, _GROUND, _SPENT = (
+_TOP, _TILT, _TWIST, _SLIDE, _FORCE, _ACTIVE, _DEPTH, _GROUND, ITERATIONS_MADE = (
     column_index(name)
     for name in (
         "u_top",
@@ -204,7 +204,7 @@ def observe(
     row[_DEPTH] = depth
     for a in range(3):
         row[_GROUND + a] = motion.whole[0].ground[a]
-    row[_SPENT] = iterations
+    row[ITERATIONS_MADE] = iterations
     row[ENERGY], row[ENERGY + 1], row[ENERGY + 2] = (
         kinetic(structure, motion),
         strain(structure, motion),

@@ -73,9 +73,10 @@ class Turning(NamedTuple):
 
 
 @njit
-def turning(given: Turning, turn: Array) -> None:
+def turning(given: Turning, turn: Array) -> bool:
     """Solve Th = advance/2 + J^-1 exp(-Th) (J advance/2 + half R0^T M) for the turn Th, and its
-    moment M, in the column's frame.
+    moment M, in the column's frame. Returns: whether it was found; of a slender body that turns by
+    more than some 1.5 rad in a step it may not be.
 
     Energy-momentum conserving (Simo and Wong 1991): with M = sinc(|Th|/2) sum (Rh A) x r, Th . M is
     the work of the forces on the path of rigid arms A.
@@ -100,11 +101,11 @@ def turning(given: Turning, turn: Array) -> None:
             change = max(change, abs(value[i] - turn[i]))
             turn[i] = value[i]
         if change <= 1e-17 + 2e-16 * (abs(turn[0]) + abs(turn[1]) + abs(turn[2])):
-            return
+            return True
     if change <= 1e-12 * (abs(turn[0]) + abs(turn[1]) + abs(turn[2])):
-        return
+        return True
     # a slender body that turns fast: Newton's method from the turn of a body that nothing moves
-    slope, other = np.empty((3, 3)), np.empty(3)
+    slope, other, most = np.empty((3, 3)), np.empty(3), 0.0
     for i in range(3):
         turn[i] = advance[i]
     for _ in range(50):
@@ -119,6 +120,13 @@ def turning(given: Turning, turn: Array) -> None:
                 slope[i, k] = (i == k) - (other[i] - value[i]) / small
         for i in range(3):
             value[i] -= turn[i]
+        volume = (
+            slope[0, 0] * (slope[1, 1] * slope[2, 2] - slope[1, 2] * slope[2, 1])
+            - slope[0, 1] * (slope[1, 0] * slope[2, 2] - slope[1, 2] * slope[2, 0])
+            + slope[0, 2] * (slope[1, 0] * slope[2, 1] - slope[1, 1] * slope[2, 0])
+        )
+        if not 0.0 < abs(volume) < np.inf:  # false of what is not a number, too
+            return False
         found = np.linalg.solve(slope, value)
         for i in range(3):
             change = max(change, abs(found[i]))
@@ -126,6 +134,7 @@ def turning(given: Turning, turn: Array) -> None:
         if change <= 1e-14 * most:
             break
     _turn_by_turn(given, momentum, turn, value)
+    return change <= 1e-12 * most
 
 
 @njit

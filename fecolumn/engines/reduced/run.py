@@ -125,8 +125,8 @@ class StepState(NamedTuple):
 
 
 class StepBatch(NamedTuple):
-    """The steps that are asked for. grounds: (k, 3) [m/s2] acceleration of the ground at their
-    ends. steepest: (k,) as of `overturning.fallen` after each. rest: as of `Engine.advance`.
+    """The steps that are asked for. grounds: (k, 3 G) [m/s2] accelerations of the G grounds at
+    their ends. steepest: (k,) as of `overturning.fallen` after each. rest: as of `Engine.advance`.
     substeps: for what a step is made in parts, a number of `case.sections.SUBSTEPS`. rows: (k,
     width) of the history, to be filled.
     """
@@ -206,7 +206,11 @@ def advance(
     for a in range(3):
         motion.grounds[0].acceleration[a] = motion.whole[0].ground[a]
     for k in range(len(grounds)):
-        before = counts[N_ITERATIONS]
+        before, struck_before, parts_before = (
+            counts[N_ITERATIONS],
+            counts[N_IMPACTS],
+            counts[N_PARTS],
+        )
         put(ledger, booked)
         part, done = to_make_at_once(structure, now, scheme.dt, 0, substeps), 0
         if part < PARTS or substeps == IMPACT_PARTS:
@@ -235,8 +239,9 @@ def advance(
             begin_anew(elastic)
             if done < PARTS:
                 part = to_make_at_once(structure, now, scheme.dt, done, substeps)
-        if answer != OK:
+        if answer != OK:  # the step is made again
             put(booked, ledger)
+            counts[N_IMPACTS], counts[N_PARTS] = struck_before, parts_before
             if done > 0:
                 motions.copy(kept, now)
                 elastic.now[START] += 1

@@ -95,8 +95,9 @@ class Settling:
         Raises
         ------
         Diverged
-            contact does not converge. NoRoom: more pairs of bodies are near each other than there
-            is room for.
+            contact does not converge.
+        NoRoom
+            more pairs of bodies are near each other than there is room for.
         """
         if self.steps < HASTEN_FROM or not self._hastened():
             self._made()
