@@ -26,7 +26,7 @@ from fecolumn.engines.followed import ends_at_rest, followed_s
 from fecolumn.engines.resume import CHECKPOINT, Resumable
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.summary import write_sealed
-from fecolumn.engines.summary_entries import energy_closure, entries_of
+from fecolumn.engines.summary_entries import energy_closure, entries_of, unclosed_text
 from fecolumn.foundation.schema import InputError
 from fecolumn.foundation.sources import code
 from fecolumn.motions.record import GroundMotion
@@ -350,6 +350,9 @@ class Analysis(Resumable):
         the summary is returned.
         """
         rows = self.history.arrays()
+        closure = energy_closure(rows)
+        if self.comm.rank == 0 and (told := unclosed_text(closure)):
+            warnings.warn(f"{self.file}: {told}", stacklevel=2)
         summary = (
             dict(
                 case_id=self.case.id,
@@ -367,7 +370,7 @@ class Analysis(Resumable):
             | dict(
                 energy_left_j=None if ending.outcome == OVERTURNED else self.energy_left(),
                 energy_to_overturn_j=self.barrier_j,
-                energy_closure_rel=energy_closure(rows),
+                energy_closure_rel=closure,
                 ranks=self.comm.size,
                 wall_s=self.earlier_s + time.perf_counter() - self.began,
                 cpu_s=self.cpu_s,

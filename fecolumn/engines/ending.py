@@ -23,6 +23,9 @@ EDGE_SHARE = 0.05
 #: its critical tilt, and as nothing feeds it, never with more again.
 REST_SHARE = 1e-3
 
+#: Tilt over the critical one from which on a body counts as one that rocks.
+ROCKS = 0.02
+
 
 @dataclass(frozen=True, slots=True)
 class Ending:
@@ -56,7 +59,13 @@ def ending_text(summary: dict[str, Any]) -> str:
         f"{summary.get('outcome', 'standing')}, residual slide "
         f"{1e3 * summary['residual_slide_m']:.3f} mm"
     )
-    if summary.get("outcome") == STILL_ROCKING:
+    if summary.get("outcome") == STILL_ROCKING and _slides_only(summary):
+        text = (
+            f"still moving at {summary['duration_s']:.3f} s, never tilted by more than "
+            f"{ROCKS:.0%} of its critical tilt, residual slide "
+            f"{1e3 * summary['residual_slide_m']:.3f} mm"
+        )
+    elif summary.get("outcome") == STILL_ROCKING:
         text = (
             f"{STILL_ROCKING} at {summary['duration_s']:.3f} s with "
             f"{energy_text(summary['energy_left_j'], summary['energy_to_overturn_j'])}"
@@ -66,6 +75,14 @@ def ending_text(summary: dict[str, Any]) -> str:
             f"; the motion was cut at {summary['motion_cut_at_s']:g} s, by integration.duration_s"
         )
     return text
+
+
+def _slides_only(summary: dict[str, Any]) -> bool:
+    """Whether what moves at the end has hardly tilted, so that no energy to overturn is beside
+    it.
+    """
+    tilt, critical = summary.get("tilt_max_rad"), summary.get("critical_tilt_rad")
+    return bool(tilt is not None and critical and tilt < ROCKS * critical)
 
 
 def energy_text(left: float, barrier: float) -> str:

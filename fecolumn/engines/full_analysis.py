@@ -33,6 +33,10 @@ if TYPE_CHECKING:
     from fecolumn.engines.scene.full_fields import StructureFields
 
 
+# Steps after which bodies are looked at that may come through each other, at most
+_LOOK = 100
+
+
 class FullAnalysis(OfStructure):
     """A running analysis of bodies with all their degrees of freedom.
 
@@ -185,11 +189,13 @@ class FullAnalysis(OfStructure):
         """Step to the end, to the overturning, to rest or until `stop` says so; the summary."""
         from fecolumn.contact.overturning import STANDS
         from fecolumn.engines.dynamics.cuts import StepFailed
+        from fecolumn.engines.passing import Passing
 
         cadence = self.case.output
         progress = self.progress()
         pace = Pace(self, progress.say, self.stepper.record)
         saved, fallen, over, off = time.perf_counter(), STANDS, False, None
+        passing, next_look = Passing(self.structure), self.step + 1
         try:
             while self.step < self.steps and not over:
                 began, before = time.perf_counter(), self.stepper.record.iterations
@@ -199,6 +205,10 @@ class FullAnalysis(OfStructure):
                 measures = self._note(self.stepper.record.iterations - before)
                 fallen = self.observer.fallen(self.state, measures, self.steepest_at(self.step))
                 over = fallen != STANDS or self.rest_j > -np.inf and self.is_still()
+                if self.step >= next_look or over or self.step == self.steps:
+                    motion = self.observer.motion(state)
+                    self.check_passing(passing, motion)
+                    next_look = self.step + passing.steps(motion, self.dt_s, _LOOK)
                 progress.show(self.step, measures, self.stepper.record)
                 pace.look(self.stepper.record)
                 if self.fields and self.step % self.field_steps == 0:

@@ -21,6 +21,7 @@ from fecolumn.contact.overturning import (
 from fecolumn.contact.points import GROUND, OVER
 from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
 from fecolumn.engines.history_columns import of_both_sides
+from fecolumn.engines.passing import RigidMotion
 from fecolumn.fem.rotation import tilt_angle, twist_angle, vector_product
 from fecolumn.foundation._compiled import interpreted
 
@@ -208,6 +209,16 @@ class Observer:
                 ):
                     return NO_RETURN
         return CAPPED if np.hypot(*measures["u_top"][:2]) >= self.stance.cap else STANDS
+
+    def motion(self, state: State) -> RigidMotion:
+        """Rigid motion of the bodies; on all ranks together."""
+        bodies = self.system.bodies
+        frames = dict(
+            center=bodies.centers(state.x),
+            velocity=bodies.centers(state.v),
+            spin=self._spins(state),
+        )
+        return RigidMotion(state.time, frames, state.rotation)
 
     def _spins(self, state: State) -> NDArray[Any]:
         """Angular velocities (nb, 3) [rad/s] in the frames of the bodies, of rigid ones with their

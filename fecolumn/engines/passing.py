@@ -4,7 +4,8 @@ and those of which a joint with two sides does not hold them apart.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from fecolumn.contact.nearby import pair_keys
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.through import ThroughCheck, find_depths
 from fecolumn.engines.reduced.motion import MotionState
+from fecolumn.engines.unprepared_edges import UnpreparedEdges
 from fecolumn.structures.hulls import hulls_of_parts
 from fecolumn.structures.model import StructureModel
 
@@ -29,6 +31,25 @@ _FAILED = 0.5
 # The same, over that at the start, from which on a joint with two sides has not held bodies apart:
 # far above what a face gives, far below what can be overlooked
 _SANK = 1e-2
+
+
+class RigidMotion(NamedTuple):
+    """Rigid motion of bodies.
+
+    Attributes
+    ----------
+    time
+        [s].
+    frames
+        center (nb, 3) of mass [m], velocity (nb, 3) [m/s], spin (nb, 3) in the frames of the bodies
+        [rad/s].
+    rotation
+        (nb, 3, 3).
+    """
+
+    time: float
+    frames: Mapping[str, NDArray[Any]]
+    rotation: NDArray[Any]
 
 
 class Passing:
@@ -65,15 +86,27 @@ class Passing:
         ).reshape(-1, 2)
         upright = [np.array([getattr(part, of) for part in parts]) for of in ("center", "rotation")]
         self._depth_before = self._depths(*upright)
+        self._edges = UnpreparedEdges(structure)
 
-    def steps(self, motion: MotionState, dt: float, most: int) -> int:
+    def steps(self, motion: MotionState | RigidMotion, dt: float, most: int) -> int:
         """Steps [of dt s] after which to look again, `most` at most."""
         if not self._looks:
             return most
         fastest = float(self._speeds(motion).max()) + GRAVITY * most * dt
         return max(1, min(most, int(_WAY * self._thinnest / (fastest * dt))))
 
-    def fast(self, motion: MotionState, dt: float) -> str:
+    def look(self, motion: MotionState | RigidMotion, dt: float) -> tuple[list[str], str]:
+        """What makes the motion doubtful, in words, each told once; and which pair came through
+        each other, in words, "" where none did. dt: step [s].
+        """
+        doubts = [told for told in (self.fast(motion, dt), self.overlaps(motion)) if told]
+        return doubts, self.told(motion)
+
+    def over_edges(self, motion: MotionState | RigidMotion) -> tuple[str, ...]:
+        """As `UnpreparedEdges.passed`."""
+        return self._edges.passed(motion)
+
+    def fast(self, motion: MotionState | RigidMotion, dt: float) -> str:
         """Which body whose contact is found goes by more than its thickness in a step of dt s, in
         words; "" where none does, or one has been told.
         """
@@ -89,7 +122,7 @@ class Passing:
             f"{_rounded(dt * _FAST / ways[b]):g} s goes no further than that thickness"
         )
 
-    def overlaps(self, motion: MotionState) -> str:
+    def overlaps(self, motion: MotionState | RigidMotion) -> str:
         """Which two bodies a joint with two sides has let sink into each other, in words; "" where
         none has, or all have been told.
         """
@@ -117,7 +150,7 @@ class Passing:
         find_depths(self._check.hulls, *places, self._joined, self._check.relation, depths)
         return np.maximum(depths, 0.0)
 
-    def _speeds(self, motion: MotionState) -> NDArray[Any]:
+    def _speeds(self, motion: MotionState | RigidMotion) -> NDArray[Any]:
         """Largest velocities (nb,) [m/s] that points of bodies may have."""
         velocity, spin = (
             np.linalg.norm(motion.frames[key], axis=1) for key in ("velocity", "spin")
@@ -125,7 +158,7 @@ class Passing:
         speeds: NDArray[Any] = velocity + spin * self._radii
         return speeds
 
-    def told(self, motion: MotionState) -> str:
+    def told(self, motion: MotionState | RigidMotion) -> str:
         """Which pair is in each other now, in words; "" where none is."""
         if not self._looks:
             return ""

@@ -6,7 +6,6 @@ import contextlib
 import io
 import math
 import time
-import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,7 +19,6 @@ from fecolumn.contact.known_base import KnownBase
 from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.problem import list_present
 from fecolumn.contact.unbounded_base import UnboundedBase
-from fecolumn.engines.analysis import AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
@@ -137,13 +135,7 @@ class ReducedAnalysis(OfStructure):
                     if every:
                         count = min(count, every - self.step % every)
                 over = self._advance_while_quick(count, pace) and self._stays()
-                if told := passing.fast(engine.motion, self.dt_s):
-                    warnings.warn(f"{self._file}: {told}", stacklevel=2)
-                if told := passing.overlaps(engine.motion):
-                    warnings.warn(f"{self._file}: {told}", stacklevel=2)
-                if told := passing.told(engine.motion):
-                    self._save()
-                    raise AnalysisFailed(f"{told}; state saved in {self.folder / CHECKPOINT}")
+                self.check_passing(passing, engine.motion)
                 last = engine.made[-1]
                 progress.show(
                     self.step,

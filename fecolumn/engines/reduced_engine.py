@@ -76,7 +76,8 @@ def engine_of(
     ------
     InputError
         a link too stiff for the step, more contact points than this machine has room for.
-        NoEquilibrium: as of `start.gravity_equilibrium`.
+    NoEquilibrium
+        as of `start.gravity_equilibrium`.
     """
     plan = case.integration
     stands = not begins_unstrained(case, model) if stands is None else stands

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from fecolumn.engines.ending import ROCKS
 from fecolumn.engines.first_impacts import APART_S, landings
 
 # Steps between landings below which the period is off by more than 1 %
@@ -26,8 +27,6 @@ _SHARE = 1.25
 _APART = 2.5
 # Landings that the median needs
 _LEAST = 4
-# Tilt over the critical one from which on landings count: less is rattling, which decides nothing
-_ROCKS = 0.02
 
 
 def step_doubt(
@@ -59,7 +58,7 @@ def step_doubt(
         whether all bodies are rigid.
     """
     tilts = [rows[name] for name in rows if name.startswith("body/") and name.endswith("/tilt")]
-    if max(float(one.max()) for one in (rows["tilt"], *tilts)) < _ROCKS * (critical or 0.0):
+    if max(float(one.max()) for one in (rows["tilt"], *tilts)) < ROCKS * (critical or 0.0):
         return None
     said = []
     apart_s = min(APART_S, _APART * dt)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
     from fecolumn.contact.known_base import KnownBase
     from fecolumn.contact.unbounded_base import UnboundedBase
     from fecolumn.engines.dynamics.cuts import StepFailed
+    from fecolumn.engines.passing import Passing, RigidMotion
+    from fecolumn.engines.reduced.motion import MotionState
     from fecolumn.engines.scene.scene import Scene
     from fecolumn.motions.record import GroundMotion
 
@@ -189,6 +192,28 @@ class OfStructure(Analysis):
             for place, part in enumerate(self.structure.parts)
             if part.airborne
         )
+
+    def check_passing(self, passing: Passing, motion: MotionState | RigidMotion) -> None:
+        """Warn of bodies whose contact is doubtful.
+
+        Raises
+        ------
+        AnalysisFailed
+            bodies came through each other, or one lies across an edge that its joint has no contact
+            points for; the state is saved.
+        """
+        doubts, through = passing.look(motion, self.dt_s)
+        for told in doubts if self.comm.rank == 0 else ():
+            warnings.warn(f"{self.file}: {told}", stacklevel=2)
+        if not through and (names := passing.over_edges(motion)):
+            through = (
+                f"t = {motion.time:.4g} s: a body slid over an edge of the face below it that was "
+                f"not prepared for contact: {', '.join(names)}; "
+                f"{way_out(self.case, self.structure, names)}"
+            )
+        if through:
+            self._save()
+            raise AnalysisFailed(f"{through}; state saved in {self.folder / CHECKPOINT}")
 
     def off_base(self, failure: StepFailed) -> Ending | None:
         """The Ending of a step that failed because a foot met the edge of its ground, or None."""

@@ -54,6 +54,22 @@ def direction_deg(way: NDArray[Any]) -> float:
     return float(np.degrees(np.arctan2(way[1], way[0])))
 
 
+#: Error of the energy balance over the largest energy exchanged above which a motion is not to be
+#: used unseen: engines close to 1e-10 and better where every step converges.
+CLOSES = 1e-3
+
+
+def unclosed_text(closure: float) -> str:
+    """Warning of an energy balance with the error `closure` [-]; "" where it closes."""
+    if closure <= CLOSES:
+        return ""
+    return (
+        f"the energy balance does not close: its error is {closure:.2g} of the largest energy "
+        f"exchanged, more than {CLOSES:g}; do not use this motion before you know why: compare it "
+        "with one of a shorter integration.dt_s"
+    )
+
+
 def energy_closure(rows: dict[str, Any]) -> float:
     """Largest closure error relative to the largest energy that moved, or is held [-].
 
