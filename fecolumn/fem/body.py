@@ -95,9 +95,10 @@ class Body:
             *([] if tie is None else [tie]),
         )
         #: Largest diagonal entries of stiffness [N/m] and mass [kg].
-        self.stiffness_scale, self.mass_scale = (
-            matrix.getDiagonal().max()[1] for matrix in (self.stiffness, self.mass)
-        )
+        diagonals = [matrix.getDiagonal() for matrix in (self.stiffness, self.mass)]
+        self.stiffness_scale, self.mass_scale = (diagonal.max()[1] for diagonal in diagonals)
+        for diagonal in diagonals:
+            diagonal.destroy()
         self.unit_loads = np.stack(
             [self.apply(self.mass, np.tile(e, (self.n_owned, 1))) for e in np.eye(3)]
         )
@@ -149,11 +150,13 @@ class Body:
         return result
 
     def spread(self, nodes: Array, values: Array) -> Array:
-        """Owned array (n_owned, 3) that is zero but for `values` at `nodes`."""
+        """Reduced forces (n_owned, 3) of forces `values` (n, 3) at `nodes` (n,): tied ones pass
+        theirs on.
+        """
         result = np.zeros((self.n_owned, 3))
         here, rows = self.owned(nodes)
         result[rows] = values[here]
-        return result
+        return self.constraint.collect(result) if self.constraint.holds(nodes) else result
 
     def apply(self, matrix: PETSc.Mat, values: Array) -> Array:
         """Product of a matrix with an owned array (n_owned, 3), or with (k, n_owned, 3) of k copies
@@ -245,6 +248,10 @@ class Constraint:
         """Values of all nodes from those of the free nodes; held nodes get zero."""
         return values if self.projection is None else self.body.apply(self.projection, values)
 
+    def holds(self, nodes: Array) -> bool:
+        """Whether any of the nodes (n,) is tied or held."""
+        return len(self.nodes) > 0 and bool(np.isin(nodes, self.nodes).any())
+
     def collect(self, forces: Array) -> Array:
         """P^T f: what ties and supports leave on the free nodes."""
         if self.projection is None:
@@ -269,5 +276,5 @@ class Constraint:
         identity.setDiagonal(diagonal)
         identity.assemble()
         matrix.axpy(1.0, identity, structure=PETSc.Mat.Structure.DIFFERENT_NONZERO_PATTERN)
-        identity.destroy()
+        identity.destroy(), diagonal.destroy()
         return matrix

@@ -60,7 +60,6 @@ class Composite:
         )
         #: Largest extent along an axis [m].
         self.extent = np.ptp(places, axis=0).max()
-        self.stiffness = [part.stiffness for part in parts]
         self.stiffness_scale, self.mass_scale = (
             max(getattr(part, name) for part in parts) for name in ("stiffness_scale", "mass_scale")
         )
@@ -83,15 +82,6 @@ class Composite:
             [
                 part.X if is_drawn else center + (part.X - part.center) @ R.T
                 for part, center, R, is_drawn in zip(self.parts, centers, rotations, drawn)
-            ]
-        )
-
-    def apply(self, matrices: Any, values: Array) -> Array:
-        """Product of each body's matrix with its rows of an owned array (n_owned, 3)."""
-        return np.concatenate(
-            [
-                part.apply(matrix, values[rows])
-                for part, matrix, rows in zip(self.parts, matrices, self.rows)
             ]
         )
 

@@ -91,6 +91,8 @@ def _solver(matrix: PETSc.Mat, package: str, definite: bool) -> PETSc.KSP:
     preconditioner = solver.getPC()
     preconditioner.setType("cholesky")
     preconditioner.setFactorSolverType(package)
+    # else MUMPS says nothing where it fails, and the solution is not finite
+    solver.setErrorIfNotConverged(True)
     options = PETSc.Options()
     # that a matrix is not definite is raised; it need not be printed besides
     options.setValue(_SAYS, 0)
@@ -119,11 +121,15 @@ def effective_factor(
 
 
 def unit_loads(body: Body, nodes: Array) -> Array:
-    """Unit forces in x, y, z at `nodes` as columns (3 n_owned, 3 len(nodes))."""
+    """Reduced forces of unit forces in x, y, z at `nodes`, as columns (3 n_owned, 3 len(nodes))."""
     loads = np.zeros((3 * body.n_owned, 3 * len(nodes)), order="F")
     here, local = body.owned(nodes)
     for axis in range(3):
         loads[3 * local + axis, 3 * here + axis] = 1.0
+    if body.constraint.holds(nodes):
+        for place in range(loads.shape[1]):
+            one = body.constraint.collect(loads[:, place].reshape(-1, 3))
+            loads[:, place] = one.reshape(-1)
     return loads
 
 

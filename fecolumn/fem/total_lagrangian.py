@@ -21,9 +21,8 @@ if TYPE_CHECKING:
 
 
 class TotalLagrangian:
-    """Internal forces as the derivative of the St.
-
-    Venant-Kirchhoff energy, its tangent by `ufl.derivative`.
+    """Internal forces as the derivative of St. Venant and Kirchhoff's energy, their tangent by
+    `ufl.derivative`.
     """
 
     name = "total_lagrangian"
