@@ -40,7 +40,11 @@ def check(case: CheckedCase, file: Path | str) -> None:
         return
     check_step(case.integration, refuse)
     if not case.bodies:
-        refuse("bodies", None, "missing; a structure needs a table [bodies.NAME] at least")
+        refuse(
+            "bodies",
+            None,
+            "missing; a case needs a table [column], [bodies.NAME] or that of a rocking model",
+        )
     for name, body in case.bodies.items():
         check_body(f"bodies.{name}", body, case.materials, refuse)
         ground = getattr(body, "moves_with", "")

@@ -244,8 +244,8 @@ class Integration(Section):
 
 @section_class(kw_only=False)
 class Motion(Section):
-    """Ground acceleration. Without [motion] every ground is at rest; [grounds.NAME.motion] takes
-    its place for one ground.
+    """Ground acceleration. Without [motion] every ground is at rest. Beside a [motion],
+    [grounds.NAME.motion] takes its place for one ground.
     """
 
     source: str = required(

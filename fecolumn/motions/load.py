@@ -67,6 +67,8 @@ _NETWORKS = (
 )
 #: [g]: more was recorded nowhere, and a unit may be wrong
 RECORDED_G = 5.0
+#: [s]: accelerographs sample ten times as often and more
+LONGEST_DT = 0.2
 _SOURCES = f"a file of a record, ensemble.h5#NUMBER, lick:NUMBER or {FEMA_PREFIX}SET/INDEX"
 # Over a file's peak: sampled band-limited, a motion of few rows may peak higher between them
 _HIGHER = 0.02
@@ -178,6 +180,13 @@ def unsampled(motion: Motion, file: Path | str) -> GroundMotion:
     check_strong_part(motion, "motion", refuse_in(file))
     ground = rotate(read_motion(motion, file), motion.rotation_deg)
     if not motion.vertical:
+        if ground.acceleration[:, 2].any() and not ground.acceleration[:, :2].any():
+            raise InputError(
+                file,
+                "motion.vertical",
+                False,
+                f"{motion.source} has a vertical component alone; true applies it",
+            )
         ground = without_vertical(ground)
     elif not ground.acceleration[:, 2].any():
         raise InputError(
@@ -188,7 +197,11 @@ def unsampled(motion: Motion, file: Path | str) -> GroundMotion:
             "motion.source_z, or leave this key out",
         )
     begin, end = motion.strong_part
-    return strong_part(scale_time(scale(ground, motion.scale), motion.time_scale), (begin, end))
+    try:
+        scaled = sound(scale(ground, motion.scale))
+    except ValueError as error:
+        raise InputError(file, "motion.scale", motion.scale, str(error)) from None
+    return strong_part(scale_time(scaled, motion.time_scale), (begin, end))
 
 
 def read_motion(motion: Motion, file: Path | str) -> GroundMotion:
@@ -244,6 +257,11 @@ def read_motion(motion: Motion, file: Path | str) -> GroundMotion:
             warnings.warn(
                 f"{ground.name} peaks at {peak / GRAVITY:.3g} g, more than was ever recorded: is "
                 "its unit right?",
+                stacklevel=2,
+            )
+        if dt > LONGEST_DT:
+            warnings.warn(
+                f"{ground.name} has a sample every {dt:g} s only: is its time in milliseconds?",
                 stacklevel=2,
             )
         for axis, column in columns.items():
