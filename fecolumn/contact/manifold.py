@@ -1,4 +1,4 @@
-"""PlaceRoom at which two convex bodies touch or nearly do, for an axis of `contact.separation`.
+"""Places at which two convex bodies touch or nearly do, for an axis of `contact.separation`.
 
 Along the normal of a face, the body of the face is the master. Of the other body, the slave, that
 face which faces it most among those at its nearest corner is clipped to the prism over the master's

@@ -2,9 +2,9 @@
 
 A joint of two plane faces carries on the region where they overlap. What a body pivots on is a
 corner of that region: a corner of the slave's face over the master's, a corner of the master's face
-under the slave's, or a place where an edge of one crosses an edge of the other. Outlines are convex
-polygons or circles. Places on a face are coordinates (2,) [m] along the two tangents of its own
-frame; the slave's face is OWN, the master's OTHER.
+under the slave's, or a place where an edge of one crosses an edge of the other. Outlines are
+polygons, convex or not, or circles. Places on a face are coordinates (2,) [m] along the two
+tangents of its own frame; the slave's face is OWN, the master's OTHER.
 """
 
 from __future__ import annotations

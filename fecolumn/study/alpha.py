@@ -28,8 +28,8 @@ def alpha_note(tables: dict[str, Any], axes: dict[str, Any]) -> str:
         return ""
     where = "" if len(levels) == 1 else f" of the settings with {_IMPACT} = 'plastic'"
     return (
-        f"In the scheme{where} alpha is kept from contact, impact and rigid motion, and "
-        "damps elastic modes alone: that it changes little is "
+        f"In the scheme{where} alpha is kept from contact and impact, and "
+        "damps elastic modes alone, not rigid motion: that it changes little is "
         f"partly built in, and says nothing of the literal scheme ({_IMPACT} = 'none', "
         "integration.engine = 'full'), where alpha decides what an "
         "impact takes."

@@ -55,6 +55,8 @@ if TYPE_CHECKING:
 _AMPLITUDES = (0.1, 0.2, 0.4, 0.6, 0.8)
 _MODULI = (2e10, STEEL, 2e13)
 _STEPS = (2e-3, 1e-3, 5e-4)
+# Of the loss of a nearly rigid column over Housner's: measured 0.996 to 1.003 in all engines
+_RIGID_LOSS = 0.01
 
 
 def run(engine: str, long: bool) -> CaseRows:
@@ -250,10 +252,10 @@ def loss_rows(
                     f"loss, first impact, E 100 x steel, dt {dt:g} s, worst of 3 [J]",
                     exact,
                     lost,
-                    allowed / exact,
+                    _RIGID_LOSS,
                     order=order,
                 )
-                for dt, (lost, exact, allowed) in (
+                for dt, (lost, exact, _) in (
                     (dt, max(runs, key=lambda one: abs(one[0] / one[1] - 1)))
                     for dt, runs in series.items()
                 )

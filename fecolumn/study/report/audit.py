@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from fecolumn.engines.summary_entries import CLOSES
 from fecolumn.pictures.figures.axis_text import axis_text
 from fecolumn.pictures.figures.line_figure import Curve, CurvePanel, line_figure
 from fecolumn.study.failures import may_be_biased, why_failed
@@ -26,7 +27,6 @@ from fecolumn.study.setting_rows import failed_of
 from fecolumn.study.store import DONE, FAILED
 
 _CURVES, _FOLD = 7, 40
-_CLOSED = 1e-3  # closure error that a reader should look at
 
 
 def audit(sweep: Sweep, gallery: Gallery) -> PageSection:
@@ -124,7 +124,7 @@ def _energy(sweep: Sweep) -> str:
     worst, setting, run = max(runs, key=lambda one: one[0])
     median, open_ = (
         float(np.median([one[0] for one in runs])),
-        sum(one[0] > _CLOSED for one in runs),
+        sum(one[0] > CLOSES for one in runs),
     )
     at = (
         f" ({run['motion']}, {sweep.words(setting.values)})"
@@ -139,10 +139,10 @@ def _energy(sweep: Sweep) -> str:
     )
     return text + (
         f"{count(open_, 'analysis')} {'misses' if open_ == 1 else 'miss'} "
-        f"{number(_CLOSED)}: look at them before trusting their "
+        f"{number(CLOSES)}: look at them before trusting their "
         "peaks."
         if open_
-        else f"No analysis misses {number(_CLOSED)}."
+        else f"No analysis misses {number(CLOSES)}."
     )
 
 
