@@ -104,7 +104,7 @@ class Passing:
 
     def over_edges(self, motion: MotionState | RigidMotion) -> tuple[str, ...]:
         """As `UnpreparedEdges.passed`."""
-        return self._edges.passed(motion)
+        return self._edges.passed(motion.frames["center"], motion.rotation)
 
     def fast(self, motion: MotionState | RigidMotion, dt: float) -> str:
         """Which body whose contact is found goes by more than its thickness in a step of dt s, in

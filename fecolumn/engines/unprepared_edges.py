@@ -8,7 +8,7 @@ passes the edge would pivot on its own last contact point instead.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +16,6 @@ from numpy.typing import NDArray
 from fecolumn.contact.points import GROUND
 from fecolumn.structures.faces import apart
 from fecolumn.structures.model import JointModel, StructureModel
-
-if TYPE_CHECKING:
-    from fecolumn.engines.passing import RigidMotion
-    from fecolumn.engines.reduced.motion import MotionState
 
 # Height of a point above the face, over the face's size, up to which it counts as lying on it: more
 # than elastic faces give, less than what can be seen
@@ -70,9 +66,10 @@ class UnpreparedEdges:
         )
         self._faces = [face for face in faces if face is not None]
 
-    def passed(self, motion: MotionState | RigidMotion) -> tuple[str, ...]:
-        """Names of the joints whose upper body lies across such an edge."""
-        centers, rotations = motion.frames["center"], motion.rotation
+    def passed(self, centers: NDArray[Any], rotations: NDArray[Any]) -> tuple[str, ...]:
+        """Names of the joints whose slave lies across such an edge; centers: (nb, 3) [m] of mass,
+        rotations: (nb, 3, 3) of all bodies.
+        """
         return tuple(face.name for face in self._faces if _passes(face, centers, rotations))
 
 

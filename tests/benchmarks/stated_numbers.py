@@ -12,7 +12,7 @@ GIVEN = (
     "Number of motions, of 115, that overturn each of two structures",
     "significantly (p < 0.05)",
     "A real test: 490 shake-table tests",
-    "16 runs a test",
+    "With 16 random sets of values for each test",
     "a steel tube 1.5 m high",
     "With substeps and alpha 0 and -0.2",
     "of the steps 0.02, 1e-3 and 1e-4 s",

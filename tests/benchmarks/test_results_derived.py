@@ -147,7 +147,14 @@ def test_podium_claims_and_slenderness():
     ]
     less = [100 * (1 - ratio) for ratio in ratios if ratio < 1]
     assert len(ratios) == 10 and len(less) == 9 and "in nine of ten places" in PAGE
-    assert f"{min(less):.0f} to {max(less):.0f} % less than" in PAGE
+    assert f"{min(less):.0f} to {max(less):.0f} % less than [the computed block]" in PAGE
+    exact = column("design_slenderness", "rectangular: formula over exact").values()
+    less = [100 * (1 - float(ratio)) for ratio in exact]
+    assert f"{min(less):.0f} to {max(less):.0f} % less than a rectangular pulse needs" in PAGE
+    rectangular = column("design_slenderness", "rectangular: exact")
+    for kind in ("one-sine", "one-cosine"):
+        computed = column("design_slenderness", f"{kind}: computed")
+        assert all(float(rectangular[at]) >= float(need) for at, need in computed.items())
 
 
 def test_lost_structures_that_are_not_told_apart():
