@@ -259,7 +259,7 @@ def read_motion(motion: Motion, file: Path | str) -> GroundMotion:
                 "its unit right?",
                 stacklevel=2,
             )
-        if dt > LONGEST_DT:
+        if dt > LONGEST_DT and not motion.resample_s:  # of lines between rows it is stated
             warnings.warn(
                 f"{ground.name} has a sample every {dt:g} s only: is its time in milliseconds?",
                 stacklevel=2,

@@ -11,7 +11,7 @@ from record_files import ACCELERATION, motion_hash, write_at2, write_text
 
 from fecolumn.case.sections import GRAVITY, Motion
 from fecolumn.foundation.schema import InputError
-from fecolumn.motions.load import load_motion, read_motion
+from fecolumn.motions.load import load_motion, read_motion, unsampled
 from fecolumn.motions.processing import AliasingWarning, integrate
 from fecolumn.motions.record import GroundMotion
 
@@ -182,6 +182,31 @@ def test_input_of_a_coarse_step_is_kept_at_a_fine_one_on_straight_lines(tmp_path
     assert motion_hash(load_motion(Motion(source, resample_s=0.02), 0.02, "")) == motion_hash(
         coarse
     )
+
+
+def test_time_in_milliseconds_under_a_header_of_seconds_is_warned_of(tmp_path):
+    source = str(tmp_path / "ms.csv")
+    rows = np.column_stack([10.0 * np.arange(50), np.sin(0.3 * np.arange(50))])
+    np.savetxt(source, rows, delimiter=",", header="time [s],ax [m/s2]", comments="")
+    with pytest.warns(UserWarning, match="every 10 s only: is its time in milliseconds"):
+        unsampled(Motion(source), "case.toml")
+
+
+def test_a_vertical_component_alone_is_refused_unless_it_is_asked_for(tmp_path):
+    source = str(tmp_path / "up.csv")
+    rows = np.column_stack([0.01 * np.arange(50), np.sin(0.3 * np.arange(50))])
+    np.savetxt(source, rows, delimiter=",", header="time [s],az [m/s2]", comments="")
+    error = refused(Motion(source))
+    assert error.key == "motion.vertical" and "a vertical component alone" in str(error)
+    assert load_motion(Motion(source, vertical=True), 0.01, "").pga[2] > 0.9
+
+
+def test_peaks_are_judged_after_the_scale(tmp_path):
+    source = str(tmp_path / "strong.csv")
+    rows = np.column_stack([0.01 * np.arange(50), 2.0 * np.sin(0.3 * np.arange(50))])
+    np.savetxt(source, rows, delimiter=",", header="time [s],ax [m/s2]", comments="")
+    error = refused(Motion(source, scale=1000.0))
+    assert error.key == "motion.scale" and "m/s2; must be finite" in str(error)
 
 
 def test_a_motion_of_few_rows_that_peaks_between_them_is_warned_of_with_the_way_out(tmp_path):

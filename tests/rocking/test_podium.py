@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from scipy.signal import StateSpace, lsim
 
-from benchmarks.podium.ensemble import batches, gathered, responses
+from benchmarks import kept
+from benchmarks.kept import complete
+from benchmarks.podium.ensemble import batches, file_of, gathered, responses
 from fecolumn.case.model_sections import CAV, CRV, LAWS, PodiumModel
 from fecolumn.engines.rocking.podium import Podium, study_podium
 from fecolumn.engines.rocking.podium_impact import kinetic_energy_kept
@@ -155,10 +157,13 @@ def test_stout_columns_that_cav_would_throw_back_are_refused():
 
 
 def test_a_small_study_is_kept_judged_and_its_sizes_are_those_of_the_whole(tmp_path):
-    file = responses((6.5, 10.0), (1, 2), 1, tmp_path)
+    jobs = {file_of((6.5, 10.0), (1, 2), 1, tmp_path): ((6.5, 10.0), (1, 2), 1)}
+    complete(responses, jobs, 1, "parts")
+    (file,) = jobs
     written = file.stat().st_mtime_ns
-    assert responses((6.5, 10.0), (1, 2), 1, tmp_path).stat().st_mtime_ns == written
-    found = gathered([file])
+    complete(responses, jobs, 1, "parts")
+    assert file.stat().st_mtime_ns == written
+    found = gathered(kept.found(jobs))
     assert len(found) == 18 and all(len(one["tilt"]) == 2 for one in found.values())
     buildings = compared(found, resamples=99)
     assert len(podium_claims(buildings)) == 8 and {one.storeys for one in buildings} == {3, 6, 9}
