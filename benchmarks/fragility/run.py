@@ -33,7 +33,11 @@ COLUMNS = (
 REST_S = 2.0
 #: What an analysis says that ends because a body slid or walked by `structures.SLIDES` from its
 #: place on another, or because columns of a frame fell against each other: it is lost.
-_LOST = ("left the part of the face below it", "came through each other")
+_LOST = (
+    "left the part of the face below it",
+    "slid over an edge of the face below it",
+    "came through each other",
+)
 _KEYS = ("motion.source",)
 #: Steps [s] of the analyses whose rows come with the repository
 STEP_S = 2e-3
