@@ -54,9 +54,18 @@ class TooManyPoints(ValueError):
     """So many contact points that this machine has no room for what they give one another."""
 
 
-def _check_room(points: int) -> None:
-    """Refuse contact points whose matrix, `contact.problem.room`, is larger than the memory."""
-    needed, there = 72 * points**2, os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+# Matrices of all points with all others: of the problem (`contact.problem.room`), and of the
+# operator of bodies that deform (`contact.stick.Stick`: W, two factors, the inverse)
+_RIGID_MATRICES, _ELASTIC_MATRICES = 1, 5
+
+
+def _check_room(points: int, deforms: bool) -> None:
+    """Refuse contact points whose matrices are larger than the memory."""
+    matrices = _ELASTIC_MATRICES if deforms else _RIGID_MATRICES
+    needed, there = (
+        matrices * 72 * points**2,
+        os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"),
+    )
     if needed > there:
         raise TooManyPoints(
             f"{points:,} contact points in all: what these give one another takes "
@@ -134,11 +143,12 @@ def engine_on(
     TooManyPoints
         as of its name.
     """
+    deforms = any(part.model.flexibility.any() for part in standing.parts)
 
     def build(step: HHT, meetings: int | None = None) -> tuple[Structure, Array]:
         parts = PARTS if plan.substeps == "impacts" else 1
         made = structure_of(standing, step, gravity, parts, meetings)
-        _check_room(len(made[1]))
+        _check_room(len(made[1]), deforms)
         return made
 
     structure, _ = build(hht)
