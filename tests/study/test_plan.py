@@ -179,7 +179,7 @@ def test_longer_motions_are_longer_analyses_whatever_their_scale(tmp_path):
 def test_what_is_told_of_many_motions_is_told_of_three(tmp_path, many):
     names = [f"{k}.csv" for k in range(many)]
     for k, name in enumerate(names):
-        rows = f"0,0,0\n3,{0.3 + k / 100},0\n6,{0.3 + k / 100},0\n"
+        rows = f"0,0,0\n0.15,{0.3 + k / 100},0\n0.3,{0.3 + k / 100},0\n"
         (tmp_path / name).write_text("time [s],ax [g],ay [g]\n" + rows)
     axis = ", ".join(f'"{name}"' for name in names)
     study = f'[case]\nextends = "{SPECIMEN}"\n[axes]\n"motion.source" = [{axis}]'
