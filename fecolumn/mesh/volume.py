@@ -27,6 +27,7 @@ from fecolumn.mesh.closed_surface import (
     flat_foot,
 )
 from fecolumn.mesh.curved import curved_properties
+from fecolumn.mesh.gmsh_section import end_session
 from fecolumn.mesh.mass import MassProperties, enclosed, mass_properties
 from fecolumn.mesh.mesh_file import MeshFile, UnusableShape
 
@@ -137,6 +138,7 @@ class _Gmsh:
         self.gmsh = gmsh
 
     def __enter__(self) -> None:
+        end_session(self.gmsh)
         self.gmsh.initialize()
         for name, value in (
             ("General.Terminal", 0),

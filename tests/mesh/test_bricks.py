@@ -12,6 +12,7 @@ from small_specimen import TABLES, small_case
 from fecolumn.case.case import load_case
 from fecolumn.case.short_form import short_form
 from fecolumn.contact.rim import Rim
+from fecolumn.mesh import gmsh_section
 from fecolumn.mesh.base_plate import GROWTH, base_mesh, growing_steps
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, boundary_faces, brick_mesh, outer_faces
 from fecolumn.mesh.cap_plate import cap_mesh
@@ -20,7 +21,7 @@ from fecolumn.mesh.gmsh_section import extruded
 from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
 from fecolumn.mesh.mass import mass_properties
 from fecolumn.mesh.quality import exact_cap, exact_column, exact_flange
-from fecolumn.mesh.section import Annulus
+from fecolumn.mesh.section import Annulus, Disc
 from fecolumn.mesh.specimen import specimen_mesh
 
 ODD_CASES = {
@@ -254,6 +255,23 @@ def test_a_callers_gmsh_session_survives():
         assert gmsh.model.getEntities(0) == [(0, 1)]
     finally:
         gmsh.finalize()
+
+
+def test_sessions_of_gmsh_end_until_there_were_many(monkeypatch):
+    """Each session leaves some memory behind: of thousands of bodies one stays open."""
+    monkeypatch.setattr(gmsh_section, "_begun", 0)
+    monkeypatch.setattr(gmsh_section, "_SESSIONS", 2)
+    disc = Disc(0.5, 12, 2)
+    meshes, open_after = [], []
+    for _ in range(5):
+        meshes.append(extruded(disc, 0.0, 1.0, 3, 0))
+        open_after.append(gmsh_section._is_running(gmsh))
+    assert open_after == [False, False, True, True, True] and gmsh_section._begun == 3
+    for mesh in meshes[1:]:
+        assert np.array_equal(mesh.points, meshes[0].points)
+        assert np.array_equal(mesh.cells, meshes[0].cells)
+    gmsh_section.end_session(gmsh)
+    assert not gmsh_section._is_running(gmsh)
 
 
 def test_meshing_leaves_ctrl_c_to_the_program():
