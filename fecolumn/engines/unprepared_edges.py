@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.contact.points import GROUND
-from fecolumn.structures.faces import apart
-from fecolumn.structures.model import JointModel, StructureModel
+from fecolumn.structures.faces import apart, over
+from fecolumn.structures.model import JointModel, StructureModel, Surface
 
 # Height of a point above the face, over the face's size, up to which it counts as lying on it: more
 # than elastic faces give, less than what can be seen
@@ -29,19 +29,18 @@ class _Face(NamedTuple):
     """What a joint without an edge lies on.
 
     name: of the joint. slave, master: places of the bodies. points: (k, 3) [m] of the slave from
-    its centre of mass. origin: (3,) [m], axes: (3, 3) of the master's face in its frame. triangles:
-    (t, 3, 2) [m] that are prepared. sides: (e, 2, 2) [m] around these; edge: (e,) mask of those on
-    the outlines of the face. size: [m] of the slave's face. place: (3,) [m] of the slave's middle
-    in the master's frame, turn: (3, 3) of the slave in it, at the start. way: [m] by which a point
-    may move before any comes to an edge.
+    its centre of mass. surface: of the master. triangles: (t, 3, 2) [m] that are prepared of it.
+    sides: (e, 2, 2) [m] around these; edge: (e,) mask of those on the outlines of the face. size:
+    [m] of the slave's face. place: (3,) [m] of the slave's middle in the master's frame, turn:
+    (3, 3) of the slave in it, at the start. way: [m] by which a point may move before any comes to
+    an edge.
     """
 
     name: str
     slave: int
     master: int
     points: NDArray[Any]
-    origin: NDArray[Any]
-    axes: NDArray[Any]
+    surface: Surface
     triangles: NDArray[Any]
     sides: NDArray[Any]
     edge: NDArray[Any]
@@ -95,8 +94,7 @@ def _face(structure: StructureModel, joint: JointModel) -> _Face | None:
         joint.slave,
         joint.master,
         points,
-        other.origin,
-        other.axes,
+        other,
         corners[other.triangles],
         corners[sides],
         edge,
@@ -115,27 +113,12 @@ def _passes(face: _Face, centers: NDArray[Any], rotations: NDArray[Any]) -> bool
     moved = shift + face.points.mean(axis=0) @ turn.T - face.place
     if np.linalg.norm(moved) + face.size * np.linalg.norm(turn - face.turn) < face.way:
         return False
-    places = (shift + face.points @ turn.T - face.origin) @ face.axes
+    places = face.surface.plane(shift + face.points @ turn.T)
     low = (places[:, 2] < _LIES * face.size) & (places[:, 2] > -_BELOW * face.size)
-    on = _within(places[:, :2], face.triangles)
+    on = over(places[:, :2], face.triangles, 0.0)
     if not (low & on).any() or not (low & ~on).any():
         return False
     away = apart(places[low & ~on, None, :2], face.sides)
     # beyond the face, not only beyond what is prepared of it
     nearest = away.argmin(axis=1)
     return bool((face.edge[nearest] & (away.min(axis=1) > _LIES * face.size)).any())
-
-
-def _within(places: NDArray[Any], triangles: NDArray[Any]) -> NDArray[Any]:
-    """Which of places (k, 2) [m] lie in any of triangles (t, 3, 2) [m]."""
-    a, b, c = (triangles[None, :, k] for k in range(3))
-    p = places[:, None]
-    signs = np.stack(
-        [
-            (end - start)[..., 0] * (p - start)[..., 1]
-            - (end - start)[..., 1] * (p - start)[..., 0]
-            for start, end in ((a, b), (b, c), (c, a))
-        ]
-    )
-    within: NDArray[Any] = ((signs >= 0).all(axis=0) | (signs <= 0).all(axis=0)).any(axis=1)
-    return within
