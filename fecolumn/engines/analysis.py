@@ -21,6 +21,7 @@ from fecolumn.engines.ending import (
     SLID_OFF,
     STILL_ROCKING,
     Ending,
+    cut_text,
 )
 from fecolumn.engines.followed import ends_at_rest, followed_s
 from fecolumn.engines.resume import CHECKPOINT, Resumable
@@ -391,12 +392,3 @@ class Analysis(Resumable):
             import sys
 
             print(text, file=sys.stderr, flush=True)
-
-
-def cut_text(file: Path | str, end_s: float, motion_s: float) -> str:
-    """Warning of a motion that is not analysed to its end."""
-    return (
-        f"{file}: integration.duration_s = {end_s:g} s cuts the motion short, which "
-        f"lasts {motion_s:g} s; without integration.duration_s "
-        "the whole motion is analysed"
-    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 #: Outcomes. Only a column at rest has shown its residual slide, and only one that is not lost,
@@ -93,6 +94,15 @@ def energy_text(left: float, barrier: float) -> str:
         return f"{left:.3g} J of the {barrier:.3g} J to overturn"
     return f"{left:.3g} J" + (
         f", more than the {barrier:.3g} J that overturn it slowly" if barrier else ""
+    )
+
+
+def cut_text(file: Path | str, end_s: float, motion_s: float) -> str:
+    """Warning of a motion that is not analysed to its end."""
+    return (
+        f"{file}: integration.duration_s = {end_s:g} s cuts the motion short, which "
+        f"lasts {motion_s:g} s; without integration.duration_s "
+        "the whole motion is analysed"
     )
 
 

@@ -50,7 +50,7 @@ def _warn_of_motion(case: Case, file: Path | str) -> None:
     """Tell of a motion that an analysis of the case would cut short, or could not use; its mesh may
     be looked at all the same.
     """
-    from fecolumn.engines.analysis import cut_text
+    from fecolumn.engines.ending import cut_text
     from fecolumn.motions.load import unsampled
 
     if case.motion is None:

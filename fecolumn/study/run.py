@@ -167,7 +167,7 @@ def check_motions(plan: Plan) -> None:
     InputError
         a motion that cannot be used, in the loader's words.
     """
-    from fecolumn.engines.analysis import cut_text
+    from fecolumn.engines.ending import cut_text
     from fecolumn.motions.load import load_motion
 
     # factor and direction change neither length nor whether it can be used; the longest step is the
