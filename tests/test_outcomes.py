@@ -252,6 +252,23 @@ def test_energy_left_is_told_beside_that_which_overturns():
     ]
 
 
+def test_a_structure_of_which_any_body_rocks_is_said_to_rock():
+    still = {
+        "overturned": False,
+        "outcome": "still rocking",
+        "duration_s": 1.0,
+        "residual_slide_m": 0.0,
+        "motion_cut_at_s": None,
+        "energy_left_j": 5.0,
+        "energy_to_overturn_j": 12.0,
+        "tilt_max_rad": 1e-5,
+        "critical_tilt_rad": 0.2,
+    }
+    assert ending_text(still).startswith("still moving at 1.000 s, never tilted")
+    rocks = {"low": {"tilt_max_rad": 0.05}, "tall": {"tilt_max_rad": 1e-5}}
+    assert "with 5 J of the 12 J" in ending_text(still | {"bodies": rocks})
+
+
 def test_free_vibration_is_a_number_or_rest():
     with pytest.raises(InputError, match=r'free_vibration_s = .*forever.*a number or "rest"'):
         drum(motion={"source": "lick:1", "free_vibration_s": "forever"})

@@ -8,7 +8,9 @@ from benchmarks.fragility.motions import ensemble_file, parameters
 from benchmarks.fragility.structures import case_of
 from benchmarks.soak.analysis import ENTRY
 from benchmarks.tables.runs import MOTION, read_runs, write_runs
+from fecolumn.engines.dynamics.cuts import Stop
 from fecolumn.engines.ending import SLID_OFF
+from fecolumn.engines.left_part import OVER_EDGE
 from fecolumn.study.plan import Plan, PlannedAnalysis
 from fecolumn.study.run import complete_study
 from fecolumn.study.store import DONE, FAILED
@@ -34,8 +36,8 @@ REST_S = 2.0
 #: What an analysis says that ends because a body slid or walked by `structures.SLIDES` from its
 #: place on another, or because columns of a frame fell against each other: it is lost.
 _LOST = (
-    "left the part of the face below it",
-    "slid over an edge of the face below it",
+    Stop.OFF_PATCH.value,
+    OVER_EDGE,
     "came through each other",
 )
 _KEYS = ("motion.source",)

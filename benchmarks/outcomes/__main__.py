@@ -32,6 +32,8 @@ from fecolumn.study.results.outcomes import PACKAGED, outcomes
 #: Share of the analyses of each model; rows of a part, in a file of its own.
 SHARES = {models.BLOCK: 0.14, models.ROLLING: 0.08, bodies.RIGID: 0.5, bodies.ELASTIC: 0.28}
 PARTS = {models.BLOCK: (models.planar_blocks, 2000), models.ROLLING: (models.rolling_columns, 250)}
+# A surface is fitted to this many bodies and more: its parameters are up to five
+_FEWEST_BODIES = 10
 #: Near-fault motions, with half as many others; of fewer analyses a fortieth.
 NEAR_FAULT = 2000
 
@@ -91,7 +93,10 @@ def told(table: Path) -> str:
     size = f"{table}: {table.stat().st_size / 1e6:.2f} MB, {len(frame)} analyses"
     head_of_surface = ["bodies", "ln of", "parameter", "standard error"]
     fitted = [
-        [kind, *line] for kind in (bodies.RIGID, bodies.ELASTIC) for line in surface(frame, kind)
+        [kind, *line]
+        for kind in (bodies.RIGID, bodies.ELASTIC)
+        if _alike(frame[frame.model == kind]).nunique() >= _FEWEST_BODIES
+        for line in surface(frame, kind)
     ]
     return f"{markdown(head, rows)}\n\n{size}\n\n{markdown(head_of_surface, fitted)}"
 
@@ -115,7 +120,7 @@ def surface(frame, kind: str) -> list[list[str]]:
         weight = DENSITY * GRAVITY * some.height_m**2
         x["E B / (rho g H^2)"] = some.youngs_modulus_pa * some.width_m / weight
     given = add_constant(np.log(np.column_stack(list(x.values()))))
-    alike = [some.motion, some.groupby(["shape", "width_m", "height_m"], observed=True).ngroup()]
+    alike = [some.motion, _alike(some)]
     fit = Probit((some.outcome == "overturned").to_numpy(float), given).fit(
         disp=False, cov_type="cluster", cov_kwds={"groups": np.column_stack(alike)}
     )
@@ -123,6 +128,11 @@ def surface(frame, kind: str) -> list[list[str]]:
         [name, f"{value:.3f}", f"{error:.3f}"]
         for name, value, error in zip(("1", *x), fit.params, fit.bse)
     ]
+
+
+def _alike(some):
+    """Which body each analysis is of."""
+    return some.groupby(["shape", "width_m", "height_m"], observed=True).ngroup()
 
 
 if __name__ == "__main__":

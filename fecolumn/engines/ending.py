@@ -83,7 +83,10 @@ def _slides_only(summary: dict[str, Any]) -> bool:
     it.
     """
     tilt, critical = summary.get("tilt_max_rad"), summary.get("critical_tilt_rad")
-    return bool(tilt is not None and critical and tilt < ROCKS * critical)
+    if tilt is None or not critical:
+        return False
+    others = (body["tilt_max_rad"] for body in summary.get("bodies", {}).values())
+    return bool(max([tilt, *others]) < ROCKS * critical)
 
 
 def energy_text(left: float, barrier: float) -> str:

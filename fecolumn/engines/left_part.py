@@ -7,6 +7,8 @@ import numpy as np
 from fecolumn.case.case import Case
 from fecolumn.structures.model import JointModel, StructureModel
 
+#: What is said of a body that passed an edge that its joint has no contact points for
+OVER_EDGE = "a body slid over an edge of the face it lies on, which was not prepared for contact"
 # Range of the key [m]
 _LEAST, _MOST = 0, 1000
 

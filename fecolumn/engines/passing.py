@@ -90,10 +90,12 @@ class Passing:
 
     def steps(self, motion: MotionState | RigidMotion, dt: float, most: int) -> int:
         """Steps [of dt s] after which to look again, `most` at most."""
-        if not self._looks:
-            return most
-        fastest = float(self._speeds(motion).max()) + GRAVITY * most * dt
-        return max(1, min(most, int(_WAY * self._thinnest / (fastest * dt))))
+        speeds = self._speeds(motion)
+        time = self._edges.time(motion.frames["center"], motion.rotation, speeds, most * dt)
+        if self._looks:
+            fastest = float(speeds.max()) + GRAVITY * most * dt
+            time = min(time, _WAY * self._thinnest / fastest)
+        return max(1, min(most, int(time / dt * (1 + 1e-9))))
 
     def look(self, motion: MotionState | RigidMotion, dt: float) -> tuple[list[str], str]:
         """What makes the motion doubtful, in words, each told once; and which pair came through

@@ -19,6 +19,7 @@ from fecolumn.contact.known_base import KnownBase
 from fecolumn.contact.overturning import STANDS
 from fecolumn.contact.problem import list_present
 from fecolumn.contact.unbounded_base import UnboundedBase
+from fecolumn.engines.analysis import AnalysisFailed
 from fecolumn.engines.dynamics.cuts import StepFailed
 from fecolumn.engines.dynamics.gravity import NoEquilibrium
 from fecolumn.engines.ending import Ending
@@ -29,7 +30,7 @@ from fecolumn.engines.reduced.observe import ENERGY, column_index
 from fecolumn.engines.reduced.rigid_loss import loss_share
 from fecolumn.engines.reduced.run import advance
 from fecolumn.engines.reduced.states import States, state_of
-from fecolumn.engines.reduced_engine import begins_unstrained, engine_of, upright
+from fecolumn.engines.reduced_engine import TooManyPoints, begins_unstrained, engine_of, upright
 from fecolumn.engines.resume import CHECKPOINT
 from fecolumn.engines.step_times import StepTimes
 from fecolumn.engines.structure_analysis import OfStructure
@@ -157,6 +158,9 @@ class ReducedAnalysis(OfStructure):
                     raise KeyboardInterrupt
         except StepFailed as failure:
             off = self.off_or_failed(failure)
+        except TooManyPoints as error:
+            self._save()
+            raise AnalysisFailed(f"t = {self.step * self.dt_s:.4g} s: {error}") from None
         finally:
             progress.end()
             pace.end()

@@ -143,7 +143,9 @@ def engine_on(
     TooManyPoints
         as of its name.
     """
-    deforms = any(part.model.flexibility.any() for part in standing.parts)
+    deforms = any(part.model.flexibility.any() for part in standing.parts) or any(
+        np.asarray(base.compliance).any() for base in standing.bases
+    )
 
     def build(step: HHT, meetings: int | None = None) -> tuple[Structure, Array]:
         parts = PARTS if plan.substeps == "impacts" else 1

@@ -16,7 +16,7 @@ from fecolumn.contact.points import GROUND
 from fecolumn.engines.analysis import Analysis, AnalysisFailed
 from fecolumn.engines.ending import AT_REST, OVERTURNED, REST_SHARE, SLID_OFF, STILL_ROCKING, Ending
 from fecolumn.engines.fallen_bodies import FallenBodies
-from fecolumn.engines.left_part import way_out
+from fecolumn.engines.left_part import OVER_EDGE, way_out
 from fecolumn.engines.peaks import peaks
 from fecolumn.engines.resume import CHECKPOINT
 from fecolumn.engines.summary_entries import direction_deg
@@ -207,8 +207,7 @@ class OfStructure(Analysis):
             warnings.warn(f"{self.file}: {told}", stacklevel=2)
         if not through and (names := passing.over_edges(motion)):
             through = (
-                f"t = {motion.time:.4g} s: a body slid over an edge of the face below it that was "
-                f"not prepared for contact: {', '.join(names)}; "
+                f"t = {motion.time:.4g} s: {OVER_EDGE}: {', '.join(names)}; "
                 f"{way_out(self.case, self.structure, names)}"
             )
         if through:

@@ -3,7 +3,8 @@ while an analysis runs.
 
 A joint is given the edge of the larger face, its other side, where the smaller face may come to it
 by sliding as far as `joints.NAME.allowance_m` (`structures.edges`). A body that slides farther and
-passes the edge would pivot on its own last contact point instead.
+passes the edge would pivot on its own last contact point instead. Joints with a pad are left out:
+what lies beyond the edge carries nothing there. So are those in whose stead contact is found.
 """
 
 from __future__ import annotations
@@ -13,12 +14,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.contact.points import GROUND
-from fecolumn.structures.faces import apart, over
+from fecolumn.case.sections import GRAVITY
 from fecolumn.structures.model import JointModel, StructureModel, Surface
+from fecolumn.structures.outlines import inwards
 
-# Height of a point above the face, over the face's size, up to which it counts as lying on it: more
-# than elastic faces give, less than what can be seen
+# Height of a point above the face, over the face's size, up to which it counts as lying on it, and
+# how far beyond its edge it counts as over it: more than elastic faces give, less than can be seen
 _LIES = 1e-4
 # Depth below the face, over its size, down to which a point is of a body that lies on it, not of
 # one that has fallen off
@@ -28,12 +29,11 @@ _BELOW = 0.1
 class _Face(NamedTuple):
     """What a joint without an edge lies on.
 
-    name: of the joint. slave, master: places of the bodies. points: (k, 3) [m] of the slave from
-    its centre of mass. surface: of the master. triangles: (t, 3, 2) [m] that are prepared of it.
-    sides: (e, 2, 2) [m] around these; edge: (e,) mask of those on the outlines of the face. size:
-    [m] of the slave's face. place: (3,) [m] of the slave's middle in the master's frame, turn:
-    (3, 3) of the slave in it, at the start. way: [m] by which a point may move before any comes to
-    an edge.
+    name: of the joint. slave, master: places of the bodies. points: (k, 3) [m] of the slave that
+    begin over the master's face, from its centre of mass. surface: of the master. border: (e, 2, 2)
+    [m] sides of the outline of its face, holes left out. size: [m] of the slave's face. place: (3,)
+    [m] of the slave's middle in the master's frame, turn: (3, 3) of the slave in it, at the start.
+    way: [m] by which a point may move before any comes to the border.
     """
 
     name: str
@@ -41,9 +41,7 @@ class _Face(NamedTuple):
     master: int
     points: NDArray[Any]
     surface: Surface
-    triangles: NDArray[Any]
-    sides: NDArray[Any]
-    edge: NDArray[Any]
+    border: NDArray[Any]
     size: float
     place: NDArray[Any]
     turn: NDArray[Any]
@@ -54,14 +52,13 @@ class UnpreparedEdges:
     """Edges of faces that the joints of a structure have no contact points for."""
 
     def __init__(self, structure: StructureModel) -> None:
-        prepared = {joint.pair for joint in structure.joints}
         faces = (
             _face(structure, joint)
             for place, joint in enumerate(structure.joints)
-            if joint.master != GROUND
-            and joint.pair < 0
-            and place not in prepared
+            if len(joint.border)
             and joint.ball is None
+            and joint.pad is None
+            and place not in structure.replaced
         )
         self._faces = [face for face in faces if face is not None]
 
@@ -71,54 +68,77 @@ class UnpreparedEdges:
         """
         return tuple(face.name for face in self._faces if _passes(face, centers, rotations))
 
+    def time(
+        self, centers: NDArray[Any], rotations: NDArray[Any], speeds: NDArray[Any], longest: float
+    ) -> float:
+        """Time [s], at most `longest`, in which bodies whose points move by `speeds` (nb,) [m/s] at
+        most, and gain no more than in a fall, come to no edge.
+        """
+        for face in self._faces:
+            speed = float(speeds[face.slave] + speeds[face.master])
+            away = face.way - _moved(face, centers, rotations)
+            if away < (speed + GRAVITY * longest) * longest:
+                within, height = _within(face, centers, rotations)
+                lies = height - _LIES * face.size, -_BELOW * face.size - height
+                away = max(float(np.max([within, *lies], axis=0).min()), 0.0)
+                fall = np.sqrt(speed**2 + 4 * GRAVITY * away) - speed
+                longest = min(longest, float(fall) / (2 * GRAVITY))
+        return longest
+
 
 def _face(structure: StructureModel, joint: JointModel) -> _Face | None:
-    """The face that a joint lies on, None where what is prepared of it reaches no edge."""
+    """The face that a joint lies on, None where nothing lies on it."""
     slave, master = structure.parts[joint.slave], structure.parts[joint.master]
     own = slave.model.surfaces[joint.slave_surface]
-    assert joint.master_surface is not None  # the ground has none
-    other = master.model.surfaces[joint.master_surface]
-    corners = other.plane(master.model.arms[other.nodes])[:, :2]
-    sides = np.sort(other.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    sides, times = np.unique(sides, axis=0, return_counts=True)
-    sides = sides[times == 1]
-    edge = other.outlines[sides].all(axis=1)
-    if not edge.any():
-        return None
+    assert joint.master_surface is not None  # the ground has no border
+    surface = master.model.surfaces[joint.master_surface]
+    border = surface.plane(joint.border)[..., :2]
     points = slave.model.arms[own.nodes]
     turn = master.rotation.T @ slave.rotation
     places = (slave.center - master.center) @ master.rotation + points @ turn.T
-    away = apart(other.plane(places)[:, None, :2], corners[sides[edge]]).min()
+    within = inwards(surface.plane(places)[:, :2], border)
+    on = within >= 0
+    if not on.any():
+        return None
     return _Face(
         joint.name,
         joint.slave,
         joint.master,
-        points,
-        other,
-        corners[other.triangles],
-        corners[sides],
-        edge,
+        points[on],
+        surface,
+        border,
         float(np.ptp(points, axis=0).max()),
-        places.mean(axis=0),
+        places[on].mean(axis=0),
         turn,
-        float(away),
+        float(within[on].min()),
     )
 
 
-def _passes(face: _Face, centers: NDArray[Any], rotations: NDArray[Any]) -> bool:
-    """Whether the slave has a point on the face and one beyond an edge of it, not above it."""
+def _moved(face: _Face, centers: NDArray[Any], rotations: NDArray[Any]) -> float:
+    """How far [m] any point of the slave has moved over the face at most."""
     frame = rotations[face.master]
     turn = frame.T @ rotations[face.slave]
     shift = (centers[face.slave] - centers[face.master]) @ frame
     moved = shift + face.points.mean(axis=0) @ turn.T - face.place
-    if np.linalg.norm(moved) + face.size * np.linalg.norm(turn - face.turn) < face.way:
+    return float(np.linalg.norm(moved) + face.size * np.linalg.norm(turn - face.turn))
+
+
+def _within(
+    face: _Face, centers: NDArray[Any], rotations: NDArray[Any]
+) -> tuple[NDArray[Any], NDArray[Any]]:
+    """How far (k,) [m] the slave's points are within the border, and their heights [m] above the
+    face.
+    """
+    frame = rotations[face.master]
+    shift = (centers[face.slave] - centers[face.master]) @ frame
+    places = face.surface.plane(shift + face.points @ rotations[face.slave].T @ frame)
+    return inwards(places[:, :2], face.border), places[:, 2]
+
+
+def _passes(face: _Face, centers: NDArray[Any], rotations: NDArray[Any]) -> bool:
+    """Whether the slave has a point on the face and one beyond its border, not above it."""
+    if _moved(face, centers, rotations) < face.way:
         return False
-    places = face.surface.plane(shift + face.points @ turn.T)
-    low = (places[:, 2] < _LIES * face.size) & (places[:, 2] > -_BELOW * face.size)
-    on = over(places[:, :2], face.triangles, 0.0)
-    if not (low & on).any() or not (low & ~on).any():
-        return False
-    away = apart(places[low & ~on, None, :2], face.sides)
-    # beyond the face, not only beyond what is prepared of it
-    nearest = away.argmin(axis=1)
-    return bool((face.edge[nearest] & (away.min(axis=1) > _LIES * face.size)).any())
+    within, height = _within(face, centers, rotations)
+    low = (height < _LIES * face.size) & (height > -_BELOW * face.size)
+    return bool((low & (within >= 0)).any() and (low & (within < -_LIES * face.size)).any())

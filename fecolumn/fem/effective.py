@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 #: Solves with one load in less than half the time of MUMPS, but on a single rank alone
 _OF_ONE_RANK = "cholmod" if PETSc.Sys.hasExternalPackage("suitesparse") else "mumps"
+#: Codes of PETSc's errors of a matrix that is singular or not definite: zero pivots of LU and of
+#: Cholesky, what a package says
+FACTORIZATION_FAILED = (71, 81, 76)
 # Messages of CHOLMOD
 _SAYS = "mat_cholmod_print"
 
@@ -37,13 +40,17 @@ class Factor:
         self.body, self._matrix = body, body.constraint.pinned(matrix)
         alone = body.comm.size == 1
         try:
-            self._solver = _solver(
-                self._matrix, _OF_ONE_RANK if alone else "mumps", definite or alone
-            )
+            try:
+                self._solver = _solver(
+                    self._matrix, _OF_ONE_RANK if alone else "mumps", definite or alone
+                )
+            except PETSc.Error:
+                if definite:
+                    raise
+                self._solver = _solver(self._matrix, "mumps", False)
         except PETSc.Error:
-            if definite:
-                raise
-            self._solver = _solver(self._matrix, "mumps", False)
+            self._matrix.destroy()
+            raise
         self._release = _dolfinx.release_with(self, self._solver, self._matrix)
 
     def solve(self, forces: Array) -> Array:

@@ -57,6 +57,9 @@ def joint_of(
         np.array(own) - bodies[of[0]].center
         for own, of in zip(contact["outlines"], (contact["slave"], master))
     )
+    border = np.reshape(contact["border"], (-1, 2, 3))
+    if master is not None:
+        border = border - bodies[master[0]].center
     if contact_keys.law == "penalty" and body not in sizes:
         raise InputError(
             file,
@@ -96,6 +99,7 @@ def joint_of(
         contact_keys.rolling_resistance,
         ground=list(case.grounds).index(keys.on) if master is None else 0,
         gap=contact["gap"],
+        border=border,
     )
 
 

@@ -51,17 +51,34 @@ def edges_of(case: Case, drawings: dict[str, Drawing], meetings: list[Meeting]) 
     """Edges of all masters that run below the faces of their slaves, but where the case has an
     interface with the roles exchanged.
     """
+    return [edge for edge in (_edge(case, drawings, one) for one in _one_sided(meetings)) if edge]
+
+
+def borders_of(
+    drawings: dict[str, Drawing], meetings: list[Meeting], edges: list[Edge]
+) -> dict[int, list[list[list[float]]]]:
+    """`JointModel.border` in the drawing of the master, by places of the meetings that have one."""
+    prepared = {(one.upper, one.upper_face, one.lower, one.lower_face) for one in edges}
+    one_sided = {_roles(one) for one in _one_sided(meetings)} - prepared
+    return {
+        place: outline_of(drawings[one.master[0]].faces[one.master_face]).tolist()
+        for place, one in enumerate(meetings)
+        if one.master and _roles(one) in one_sided
+    }
+
+
+def _one_sided(meetings: list[Meeting]) -> list[Meeting]:
+    """Meetings of two bodies but those that the case has with the roles exchanged, too."""
     stated = {
         (meeting.master, meeting.master_face, meeting.slave, meeting.slave_face)
         for meeting in meetings
     }
-    wanted = (
-        meeting
-        for meeting in meetings
-        if meeting.master
-        and (meeting.slave, meeting.slave_face, meeting.master, meeting.master_face) not in stated
-    )
-    return [edge for edge in (_edge(case, drawings, meeting) for meeting in wanted) if edge]
+    return [one for one in meetings if one.master and _roles(one) not in stated]
+
+
+def _roles(meeting: Meeting) -> tuple[Any, ...]:
+    """Who lies with which face on whose."""
+    return (meeting.slave, meeting.slave_face, meeting.master, meeting.master_face)
 
 
 def edge_patch(face: Face, order: int, points: NDArray[Any]) -> Patch:

@@ -15,7 +15,7 @@ from fecolumn.case.case import Case
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.bodies import Drawing, drawing
 from fecolumn.structures.check import check_meetings
-from fecolumn.structures.edges import Edge, edge_patch, edges_of
+from fecolumn.structures.edges import Edge, borders_of, edge_patch, edges_of
 from fecolumn.structures.faces import Face
 from fecolumn.structures.feet import ball_of, lifted
 from fecolumn.structures.hulls import HULL, hull_patch
@@ -31,8 +31,8 @@ class ContactPair:
     """A surface of a copy on one of another, or on the ground: slave, master: (body, number of the
     copy), None of the ground.
 
-    pair, outlines, gap: as of `model.JointModel`, place among the contacts and sides [m] in the
-    drawings of the bodies, of plain lists.
+    pair, outlines, gap, border: as of `model.JointModel`, place among the contacts and sides [m] in
+    the drawings of the bodies, of plain lists.
     """
 
     interface: str
@@ -43,6 +43,7 @@ class ContactPair:
     pair: int = -1
     outlines: tuple[list[list[list[float]]], ...] = ()
     gap: float = 0.0
+    border: list[list[list[float]]] = dataclasses.field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -98,14 +99,21 @@ def layout_of(case: Case, file: Path | str) -> Layout:
         patches[body] |= _touched(case, body, drawings, patches, meetings, edges)
     for body in dict.fromkeys(name for name, _ in case.found):
         patches[body][HULL] = hull_patch(drawings[body])
-    for meeting in meetings:
+    borders = borders_of(drawings, meetings, edges)
+    for place, meeting in enumerate(meetings):
         slave = _surface_name(drawings[meeting.slave[0]].faces, meeting.slave_face, "slave")
         master = meeting.master and _surface_name(
             drawings[meeting.master[0]].faces, meeting.master_face, "master"
         )
         contacts.append(
             ContactPair(
-                meeting.interface, meeting.slave, slave, meeting.master, master, gap=meeting.gap
+                meeting.interface,
+                meeting.slave,
+                slave,
+                meeting.master,
+                master,
+                gap=meeting.gap,
+                border=borders.get(place, []),
             )
         )
     for edge in edges:

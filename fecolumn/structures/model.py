@@ -222,6 +222,8 @@ class JointModel:
         the joint that it belongs to, -1 of others; (n, 2, 3), (m, 2, 3) [m] ends of the sides of
         the outlines of the slave's and the master's face from the centres of mass,
         counter-clockwise seen from outside.
+    border: (k, 2, 3) [m] likewise of the master's face, holes left out, of a joint with one side on
+        another part: it has no contact points there.
     """
 
     name: str
@@ -241,6 +243,7 @@ class JointModel:
     ground: int = 0
     gap: float = 0.0
     bond: Bond | None = None
+    border: NDArray[Any] = field(default_factory=lambda: np.zeros((0, 2, 3)))
 
     @property
     def on_dome(self) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from fecolumn.engines.dynamics.cuts import Stop
+from fecolumn.engines.left_part import OVER_EDGE
 
 #: What runs analyses again whose failure may have been one of the machine.
 RETRY = "add --retry-failed to run what failed again"
@@ -49,7 +50,7 @@ def what_to_do(rows: Sequence[dict[str, Any]]) -> str:
     for reason in (row.get("reason") or "" for row in rows):
         if not reason.startswith(_OF_CASE):
             told[RETRY] = None
-        elif Stop.OFF_PATCH.value in reason:
+        elif Stop.OFF_PATCH.value in reason or OVER_EDGE in reason:
             keys |= dict.fromkeys(f"joints.{name}.allowance_m" for name in _KEY.findall(reason))
             told["patch"] = None
         elif reason.startswith("AnalysisFailed"):

@@ -170,13 +170,15 @@ def check_motions(plan: Plan) -> None:
     from fecolumn.engines.ending import cut_text
     from fecolumn.motions.load import load_motion
 
-    # factor and direction change neither length nor whether it can be used; the longest step is the
-    # most demanding
+    # the direction changes neither length nor whether it can be used; the largest factor and the
+    # longest step are the most demanding
     longest_step: dict[Motion, float] = {}
+    largest: dict[Motion, float] = {}
     users: dict[Motion, list[PlannedAnalysis]] = {}
     for analysis in plan.analyses:
         for motion in analysis.case.motions:
             key = dataclasses.replace(motion, scale=float(motion.scale != 0), rotation_deg=0.0)
+            largest[key] = max(largest.get(key, 0.0), motion.scale, key=abs)
             longest_step[key] = max(
                 longest_step.get(key, 0.0), float(analysis.case.integration.dt_s)
             )
@@ -187,7 +189,8 @@ def check_motions(plan: Plan) -> None:
     for motion, dt_s in longest_step.items():
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
-            ground = load_motion(motion, dt_s, plan.file)
+            scaled = dataclasses.replace(motion, scale=largest[motion])
+            ground = load_motion(scaled, dt_s, plan.file)
         told |= {str(warning.message): warning for warning in said}
         for analysis in users[motion]:
             lasts[analysis.id] = max(lasts.get(analysis.id, (0.0, 0.0)), (ground.duration, dt_s))

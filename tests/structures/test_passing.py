@@ -1,12 +1,10 @@
 """Bodies that came through each other, with no joint that lets them meet, end the analysis."""
 
-import numpy as np
 import pytest
 from small_collapses import box, falling, watched
 from small_structures import STONE, structure
 
 from fecolumn.engines.analysis import AnalysisFailed
-from fecolumn.engines.dynamics.history import read_history
 from fecolumn.engines.passing import Passing
 from fecolumn.simulation import run
 
@@ -53,38 +51,6 @@ def test_a_needle_that_spins_is_named_once_with_the_step_that_follows_it():
 def test_bodies_that_come_through_each_other_are_named(tmp_path, engine):
     with pytest.raises(AnalysisFailed, match='"left" and "right" came through each other'):
         _pushed(tmp_path / "through", {}, engine)
-
-
-def _on_a_plinth(folder, engine="rigid", **joint):
-    """A block pushed over the edge of a plinth of one brick, beyond what its joint allows for."""
-    plinth = dict(kind="block", length_m=1.0, width_m=1.0, height_m=0.2, element_size_m=1.0)
-    block = dict(kind="block", length_m=0.4, width_m=0.4, height_m=0.3, element_size_m=0.2)
-    case = structure(
-        bodies=dict(plinth=plinth | STONE, block=block | dict(at_m=[0.0, 0.0, 0.2]) | STONE),
-        joints=dict(
-            feet=dict(between=["plinth", "ground"], friction_coefficient=1.0),
-            top=dict(between=["block", "plinth"], friction_coefficient=0.1, **joint),
-        ),
-        initial=dict(block=dict(velocity_m_s=[2.0, 0.0, 0.0])),
-        integration=dict(engine=engine, dt_s=1e-3, duration_s=0.6),
-    )
-    return run(case, folder, quiet=True)
-
-
-@pytest.mark.parametrize("engine", ["rigid", pytest.param("full", marks=pytest.mark.long)])
-def test_an_edge_that_is_not_prepared_ends_the_analysis(tmp_path, engine):
-    """A point of the block would carry it beyond the edge; with an allowance the edge does."""
-    with pytest.raises(AnalysisFailed, match=r"slid over an edge .*joints.top.allowance_m"):
-        _on_a_plinth(tmp_path / "over", engine)
-
-
-def test_an_edge_that_is_prepared_carries_what_slides_over_it(tmp_path):
-    summary = _on_a_plinth(tmp_path / "edge", allowance_m=1.0)
-    assert summary["outcome"] in ("slid off", "overturned")
-    rows = read_history(tmp_path / "edge" / "history.h5")
-    tips = np.argmax(rows["body/block/tilt"] > 1e-3)
-    # the friction of a tenth of the weight acts 0.15 m below its centre: it tips from 0.485 m on
-    assert 0.485 < rows["body/block/displacement"][tips, 0] < 0.56
 
 
 @pytest.mark.filterwarnings("ignore:.*begin 0.05 m apart")

@@ -6,6 +6,7 @@ import pytest
 from study_files import write_study
 
 from fecolumn.engines.dynamics.cuts import Stop
+from fecolumn.engines.left_part import OVER_EDGE
 from fecolumn.study.conclusion import conclusion, records_of, settings_of
 from fecolumn.study.failures import may_be_biased, what_to_do, why_failed
 from fecolumn.study.plan import read_plan
@@ -31,6 +32,11 @@ def failed(*reasons):
     "reason, helps, retry",
     [
         (LEFT, "joints.vase.allowance_m a value larger than the slides", False),
+        (
+            LEFT.replace(Stop.OFF_PATCH.value, OVER_EDGE),
+            "joints.vase.allowance_m a value larger than the slides",
+            False,
+        ),
         (STEP, "a shorter integration.dt_s", False),
         (
             "InputError: case.toml: motion.source = 'a': no such file",

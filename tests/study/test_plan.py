@@ -188,3 +188,14 @@ def test_what_is_told_of_many_motions_is_told_of_three(tmp_path, many):
     texts = [str(warning.message) for warning in told]
     assert sum("between its rows" in text for text in texts) == min(many, 3)
     assert [t for t in texts if "left out here: 4" in t and "motions info" in t] == texts[3:]
+
+
+def test_motions_are_looked_at_with_their_largest_scale(tmp_path):
+    rows = "".join(f"{0.01 * k:.2f},{0.1 * (-1) ** (k // 10):.3f}\n" for k in range(100))
+    (tmp_path / "short.csv").write_text("time [s],ax [g]\n" + rows)
+    study = (
+        f'[case]\nextends = "{SPECIMEN}"\nmotion.source = "short.csv"\n'
+        '[axes]\n"motion.scale" = [1, -2000]'
+    )
+    with pytest.raises(InputError, match="motion.scale = -2000"):
+        check_motions(read_plan(_study(tmp_path, study)))

@@ -84,12 +84,13 @@ def in_halves(
         even with the smallest step; at once where the foot left the base or the part of a face that
         is known, which no smaller step mends.
     """
-    if cuts == halving.max_cuts or failure.stop in (Stop.OFF_BASE, Stop.OFF_PATCH):
+    at_once = failure.stop in (Stop.OFF_BASE, Stop.OFF_PATCH)
+    if cuts == halving.max_cuts or at_once:
         raise StepFailed(
             failure.stop,
             f"{failure} (step cut {cuts} times to {hht.dt:.3g} s; integration.max_cuts = {cuts} "
             "allows no more)"
-            if 0 < cuts == halving.max_cuts
+            if 0 < cuts == halving.max_cuts and not at_once
             else str(failure),
             failure.joints,
         )

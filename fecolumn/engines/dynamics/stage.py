@@ -11,6 +11,7 @@ import numpy as np
 from petsc4py import PETSc
 
 from fecolumn.engines.dynamics.cuts import Stop
+from fecolumn.fem.effective import FACTORIZATION_FAILED
 from fecolumn.fem.rotation import into_frames, out_of_frames, polar_rotation, vector_product
 from fecolumn.foundation.arrays import Array
 
@@ -329,8 +330,10 @@ def equilibrate(
         ):
             try:
                 operators = system.refresh(operators, x)
-            except PETSc.Error:  # the tangent is singular
-                return ended(Stop.DIVERGED)
+            except PETSc.Error as error:
+                if error.ierr not in FACTORIZATION_FAILED:
+                    raise
+                return ended(Stop.DIVERGED)  # the tangent is singular
             nodal = _nodal(interface, operators, scale)
         previous = size
 

@@ -90,6 +90,7 @@ class Stepper:
             no convergence after max_cuts halvings; `state` is unharmed.
         """
         hht, booked, start, part, done = self.system.hht, dict(self.ledger.work), state, 0, 0
+        counted = self.record.impacts, self.record.parts, self.record.cuts
         try:
             while done < PARTS:
                 part = part or self._to_make_at_once(state, done)
@@ -110,6 +111,7 @@ class Stepper:
                 state, part, done = after, 0, end
         except StepFailed as last:
             self.ledger.work.update(booked)
+            self.record.impacts, self.record.parts, self.record.cuts = counted
             told = f"t = {start.time:.6g} s: {last}"
             raise StepFailed(last.stop, told, last.joints) from None
         state.time = start.time + hht.dt

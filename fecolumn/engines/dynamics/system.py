@@ -269,12 +269,12 @@ class System:
         tangents = self.kinematics.tangents(x)
         factors = old.mass_factor, old.stiffness_factor, old.rate_factor
         self.forget(*factors)
-        fresh = self._add(
-            *factors, self._factor(*factors[:2], tangents), self.kinematics.rotation(x)
-        )
-        for tangent in tangents:
-            tangent.destroy()
-        return fresh
+        try:
+            factor = self._factor(*factors[:2], tangents)
+        finally:
+            for tangent in tangents:
+                tangent.destroy()
+        return self._add(*factors, factor, self.kinematics.rotation(x))
 
     def forget(self, mass_factor: float, stiffness_factor: float, rate_factor: float = 0.0) -> None:
         """Free the operators of a stage."""

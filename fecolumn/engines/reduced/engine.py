@@ -23,7 +23,9 @@ from fecolumn.contact.problem import (
     ITERATIONS_SPENT,
     N_COUNTS,
     N_CUTS,
+    N_IMPACTS,
     N_ITERATIONS,
+    N_PARTS,
     NO_ROOM,
     OFF_BASE,
     OFF_PATCH,
@@ -55,6 +57,8 @@ if TYPE_CHECKING:
 _NO_END, _NO_REST, _NO_STEPS = np.array([np.inf]), (0.0, -np.inf), np.empty(0)
 # Calls of which the quickest tells what one takes
 _TIMED_CALLS = 50
+# Counts of what the steps are made of, which those that are put back have no part in
+_OF_STEPS = [N_CUTS, N_IMPACTS, N_PARTS]
 _STOPS = {
     CONTACT_FAILED: Stop.CONTACT,
     IMPACT_FAILED: Stop.CONTACT,
@@ -282,21 +286,26 @@ class Engine:
             else np.asarray(steepest, float)
         )
         rows = np.empty((len(grounds), self.view.width))
-        self.made = rows[:0]
+        # iterations of attempts at a step that came to nothing are counted in its row
+        self.made, counted = rows[:0], self.counts[N_ITERATIONS]
         while done < len(grounds):
+            tried = self.counts[N_ITERATIONS] - counted
             made, answer = self._steps(self.hht, grounds[done:], rows[done:], steepest[done:], rest)
+            if made:
+                rows[done, ITERATIONS_MADE] += tried
+                counted += rows[done : done + made, ITERATIONS_MADE].sum()
             done += made
             self.made = rows[:done]
             if answer == ENDED:
                 return rows[:done], True
-            spent = self.counts[N_ITERATIONS]
             if answer == FAR_BASE:
                 self.extend_base(self.spare)
             elif answer == NO_ROOM or answer != OK and not self._cut(grounds[done], answer):
                 self.make_room(2 * len(self.motion.meetings.rows))
             elif answer != OK:
                 rows[done] = self.row()
-                rows[done, ITERATIONS_MADE] = self.counts[N_ITERATIONS] - spent
+                rows[done, ITERATIONS_MADE] = self.counts[N_ITERATIONS] - counted
+                counted = self.counts[N_ITERATIONS]
                 done += 1
                 self.made = rows[:done]
                 kinetic, strain, gravity = rows[done - 1, ENERGY : ENERGY + 3]
@@ -361,9 +370,10 @@ class Engine:
             a half failed after `max_cuts` halvings, also with rims that do not roll; motion and
             ledger are as before.
         """
-        saved, booked, row = (
+        saved, booked, counted, row = (
             self.motion_at_rest(),
             self.ledger.copy(),
+            self.counts[_OF_STEPS],
             np.empty((1, self.view.width)),
         )
         motions.copy(self.motion, saved)
@@ -393,6 +403,7 @@ class Engine:
         except BaseException as error:
             motions.copy(saved, self.motion)
             self.ledger[:] = booked
+            self.counts[_OF_STEPS] = counted
             if isinstance(error, NoRoom):
                 return False
             if isinstance(error, StepFailed):

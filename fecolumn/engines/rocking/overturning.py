@@ -190,8 +190,8 @@ def slenderness_factor(duration: ArrayLike, pulse: str = "rectangular") -> Array
     The least tan(alpha) is estimated as phi a_p / g. Here alpha is the slenderness angle of a
     slender block on rigid ground [rad], a_p the amplitude of the ground acceleration [m/s2] and g
     gravity. The factor is phi = p T_p / (gamma + p T_p): 0 for a very short pulse, 1 for a very
-    long one. It leaves out the tilt that the block has at the end of the pulse, and is too small: a
-    block of this slenderness falls, see `rectangular_slenderness`.
+    long one. It leaves out the tilt that the block has at the end of the pulse: under a rectangular
+    pulse a block of this slenderness falls, see `rectangular_slenderness`.
 
     Parameters
     ----------
