@@ -346,8 +346,9 @@ class Storeys(WithMaterial):
     )
     damping: str = parameter(
         "modal",
-        doc="modal: damping_ratio in every mode; rayleigh: damping_ratio in the two "
-        "rayleigh_modes of the building on a fixed slab, in the other modes by Rayleigh's law",
+        doc="modal: damping_ratio in every mode of the building on a fixed slab; rayleigh: "
+        "damping_ratio in the two rayleigh_modes of the building on a fixed slab, in the other "
+        "modes by Rayleigh's law",
         choices=("modal", "rayleigh"),
     )
     rayleigh_modes: tuple[int, ...] = parameter(

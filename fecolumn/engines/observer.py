@@ -19,11 +19,12 @@ from fecolumn.contact.overturning import (
     is_past_no_return,
 )
 from fecolumn.contact.points import GROUND, OVER
-from fecolumn.contact.pose import SLAVE, grounds_at, poses_of
+from fecolumn.contact.pose import MASTER, SLAVE, grounds_at, poses_of
 from fecolumn.engines.history_columns import of_both_sides
 from fecolumn.engines.passing import RigidMotion
 from fecolumn.fem.rotation import tilt_angle, twist_angle, vector_product
 from fecolumn.foundation._compiled import interpreted
+from fecolumn.structures.face_motion import face_fits
 
 if TYPE_CHECKING:
     from fecolumn.contact.overturning import Limits
@@ -73,6 +74,7 @@ class Observer:
             system.interface.interfaces, self._centers, upright, grounds_at(structure.levels)
         )
         self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
+        self._faces = face_fits(structure)
         #: First foot of the observed body, if it has one.
         self._surface = next(
             (
@@ -132,13 +134,30 @@ class Observer:
         resultants, centers = np.zeros((2, len(poses), 3))
         np.add.at(resultants, rows, along)
         np.add.at(centers, rows, pressed)
+        deformed = interface.deformation(state.x, R, forces)
         loaded = normal > 0
         centers[loaded] = poses["origin"][loaded] + centers[loaded] / normal[loaded, None]
-        for joint, pose, foot, first, force, resultant, center in zip(
-            structure.joints, poses, self._feet, self._normals, normal, resultants, centers
+        for joint, pose, faces, foot, first, force, resultant, center in zip(
+            structure.joints,
+            poses,
+            self._faces,
+            self._feet,
+            self._normals,
+            normal,
+            resultants,
+            centers,
         ):
-            now, risen = pose["turned"][SLAVE, 2], pose["foot"] - foot
-            tilt = float(np.arctan2(np.linalg.norm(np.cross(now, first)), now @ first))
+            risen, normals = pose["foot"] - foot, []
+            for one, turned, own, sign in zip(
+                faces, pose["turned"], (first, pose["turned"][MASTER, 2]), (1, -1)
+            ):
+                shift, turn = np.zeros((2, 3))
+                if one is not None:
+                    nodes = interface.rows[one.body].start + one.nodes
+                    shift, turn = np.split(np.einsum("ska,ka->s", one.fit, deformed[nodes]), 2)
+                risen = risen + sign * turned @ shift
+                normals.append(turned @ (own + np.cross(turn, own)))
+            tilt = float(np.arctan2(np.linalg.norm(np.cross(*normals)), np.dot(*normals)))
             row |= {
                 f"interface/{joint.name}/{name}": value
                 for name, value in dict(

@@ -5,6 +5,8 @@ import pytest
 from small_structures import structure
 
 from fecolumn.case.bodies import Storeys
+from fecolumn.engines.dynamics.history import read_history
+from fecolumn.simulation import run
 from fecolumn.structures.storeys import building_of
 from fecolumn.structures.structure import structure_model
 
@@ -94,10 +96,40 @@ def test_rayleigh_damping_has_its_ratio_in_the_two_modes():
     assert part.damping_ratio[:4] == pytest.approx(np.full(4, 0.05), rel=1e-3) and np.all(
         part.damping_ratio[4:] > 0.05
     )
-    assert _model(damping_ratio=0.05).damping_ratio == 0.05
     assert _model(
         floors=1, damping="rayleigh", damping_ratio=0.05, **HEAVY
     ).damping_ratio == pytest.approx(np.full(2, 0.05), rel=1e-3)
+
+
+@pytest.mark.parametrize("floors", [1, 3])
+def test_modal_damping_has_its_ratio_in_every_mode_on_a_fixed_slab(floors):
+    part = _model(floors=floors, damping_ratio=0.05, **HEAVY)
+    assert part.damping_ratio == pytest.approx(np.full(2 * floors, 0.05), rel=1e-3)
+
+
+@pytest.mark.parametrize("damping", ["modal", "rayleigh"])
+def test_a_building_that_stands_sways_with_its_damping(tmp_path, damping):
+    """Its floor is twice as heavy as its slab; its foot stays, and is said to."""
+    rows = "".join(f"{0.01 * k:.2f},{1.0 if k <= 20 else 0.0}\n" for k in range(220))
+    (tmp_path / "push.csv").write_text("time [s],ax [m/s2]\n" + rows)
+    building = KEYS | dict(floors=1, floor_masses_kg=[2e4], period_s=0.4, damping=damping)
+    case = structure(
+        bodies=dict(building=building | dict(mass_kg=1e4, damping_ratio=0.05)),
+        joints=dict(foot=dict(between=["building", "ground"], friction_coefficient=10.0)),
+        motion=dict(source=str(tmp_path / "push.csv"), resample_s=0.01, free_vibration_s=0.0),
+        integration=dict(engine="reduced", dt_s=1e-3, duration_s=0.0),
+    )
+    summary = run(case, tmp_path / "out", quiet=True)
+    history = read_history(tmp_path / "out" / "history.h5")
+    drift = history["storey/building 1/drift"][300:, 0]
+    peaks = np.flatnonzero((drift[1:-1] > drift[:-2]) & (drift[1:-1] > drift[2:])) + 1
+    decrement = np.log(drift[peaks[0]] / drift[peaks[3]]) / 3
+    assert decrement / (2 * np.pi) == pytest.approx(0.05, rel=0.03)
+    assert np.diff(peaks).mean() == pytest.approx(400, rel=0.02)
+    # the frame of the slab sways with the floor by millimetres, its foot does not
+    foot = summary["interfaces"]["foot: building on ground"]
+    assert np.abs(history["body/building/displacement"][:, 0]).max() > 1e-3
+    assert max(foot["slide_max_m"], foot["residual_slide_m"], foot["tilt_max_rad"]) < 2e-5
 
 
 def test_shear_of_a_storey_is_the_inertia_above_it():

@@ -191,6 +191,19 @@ class Places:
             )
         return self._filtered[2]
 
+    def deformation(self, x: Array, rotation: Array, forces: Array) -> Array:
+        """Displacement (N, 3) [m] of the surface nodes from their bodies' rigid motion, in the
+        frames of these, as contact sees it: that of positions x (n_owned, 3), filtered, and what
+        follows the contact forces (P, 3) [N] at once.
+        """
+        counts, pushes = self.bodies.body["count"], self.surface_forces(forces, rotation, False)
+        centers = self._into_frames(np.repeat(self.centers(x), counts, axis=0), rotation)
+        moved: Array = self.reference + self._displacement(x, rotation) - centers - self.arms
+        for rows, count in zip(self.rows, counts):
+            static = self.bodies.static[3 * rows.start : 3 * rows.stop, : 3 * count]
+            moved[rows] += (static @ pushes[rows].ravel()).reshape(-1, 3)
+        return moved
+
     def _into_frames(self, values: Array, rotation: Array) -> Array:
         return into_frames(values, rotation, self.rows)
 

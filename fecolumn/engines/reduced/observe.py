@@ -110,7 +110,8 @@ class View(NamedTuple):
     (ni, 3) of them in the frames of their slaves, in the reference configuration; marks: (nm,) of
     MARK, their shapes (nm, 3, m). links: how many beside those of glued joints; bonds: areas (k,)
     [m2] that glue holds in each of these. levels: (G,) heights of the grounds [m]. held:
-    (nb,) as of `contact.bodies.BODY`.
+    (nb,) as of `contact.bodies.BODY`. sides: (ni, 2) slave and master of the interfaces, GROUND
+    among them; faces, gives: (ni, 2, 6, m), (ni, 2, 6, 3 n) of `structures.face_motion`.
     """
 
     center: Array
@@ -131,6 +132,9 @@ class View(NamedTuple):
     levels: Array = np.zeros(1)
     held: Array = np.zeros(0, np.int64)
     bonds: Array = np.zeros(0)
+    sides: Array = np.zeros((0, 2), np.int64)
+    faces: Array = np.zeros((0, 2, 6, 0))
+    gives: Array = np.zeros((0, 2, 6, 0))
 
     @property
     def width(self) -> int:
@@ -239,7 +243,8 @@ def _observe_all(
         row[place + _TURN + 2] = factor * z
         place += PER_BODY
     find_poses(structure.interfaces, motion.grounds, motion.frames, motion.rotation, poses, None)
-    first = place
+    first, deforms = place, view.gives.shape[3] > 0
+    pushes = _node_forces(structure, points, poses, motion) if deforms else np.zeros((0, 3))
     for k in range(len(view.feet)):
         T, foot, normal = poses[k].turned[SLAVE], poses[k].foot, view.normals[k]
         x, y, z = (
@@ -254,6 +259,9 @@ def _observe_all(
         row[place + _RISE] = foot[2] - view.feet[k, 2]
         for a in range(2):
             row[place + _SHIFT + a] = foot[a] - view.feet[k, a]
+        if deforms:
+            own = row[place : place + _N_INTERFACE]
+            _add_deformation(structure, poses[k].turned, view, motion, pushes, k, own)
         place += _N_INTERFACE
     _observe_forces(structure, points, poses, motion, len(view.feet), row[first:place])
     for n in range(len(view.marks)):
@@ -284,6 +292,85 @@ def _observe_all(
         own[0], own[1] = max(own[0], tie.force / link.area), max(own[1], shear / link.area)
         own[2] += tie.broken * link.area / view.bonds[link.bond - 1]
         own[3] += tie.work
+
+
+@njit
+def _node_forces(structure: Structure, points: Array, poses: Array, motion: MotionState) -> Array:
+    """Contact forces (N, 3) [N] on the nodes of all bodies, in the frames of these."""
+    pushes, push = np.zeros((len(structure.bodies.arms), 3)), np.empty(3)
+    for i in range(len(points)):
+        f = motion.contact[i].force
+        if not f[2] > 0:
+            continue
+        for side in range(2):
+            if (points[i].master if side else points[i].slave) == GROUND:
+                continue
+            T = poses[points[i].interface].turned[side]
+            for a in range(3):
+                push[a] = T[0, a] * f[0] + T[1, a] * f[1] + T[2, a] * f[2]
+            for q in range(4 if side else points[i].count):
+                share = -points[i].shares[q] if side else points[i].weights[q]
+                node = points[i].below[q] if side else points[i].carriers[q]
+                if share != 0.0:
+                    for a in range(3):
+                        pushes[node, a] += share * push[a]
+    return pushes
+
+
+@njit
+def _add_deformation(
+    structure: Structure,
+    turned: Array,
+    view: View,
+    motion: MotionState,
+    pushes: Array,
+    k: int,
+    row: Array,
+) -> None:
+    """Let what a row has of interface k be of the faces of its bodies as they are deformed.
+
+    turned: (2, 3, 3) of slave and master to its frame; pushes: (N, 3) of `_node_forces`.
+    """
+    moved, normals = np.zeros((2, 6)), np.zeros((2, 3))
+    for side in range(2):
+        body = view.sides[k, side]
+        if body == GROUND:
+            continue
+        for m in range(view.faces.shape[3]):
+            for s in range(6):
+                moved[side, s] += view.faces[k, side, s, m] * motion.modal[body, COORDINATE, m]
+        first = structure.bodies.body[body].first
+        for n in range(structure.bodies.body[body].count):
+            for a in range(3):
+                push = pushes[first + n, a]
+                if push != 0.0:
+                    for s in range(6):
+                        moved[side, s] += view.gives[k, side, s, 3 * n + a] * push
+    for side in range(2):
+        T, sign, x, y, z = (
+            turned[side],
+            1 - 2 * side,
+            moved[side, 3],
+            moved[side, 4],
+            moved[side, 5],
+        )
+        n0, n1, n2 = T[2, 0], T[2, 1], T[2, 2]
+        if side == SLAVE:
+            n0, n1, n2 = view.normals[k, 0], view.normals[k, 1], view.normals[k, 2]
+        tipped = n0 + y * n2 - z * n1, n1 + z * n0 - x * n2, n2 + x * n1 - y * n0
+        for a in range(3):
+            for c in range(3):
+                normals[side, a] += T[a, c] * tipped[c]
+                if a < 2:
+                    row[_SHIFT + a] += sign * T[a, c] * moved[side, c]
+                else:
+                    row[_RISE] += sign * T[a, c] * moved[side, c]
+    own, other, cosine, across = normals[SLAVE], normals[1 - SLAVE], 0.0, 0.0
+    for a in range(3):
+        b, c = (a + 1) % 3, (a + 2) % 3
+        cosine += own[a] * other[a]
+        across = np.hypot(across, own[b] * other[c] - own[c] * other[b])
+    row[0] = np.arctan2(across, cosine)
 
 
 @njit

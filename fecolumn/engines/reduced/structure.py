@@ -21,6 +21,7 @@ from fecolumn.engines.reduced.found_of_model import found_interfaces, found_of, 
 from fecolumn.engines.reduced.model import Structure, modal_sum
 from fecolumn.engines.reduced.observe import MARK, View
 from fecolumn.foundation.arrays import Array
+from fecolumn.structures.face_motion import face_operators
 
 if TYPE_CHECKING:
     from fecolumn.engines.dynamics.hht import HHT
@@ -201,4 +202,16 @@ def view_of(
         np.array(model.levels, float),
         np.array([part.held for part in model.parts]),
         np.array([joint.bond.areas.sum() for joint in bonded(model)]),
+        np.array([(one.slave, one.master) for one in model.joints], np.int64).reshape(-1, 2),
+        *_faces_of(model, structure),
     )
+
+
+def _faces_of(model: StructureModel, structure: Structure) -> tuple[Array, Array]:
+    """`face_operators` of the joints, of no columns where no body deforms."""
+    bodies = structure.bodies
+    if not (bodies.pushes.shape[2] or bodies.static.any()):
+        none = np.zeros((len(model.joints), 2, 6, 0))
+        return none, none
+    first = np.append(bodies.body["first"], len(bodies.arms))
+    return face_operators(model, first, bodies.pushes, bodies.static)
