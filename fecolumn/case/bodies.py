@@ -345,10 +345,11 @@ class Storeys(WithMaterial):
         choices=("uniform", "triangular", "shear", "flexural"),
     )
     damping: str = parameter(
-        "modal",
-        doc="modal: damping_ratio in every mode of the building on a fixed slab; rayleigh: "
-        "damping_ratio in the two rayleigh_modes of the building on a fixed slab, in the other "
-        "modes by Rayleigh's law",
+        "rayleigh",
+        doc="rayleigh: damping_ratio in the two rayleigh_modes of the building on a fixed slab, in "
+        "the other modes by Rayleigh's law; modal: damping_ratio in every mode of the free "
+        "building, with which it sways with less on a slab that stands; in the podium engine, in "
+        "every mode on a fixed slab",
         choices=("modal", "rayleigh"),
     )
     rayleigh_modes: tuple[int, ...] = parameter(

@@ -10,10 +10,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from fecolumn.contact.points import GROUND
-from fecolumn.structures.model import BodyModel, JointModel, StructureModel
+from fecolumn.structures.model import JointModel, StructureModel, Surface
 
 
 class FaceFit(NamedTuple):
@@ -67,11 +66,11 @@ def face_operators(
 def _of_slave(structure: StructureModel, joint: JointModel) -> FaceFit:
     model = structure.parts[joint.slave].model
     surface = model.surfaces[joint.slave_surface]
-    return _fit(joint.slave, model, surface.nodes, surface.areas)
+    return FaceFit(joint.slave, surface.nodes, _fit(model.arms[surface.nodes], surface.areas))
 
 
 def _of_master(structure: StructureModel, joint: JointModel) -> FaceFit | None:
-    """Of the master's nodes nearest to those of the slave, each with the slave's area."""
+    """Of the places on the master that lie at the slave's nodes, each with the slave's area."""
     if joint.master == GROUND:
         return None
     assert joint.master_surface is not None  # the ground alone has none
@@ -80,20 +79,40 @@ def _of_master(structure: StructureModel, joint: JointModel) -> FaceFit | None:
         slave.model.surfaces[joint.slave_surface],
         master.model.surfaces[joint.master_surface],
     )
-    arms = slave.model.arms[own.nodes]
-    places = slave.center + arms @ slave.rotation.T - master.center
-    near = cKDTree(master.model.arms[other.nodes]).query(places @ master.rotation)[1]
-    nodes, row = np.unique(other.nodes[near], return_inverse=True)
-    return _fit(joint.master, master.model, nodes, np.bincount(row, own.areas, len(nodes)))
+    arms = slave.model.arms[own.nodes] @ slave.rotation.T + slave.center - master.center
+    shares = _shares(other, master.model.arms, arms @ master.rotation)
+    carries = shares.any(axis=0)
+    shares, nodes = shares[:, carries], other.nodes[carries]
+    fit = _fit(shares @ master.model.arms[nodes], own.areas)
+    return FaceFit(joint.master, nodes, np.einsum("ska,kn->sna", fit, shares))
 
 
-def _fit(body: int, model: BodyModel, nodes: NDArray[Any], areas: NDArray[Any]) -> FaceFit:
-    weights = areas / areas.sum() if areas.sum() > 0 else np.full(len(nodes), 1 / len(nodes))
-    arms = model.arms[nodes] - weights @ model.arms[nodes]
+def _shares(surface: Surface, arms: NDArray[Any], places: NDArray[Any]) -> NDArray[Any]:
+    """Shares (k, n) of the surface's nodes in its displacement at places (k, 3) [m]: linear in the
+    triangle that holds the place, or is nearest to it; arms: of the model's nodes.
+    """
+    corners = surface.plane(arms[surface.nodes])[surface.triangles, :2]
+    start, sides = corners[:, 0], corners[:, 1:] - corners[:, :1]
+    offset = surface.plane(places)[:, None, :2] - start
+    two = np.einsum("kta,tab->ktb", offset, np.linalg.inv(sides))
+    parts = np.concatenate([1 - two.sum(axis=2, keepdims=True), two], axis=2)
+    held = parts.min(axis=2).argmax(axis=1)
+    rows = np.arange(len(places))
+    parts = np.clip(parts[rows, held], 0.0, 1.0)
+    shares = np.zeros((len(places), len(surface.nodes)))
+    corner_nodes = surface.triangles[held]
+    np.add.at(shares, (rows[:, None], corner_nodes), parts / parts.sum(axis=1, keepdims=True))
+    return shares
+
+
+def _fit(arms: NDArray[Any], areas: NDArray[Any]) -> NDArray[Any]:
+    """`FaceFit.fit` of points with arms (k, 3) [m] and areas (k,) [m2]."""
+    weights = areas / areas.sum() if areas.sum() > 0 else np.full(len(arms), 1 / len(arms))
+    arms = arms - weights @ arms
     inertia = np.einsum("k,ka,kb->ab", weights, arms, arms)
     inertia = np.trace(inertia) * np.eye(3) - inertia
     # cross product of an arm and a displacement, as a matrix of the displacement
     crosses = np.cross(np.eye(3)[None], arms[:, None]).transpose(0, 2, 1)
     turn = np.einsum("ab,k,kbc->akc", np.linalg.pinv(inertia, 1e-9, True), weights, -crosses)
     mean = np.einsum("k,ac->akc", weights, np.eye(3))
-    return FaceFit(body, nodes, np.concatenate([mean, turn]))
+    return np.concatenate([mean, turn])

@@ -149,8 +149,11 @@ def storeys_model(
         f"storey {number}": (np.zeros(3), np.pad(drift, ((0, 1), (0, 0))))
         for number, drift in enumerate(drifts, 1)
     }
-    damping = _damping(body, building, material.damping_ratio, own, stiffness)
-    ratios = np.einsum("im,ij,jm->m", moved, damping, moved) / (2 * frequencies)
+    damping = (
+        _rayleigh(body, building, material.damping_ratio, own, stiffness, moved, frequencies)
+        if body.damping == "rayleigh"
+        else None
+    )
     return BodyModel(
         mass,
         inertia,
@@ -162,7 +165,7 @@ def storeys_model(
         0,
         surfaces,
         marks,
-        ratios,
+        damping,
         StoreyDrifts(drifts, building.stiffness),
     )
 
@@ -178,30 +181,31 @@ def _raised(z: float) -> NDArray[Any]:
     return np.diag([z**2, z**2, 0.0])
 
 
-def _damping(
+def _rayleigh(
     body: Storeys,
     building: Building,
     ratio: float,
     mass: NDArray[Any],
     stiffness: NDArray[Any],
+    moved: NDArray[Any],
+    frequencies: NDArray[Any],
 ) -> NDArray[Any]:
-    """Damping matrix (2 n, 2 n) of the floors' motion relative to the slab, x first.
+    """Damping ratios (m,) of the free modes: floors damped relative to the slab by C = a M + b K on
+    each axis.
 
-    modal: `ratio` in every mode on a fixed slab, M sum(2 ratio w a a^T) M of its modes a with a^T M
-    a = 1. rayleigh: a M + b K with the ratio in the two modes named on a fixed slab: a, b = 2 ratio
-    w1 w2 / (w1 + w2), 2 ratio / (w1 + w2). Of one floor b alone. In the free modes it is not
-    diagonal; what couples them is left out.
+    The two modes named have the ratio on a fixed slab: a, b = 2 ratio w1 w2 / (w1 + w2), 2 ratio /
+    (w1 + w2). Of one floor b alone. In the free modes C is not diagonal; what couples them is left
+    out.
     """
     n, damping = body.floors, np.zeros_like(mass)
     for axis in range(2):
-        rows = slice(axis * n, (axis + 1) * n)
-        own, springs = mass[rows, rows], stiffness[rows, rows]
-        if body.damping == "modal":
-            squares, modes = eigh(springs, own)
-            pushed = own @ modes
-            damping[rows, rows] = 2 * ratio * (pushed * np.sqrt(squares)) @ pushed.T
-            continue
-        w = building.fixed(axis)
+        rows, w = slice(axis * n, (axis + 1) * n), building.fixed(axis)
         first, second = (w[mode - 1] for mode in body.rayleigh_modes) if n > 1 else (0.0, w[0])
-        damping[rows, rows] = 2 * ratio / (first + second) * (first * second * own + springs)
-    return damping
+        damping[rows, rows] = (
+            2
+            * ratio
+            / (first + second)
+            * (first * second * mass[rows, rows] + stiffness[rows, rows])
+        )
+    ratios: NDArray[Any] = np.einsum("im,ij,jm->m", moved, damping, moved) / (2 * frequencies)
+    return ratios

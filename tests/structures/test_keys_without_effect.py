@@ -80,7 +80,8 @@ def on_pad(**tables):
         ),
         (
             lambda: structure(
-                bodies=dict(block=STOREYS | dict(rayleigh_modes=[1, 3])), joints=dict(foot=FOOT)
+                bodies=dict(block=STOREYS | dict(damping="modal", rayleigh_modes=[1, 3])),
+                joints=dict(foot=FOOT),
             ),
             "bodies.block.rayleigh_modes = .1, 3.: says nothing without bodies.block.damping",
         ),
