@@ -125,7 +125,7 @@ class Solid(WithMaterial):
     centre_m: tuple[float, ...] = parameter(
         (),
         doc="centre of mass [x, y, z], if known by weighing, measured from the same point as "
-        "point_m of a link; left out: that of the body's shape",
+        "point_m of a link, but before turned_deg; left out: that of the body's shape",
         unit="m",
         low=-1e4,
         high=1e4,

@@ -344,8 +344,8 @@ class Initial(Section):
 
     tilt_rad: float = parameter(
         0.0,
-        doc="tilt of the rigid body about the rim or edge of its foot, without strain; 0: "
-        "upright, by integration.start",
+        doc="tilt of the rigid body from the vertical, about the rim or edge of its foot, without "
+        "strain; what stands on it is not tilted with it; 0: upright, by integration.start",
         unit="rad",
         low=0,
         high=1.5,

@@ -157,6 +157,11 @@ class Analysis(Resumable):
         return found
 
     @property
+    def barrier_told_j(self) -> float | None:
+        """`barrier_j` as the summary has it."""
+        return self.barrier_j
+
+    @property
     def barrier_j(self) -> float:
         """Energy to overturn [J]."""
         from fecolumn.contact.overturning import barrier
@@ -370,7 +375,7 @@ class Analysis(Resumable):
             | self.limits()
             | dict(
                 energy_left_j=None if ending.outcome == OVERTURNED else self.energy_left(),
-                energy_to_overturn_j=self.barrier_j,
+                energy_to_overturn_j=self.barrier_told_j,
                 energy_closure_rel=closure,
                 ranks=self.comm.size,
                 wall_s=self.earlier_s + time.perf_counter() - self.began,

@@ -89,15 +89,16 @@ def _slides_only(summary: dict[str, Any]) -> bool:
     return bool(max([tilt, *others]) < ROCKS * critical)
 
 
-def energy_text(left: float, barrier: float) -> str:
+def energy_text(left: float, barrier: float | None) -> str:
     """Energy left [J] beside that which overturns a column, or the weakest part of a structure,
-    slowly [J]: what moves may have more, and all of a structure has.
+    slowly [J], None or 0 where that is not known: what moves may have more, and all of a structure
+    has.
     """
+    if not barrier:
+        return f"{left:.3g} J"
     if left <= barrier:
         return f"{left:.3g} J of the {barrier:.3g} J to overturn"
-    return f"{left:.3g} J" + (
-        f", more than the {barrier:.3g} J that overturn it slowly" if barrier else ""
-    )
+    return f"{left:.3g} J, more than the {barrier:.3g} J that overturn it slowly"
 
 
 def cut_text(file: Path | str, end_s: float, motion_s: float) -> str:

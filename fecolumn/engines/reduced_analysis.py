@@ -37,9 +37,10 @@ from fecolumn.engines.structure_analysis import OfStructure
 from fecolumn.foundation._compiled import compiled, interpreted
 from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.atomic import write_bytes
+from fecolumn.structures.check_rest import unheld
 from fecolumn.structures.model import BodyModel, JointModel
 from fecolumn.structures.pads import warn_of_grounds
-from fecolumn.structures.structure import structure_model
+from fecolumn.structures.structure import standing_of, structure_model
 
 if TYPE_CHECKING:
     from mpi4py import MPI
@@ -90,6 +91,9 @@ class ReducedAnalysis(OfStructure):
         """
         if not begins_unstrained(self.case, self.structure):
             return self.engine.potential()
+        joined = not self.structure.found and not any(p.airborne for p in self.structure.parts)
+        if joined and unheld(self.structure, standing_of(self.case, self.structure)):
+            return 0.0
         try:
             standing = upright(self.case, self.structure)
             return engine_of(self.case, standing, file, stands=True).mechanical()

@@ -83,6 +83,14 @@ class OfStructure(Analysis):
         return self._barrier_j
 
     @property
+    def barrier_told_j(self) -> float | None:
+        """Energy [J] that overturns a part slowly; None where links hold bodies, whose energy it
+        leaves out, and where no part stands by itself.
+        """
+        held = any(link.stiffness for link in self.structure.links)
+        return None if held else self.barrier_j or None
+
+    @property
     def collapse(self) -> FallenBodies | None:
         """What may fall, where contact is found."""
         if self._collapse is None and self.structure.found:

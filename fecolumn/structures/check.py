@@ -30,6 +30,8 @@ _MOST_POINTS = 1000
 # Over the smaller body's size: how deep points of one body may lie in another, and how far a link's
 # end may lie outside
 _DEPTH, _OUTSIDE = 1e-4, 1e-6
+# Share of a face's normal that points up from which on it may carry a body
+LEAST_UP = 1e-3
 # Over its diameter: how far a circle lies outside the polygon of fewest sides that it is drawn as
 _ROUND = (1 - math.cos(math.pi / ROUND_NODES)) / 2
 
@@ -68,9 +70,9 @@ def check_points(name: str, patches: Mapping[str, Patch], file: Path | str) -> N
             f"bodies.{name}.element_size_m",
             None,
             f'"{name}" has {count} contact points, most of them on its {most}; at most '
-            f"{_MOST_POINTS}: "
-            "make its elements larger, or contact.interior_points or allowance_m of "
-            "the interface smaller",
+            f"{_MOST_POINTS}: elements {math.sqrt(count / _MOST_POINTS):.2g} times as large have "
+            "about so many; a smaller contact.interior_points, or joints.NAME.allowance_m of its "
+            "joints, makes them fewer, too",
         )
 
 
@@ -96,6 +98,34 @@ def check_meetings(case: Case, meetings: list[Meeting], file: Path | str) -> Non
                 f"states the joint of joints.{first} again: the same faces of "
                 f"{' and '.join(names)}; "
                 "leave one of the two out",
+            )
+
+
+def check_carried(
+    case: Case,
+    airborne: set[int],
+    joints: list[JointModel],
+    standing: list[Standing],
+    file: Path | str,
+) -> None:
+    """Refuse a body that begins in the air, at rest, and has no joint with what is below it; those
+    whose contact is found have all joints. airborne: places of the bodies in the air.
+    """
+    found = {place for place, copy in enumerate(case.copies) if copy in set(case.found)}
+    for place in sorted(airborne - found):
+        start, carried = standing[place].start, False
+        for joint in joints:
+            up = -standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]
+            carried |= joint.slave == place and up > LEAST_UP
+            carried |= joint.master == place and up < -LEAST_UP
+        if not carried and not (start is not None and start.moves):
+            raise InputError(
+                file,
+                "joints",
+                None,
+                f'nothing carries "{standing[place].name}", which has joints with what is beside '
+                "it alone: it falls; state a joint with what is below it, such as "
+                f'between = ["{standing[place].name}", "ground"]',
             )
 
 

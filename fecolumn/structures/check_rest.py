@@ -119,6 +119,22 @@ def check_rest(
         return
     if any(start.tilt_rad or start.moves for start in case.initial.values()):
         return
+    if names := unheld(structure, standing):
+        raise InputError(
+            file,
+            "joints",
+            None,
+            f"{names} cannot rest: no contact forces within friction hold the weight as "
+            "the bodies stand; "
+            "give a start by [initial.NAME] or integration.start = 'drawn', or other places, "
+            "friction, links or bond_tension_pa",
+        )
+
+
+def unheld(structure: StructureModel, standing: list[Standing]) -> str:
+    """Names of the bodies that no contact forces within their cones, and no forces of links, hold
+    at rest as the bodies stand upright; "" where all are held. standing: as of `place`.
+    """
     rows = 6 * len(structure.parts)
     weights = np.array([part.model.mass for part in structure.parts]) * GRAVITY
     forces = _Forces(structure, standing)
@@ -144,19 +160,7 @@ def check_rest(
         method="highs",
     )
     if not found.success:
-        return  # the engine's own search for equilibrium has the last word
+        return ""  # the engine's own search for equilibrium has the last word
     lacks = np.abs(found.x[count : count + rows] - found.x[count + rows :])
     lacks = lacks.reshape(-1, 6).sum(axis=1)
-    if lacks.max() > _HELD:
-        names = ", ".join(
-            f'"{part.name}"' for part, lack in zip(structure.parts, lacks) if lack > _HELD
-        )
-        raise InputError(
-            file,
-            "joints",
-            None,
-            f"{names} cannot rest: no contact forces within friction hold the weight as "
-            "the bodies stand; "
-            "give a start by [initial.NAME] or integration.start = 'drawn', or other places, "
-            "friction, links or bond_tension_pa",
-        )
+    return ", ".join(f'"{part.name}"' for part, lack in zip(structure.parts, lacks) if lack > _HELD)

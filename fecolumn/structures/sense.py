@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from fecolumn.case.bodies import Prism
+from fecolumn.case.bodies import Matrices, Prism
 from fecolumn.case.body_keys import Solid
 from fecolumn.case.case import Case
 from fecolumn.case.check_bodies import material_of
@@ -23,7 +23,7 @@ from fecolumn.contact.points import GROUND
 from fecolumn.foundation.schema import InputError
 from fecolumn.structures.model import BodyModel, HullOutline, JointModel, StructureModel
 from fecolumn.structures.size import LARGE, largest_side
-from fecolumn.structures.standing import Standing, loads
+from fecolumn.structures.standing import Standing, loads, supports_of
 
 # Mean strain of a body at rest below one of its faces: what elements are made for is a tenth of it
 _STRAIN = 0.1
@@ -129,6 +129,8 @@ def tell_of_densities(
     told = set()
     for name, outline in outlines.items():
         body = case.bodies[name]
+        if isinstance(body, Matrices):
+            _tell_of_matrices(name, bodies[name], file)
         if not outline or not isinstance(body, Solid):
             continue
         density = bodies[name].mass / outline["volume"]
@@ -146,6 +148,43 @@ def tell_of_densities(
                 stacklevel=2,
             )
         told.add(own)
+
+
+def _tell_of_matrices(name: str, model: BodyModel, file: Path | str) -> None:
+    """Warn of a body of matrices that is lighter than any: units that do not fit each other."""
+    nodes = np.concatenate([one.nodes for one in model.surfaces.values()])
+    sides = np.ptp(model.arms[nodes], axis=0)[:2]
+    height = 2 * float(np.abs(model.arms[nodes, 2]).max())
+    density = model.mass / max(float(sides.prod()) * height, 1e-300)
+    if density < _LIGHT:
+        warnings.warn(
+            f'{file}: bodies.{name}.mass_file: "{name}" weighs {model.mass:.3g} kg, its contact '
+            f"nodes take {sides[0]:.3g} x {sides[1]:.3g} m, and its centre of mass is "
+            f"{height / 2:.3g} m over them: {density:.2g} kg/m3 of that box, which looks like "
+            "other units: masses are in kg, stiffnesses in N/m, places in m",
+            stacklevel=2,
+        )
+
+
+def tell_of_tilts(joints: list[JointModel], standing: list[Standing], file: Path | str) -> None:
+    """Warn, once, of a body that is tilted at the start below one that is not tilted with it."""
+    for upper, below in enumerate(supports_of(standing, joints)):
+        own = standing[upper].start
+        if len(below) != 1 or below[0][0] == GROUND:
+            continue
+        lower = standing[below[0][0]]
+        if lower.start is None or not lower.start.tilt_rad:
+            continue
+        if own is not None and (own.tilt_rad or own.moves):
+            continue
+        warnings.warn(
+            f'{file}: initial: "{standing[upper].name}" stands on "{lower.name}", which begins '
+            f"tilted by {lower.start.tilt_rad:g} rad, and begins level on its raised edge: a tilt "
+            "is from the vertical, and of one body; the same tilt_rad and direction_deg for "
+            f'[initial."{standing[upper].name}"] carry it along',
+            stacklevel=2,
+        )
+        return
 
 
 def tell_of_points(structure: StructureModel, file: Path | str) -> None:

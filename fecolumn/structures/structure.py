@@ -20,6 +20,7 @@ from fecolumn.structures.bonds import check_starts, with_bonds
 from fecolumn.structures.case_joints import joint_of, with_hertz
 from fecolumn.structures.case_links import links_at_copies, with_shapes
 from fecolumn.structures.check import (
+    check_carried,
     check_joints,
     check_links,
     tell_of_gaps,
@@ -39,6 +40,7 @@ from fecolumn.structures.sense import (
     tell_of_lengths,
     tell_of_points,
     tell_of_restitution,
+    tell_of_tilts,
 )
 from fecolumn.structures.standing import Standing
 from fecolumn.structures.store import KeptLayout, kept_body
@@ -122,6 +124,7 @@ def assembled(
         for name, one in layout["outlines"].items()
     }
     airborne = _airborne(standing, joints, links)
+    check_carried(case, airborne, joints, standing, file)
     parts = tuple(replace(part, airborne=place in airborne) for place, part in enumerate(parts))
     extents = [
         np.array(layout["extents"][name]) - one.model.center
@@ -154,6 +157,7 @@ def assembled(
     tell_of_far_places(case, standing, extents, file)
     tell_of_restitution(case, met, standing, file)
     tell_of_densities(case, bodies, layout["outlines"], file)
+    tell_of_tilts(joints, standing, file)
     tell_of_points(structure, file)
     check_sense(case, structure, standing, extents, file)
     check_rest(case, structure, standing, file)

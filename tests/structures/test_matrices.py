@@ -128,3 +128,14 @@ def test_massless_degrees_of_freedom_are_refused(system, tmp_path):
     sparse.save_npz(tmp_path / "mass.npz", mass.tocsr())
     with pytest.raises(InputError, match="must have inertia in every degree of freedom"):
         structure_model(_case(folder, "npz", mass_file=tmp_path / "mass.npz"))
+
+
+def test_matrices_in_tonnes_and_millimetres_are_told_of(system, tmp_path):
+    folder, _ = system
+    for name in ("mass", "stiffness"):
+        matrix = sparse.load_npz(folder / f"{name}.npz")
+        sparse.save_npz(tmp_path / f"{name}.npz", matrix / 1e3)
+    nodes = np.load(folder / "nodes.npz")
+    np.savez(tmp_path / "nodes.npz", dofs=nodes["dofs"], coordinates=1e3 * nodes["coordinates"])
+    with pytest.warns(UserWarning, match="mass_file: .* kg/m3 .* masses are in kg"):
+        structure_model(_case(tmp_path, "npz"))

@@ -2,12 +2,15 @@
 at.
 """
 
+import warnings
+
 import pytest
 from small_structures import stack, structure
 
 from fecolumn.engines.dynamics import gravity
 from fecolumn.engines.no_rest import no_rest
 from fecolumn.simulation import AnalysisFailed, run
+from fecolumn.structures.structure import structure_model
 
 
 @pytest.mark.parametrize("engine", ["rigid", "full"])
@@ -36,3 +39,25 @@ def test_an_unknown_mover_leaves_the_way_out():
         'gravity equilibrium: contact does not converge; integration.start = "drawn" lets the '
         "bodies go from where they are drawn"
     )
+
+
+@pytest.mark.parametrize("carried", [False, True])
+def test_a_tilt_that_leaves_what_stands_above_level_is_told_of(carried):
+    initial = {name: dict(tilt_rad=0.05) for name in ("lower", "upper")[: 1 + carried]}
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        structure_model(structure(**stack(initial=initial)), "small.toml")
+    assert any("begins level on its raised edge" in str(one.message) for one in told) != carried
+
+
+def test_no_rest_is_looked_for_where_no_forces_can_hold(tmp_path, monkeypatch):
+    """A body that leans over its edge from the start would be settled for seconds."""
+    monkeypatch.setattr(
+        "fecolumn.engines.reduced_analysis.upright", lambda *_: pytest.fail("was looked for")
+    )
+    tables = stack(
+        bodies=dict(upper=dict(at_m=[0.35, 0, 0.8])),
+        integration=dict(engine="rigid", start="drawn", duration_s=0.05),
+    )
+    summary = run(structure(**tables), tmp_path, quiet=True)
+    assert summary["bodies"]["upper"]["tilt_max_rad"] > 1e-3

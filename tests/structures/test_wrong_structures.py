@@ -60,6 +60,14 @@ WRONG = [
     ),
     (frame(joints=dict(feet=False)), "joints", "no contact path to the ground"),
     (
+        dict(
+            bodies=dict(one=BLOCK, row=BLOCK | dict(at_m=[0.6, 0, 0])),
+            joints=dict(foot=dict(between=["one", "ground"]), side=dict(between=["one", "row"])),
+        ),
+        "joints",
+        'nothing carries "row"',
+    ),
+    (
         stack(
             bodies=dict(
                 side=dict(

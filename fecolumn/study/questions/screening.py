@@ -94,6 +94,12 @@ def answer_of(
     reach = f"the intervals of {alike or 'no'} others reach into this one"
     event = limits[0].text
     failed = failed_of(rows)
+    if not failed and not any(one.count(0).k for one in ranked):
+        return (
+            f"None of {len(ranked)} has {event} in any of {count.n} motions: P({event}) is "
+            f"{count.text} of each (95 % interval); the largest median displacement is that of "
+            f"{first.object.name!r}."
+        )
     if not failed:
         return (
             f"Most endangered of {len(ranked)} is {first.object.name!r}: P({event}) is "
