@@ -35,8 +35,9 @@ class Placed(Section):
     )
     damping_ratio: float | None = parameter(
         None,
-        doc="damping ratio of the body's elastic modes; rigid-body motion is not damped; left "
-        "out: that of its material, 0 for matrices",
+        doc="damping ratio of the elastic modes of the free body; rigid-body motion is not damped, "
+        "so that the sway of a slender body that stands has a fraction of it; left out: that of "
+        "its material, 0 for matrices",
         low=0,
         high=0.5,
     )

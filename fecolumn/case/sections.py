@@ -68,8 +68,9 @@ class Material(Section):
     density_kg_m3: float = parameter(7850.0, doc="density", unit="kg/m3", above=0, high=1e5)
     damping_ratio: float = parameter(
         0.0,
-        doc="damping ratio of each elastic mode among the n_modes lowest; rigid-body motion is "
-        "not damped",
+        doc="damping ratio of each elastic mode of the free body among the n_modes lowest; "
+        "rigid-body motion is not damped, so that the sway of a slender body that stands has a "
+        "fraction of it",
         low=0,
         high=0.5,
         since="0.2",
