@@ -91,12 +91,12 @@ def told(table: Path) -> str:
     head = ["model", "analyses", *map(str, counts.columns)]
     rows = [[str(name), *map(str, (row.sum(), *row))] for name, row in counts.iterrows()]
     size = f"{table}: {table.stat().st_size / 1e6:.2f} MB, {len(frame)} analyses"
-    head_of_surface = ["bodies", "ln of", "parameter", "standard error"]
+    head_of_surface = ["of", "parameter", "standard error"]
     fitted = [
-        [kind, *line]
+        [f"{kind}, {name}", *numbers]
         for kind in (bodies.RIGID, bodies.ELASTIC)
         if _alike(frame[frame.model == kind]).nunique() >= _FEWEST_BODIES
-        for line in surface(frame, kind)
+        for name, *numbers in surface(frame, kind)
     ]
     return f"{markdown(head, rows)}\n\n{size}\n\n{markdown(head_of_surface, fitted)}"
 
@@ -126,7 +126,9 @@ def surface(frame, kind: str) -> list[list[str]]:
     )
     return [
         [name, f"{value:.3f}", f"{error:.3f}"]
-        for name, value, error in zip(("1", *x), fit.params, fit.bse)
+        for name, value, error in zip(
+            ("constant", *(f"ln {one}" for one in x)), fit.params, fit.bse
+        )
     ]
 
 
