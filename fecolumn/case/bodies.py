@@ -347,9 +347,10 @@ class Storeys(WithMaterial):
     damping: str = parameter(
         "rayleigh",
         doc="rayleigh: damping_ratio in the two rayleigh_modes of the building on a fixed slab, in "
-        "the other modes by Rayleigh's law; modal: damping_ratio in every mode of the free "
-        "building, with which it sways with less on a slab that stands; in the podium engine, in "
-        "every mode on a fixed slab",
+        "the other modes by Rayleigh's law; modal: damping_ratio in every mode, in the podium "
+        "engine on a fixed slab, in the reduced engine of the free building. The reduced engine "
+        "damps the modes of the free building alone, so that one with several floors, or by modal, "
+        "sways with less while its slab stands",
         choices=("modal", "rayleigh"),
     )
     rayleigh_modes: tuple[int, ...] = parameter(

@@ -91,8 +91,15 @@ class ReducedAnalysis(OfStructure):
         """
         if not begins_unstrained(self.case, self.structure):
             return self.engine.potential()
-        joined = not self.structure.found and not any(p.airborne for p in self.structure.parts)
-        if joined and unheld(self.structure, standing_of(self.case, self.structure)):
+        made = self.structure
+        # forces alone do not say where links hold that are slack, or what is found or dropped rests
+        straight = not (
+            made.found
+            or any(part.airborne for part in made.parts)
+            or any(link.slack for link in made.links)
+            or any(joint.on_dome for joint in made.joints)
+        )
+        if straight and unheld(self.structure, standing_of(self.case, self.structure)):
             return 0.0
         try:
             standing = upright(self.case, self.structure)

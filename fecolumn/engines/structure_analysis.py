@@ -216,7 +216,8 @@ class OfStructure(Analysis):
         if not through and (names := passing.over_edges(motion)):
             through = (
                 f"t = {motion.time:.4g} s: {OVER_EDGE}: {', '.join(names)}; "
-                f"{way_out(self.case, self.structure, names)}"
+                f"{way_out(self.case, self.structure, names)}; contact.between lets bodies meet "
+                "wherever they touch"
             )
         if through:
             self._save()

@@ -20,7 +20,7 @@ from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.bricks import FACES, TETRAHEDRON_FACES
 from fecolumn.structures.bodies import Drawing
 from fecolumn.structures.meeting import Meeting
-from fecolumn.structures.model import JointModel
+from fecolumn.structures.model import JointModel, LinkModel
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.place import footing
 from fecolumn.structures.standing import Standing
@@ -105,28 +105,37 @@ def check_carried(
     case: Case,
     airborne: set[int],
     joints: list[JointModel],
+    links: Sequence[LinkModel],
     standing: list[Standing],
     file: Path | str,
 ) -> None:
-    """Refuse a body that begins in the air, at rest, and has no joint with what is below it; those
-    whose contact is found have all joints. airborne: places of the bodies in the air.
+    """Refuse a body that begins in the air, at rest, and has no joint with what is below it, nor is
+    glued or linked to one that has; those whose contact is found have all joints. airborne: places
+    of the bodies in the air.
     """
-    found = {place for place, copy in enumerate(case.copies) if copy in set(case.found)}
-    for place in sorted(airborne - found):
-        start, carried = standing[place].start, False
-        for joint in joints:
-            up = -standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]
-            carried |= joint.slave == place and up > LEAST_UP
-            carried |= joint.master == place and up < -LEAST_UP
-        if not carried and not (start is not None and start.moves):
-            raise InputError(
-                file,
-                "joints",
-                None,
-                f'nothing carries "{standing[place].name}", which has joints with what is beside '
-                "it alone: it falls; state a joint with what is below it, such as "
-                f'between = ["{standing[place].name}", "ground"]',
-            )
+    carried = {place for place, copy in enumerate(case.copies) if copy in set(case.found)}
+    carried |= {
+        place
+        for place, one in enumerate(standing)
+        if place not in airborne or one.start is not None and one.start.moves
+    }
+    for joint in joints:
+        up = -standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]
+        carried |= {joint.slave} if up > LEAST_UP else set()
+        carried |= {joint.master} if up < -LEAST_UP else set()
+    held = [{joint.slave, joint.master} for joint in joints if joint.bond is not None]
+    held += [{link.a, link.b} for link in links if link.stiffness]
+    while more := {one for pair in held if pair & carried for one in pair} - carried:
+        carried |= more
+    for place in sorted(airborne - carried):
+        raise InputError(
+            file,
+            "joints",
+            None,
+            f'nothing carries "{standing[place].name}", which has joints with what is beside it '
+            "alone: it falls; state a joint with what is below it, such as "
+            f'between = ["{standing[place].name}", "ground"]',
+        )
 
 
 def check_layout(case: Case, layout: CheckedLayout, file: Path | str) -> None:

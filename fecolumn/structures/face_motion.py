@@ -40,7 +40,7 @@ def face_operators(
 ) -> tuple[NDArray[Any], NDArray[Any]]:
     """Mean displacement [m] and turn [rad] of the faces of slave and master of each joint, in the
     frames of their bodies: (ni, 2, 6, m) in the modes of the body, (ni, 2, 6, 3 n) by forces on
-    its contact nodes [m/N, rad/N]; 0 of a ground.
+    its contact nodes [m/N, rad/N]; 0 of a ground, and of bodies without modes.
 
     Parameters
     ----------
@@ -56,7 +56,8 @@ def face_operators(
     lines = static.reshape(len(shapes), 3, -1)
     for place, fits in enumerate(face_fits(structure)):
         for side, one in enumerate(fits):
-            if one is not None:
+            # of a body without modes, springs of its contact are no part of it
+            if one is not None and len(structure.parts[one.body].model.frequencies):
                 rows = first[one.body] + one.nodes
                 moves[place, side] = np.einsum("ska,kam->sm", one.fit, shapes[rows])
                 gives[place, side] = np.einsum("ska,kan->sn", one.fit, lines[rows])

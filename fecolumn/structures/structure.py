@@ -124,7 +124,7 @@ def assembled(
         for name, one in layout["outlines"].items()
     }
     airborne = _airborne(standing, joints, links)
-    check_carried(case, airborne, joints, standing, file)
+    check_carried(case, airborne, joints, links, standing, file)
     parts = tuple(replace(part, airborne=place in airborne) for place, part in enumerate(parts))
     extents = [
         np.array(layout["extents"][name]) - one.model.center

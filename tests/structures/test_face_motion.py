@@ -59,3 +59,18 @@ def test_soft_blocks_that_sway_on_feet_that_stay_do_not_slide(tmp_path, engine, 
     for foot in summary["interfaces"].values():
         assert foot["slide_max_m"] < 1e-3 * sway
         assert foot["tilt_max_rad"] < 1e-3 * frames
+
+
+def test_a_rigid_body_on_contact_springs_rocks_and_sinks_on_them(tmp_path):
+    """Springs of contact are no part of the face: joint and body tilt alike."""
+    block = SOFT | dict(rigid=True, height_m=1.2, contact_stiffness_n_m3=1e7)
+    case = structure(
+        bodies=dict(block={k: v for k, v in block.items() if k != "modes"}),
+        joints=dict(foot=dict(between=["block", "ground"], friction_coefficient=10.0)),
+        initial=dict(block=dict(spin_rad_s=[0.0, 0.02, 0.0])),
+        integration=dict(engine="rigid", dt_s=1e-3, duration_s=0.3),
+    )
+    summary = run(case, tmp_path, quiet=True)
+    tilt = summary["bodies"]["block"]["tilt_max_rad"]
+    assert tilt > 1e-4
+    assert summary["interfaces"]["foot: block on ground"]["tilt_max_rad"] == pytest.approx(tilt)

@@ -102,7 +102,7 @@ def test_rayleigh_damping_has_its_ratio_in_the_two_modes():
     ).damping_ratio == pytest.approx(np.full(2, 0.05), rel=1e-3)
 
 
-def test_a_building_that_stands_sways_with_its_damping(tmp_path):
+def test_a_building_of_one_floor_that_stands_sways_with_its_damping(tmp_path):
     """Its floor is twice as heavy as its slab; its foot stays, and is said to."""
     rows = "".join(f"{0.01 * k:.2f},{1.0 if k <= 20 else 0.0}\n" for k in range(220))
     (tmp_path / "push.csv").write_text("time [s],ax [m/s2]\n" + rows)

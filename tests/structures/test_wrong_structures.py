@@ -582,3 +582,25 @@ def test_a_slab_beside_a_wall_is_meshed_as_alone(wide, gap):
     )
     model = structure_model(case)
     assert {part.name for part in model.parts} == {"slab", "wall"}
+
+
+def test_what_is_glued_to_a_body_that_is_dropped_is_carried_by_it():
+    tables = dict(
+        bodies=dict(one=BLOCK | dict(at_m=[0, 0, 0.2]), row=BLOCK | dict(at_m=[0.4, 0, 0.2])),
+        joints=dict(
+            foot=dict(between=["one", "ground"]),
+            glue=dict(
+                between=["one", "row"],
+                bond_tension_pa=1e6,
+                bond_cohesion_pa=1e6,
+                bond_stiffness_n_m3=1e8,
+                bond_shear_stiffness_n_m3=1e8,
+            ),
+        ),
+        integration=dict(engine="rigid"),
+    )
+    with pytest.warns(UserWarning, match="begin 0.2 m apart"):
+        assert all(part.airborne for part in structure_model(structure(**tables)).parts)
+    tables["joints"]["glue"] = dict(between=["one", "row"])
+    with pytest.raises(InputError, match='nothing carries "row"'):
+        structure_model(structure(**tables))

@@ -208,9 +208,9 @@ def view_of(
 
 
 def _faces_of(model: StructureModel, structure: Structure) -> tuple[Array, Array]:
-    """`face_operators` of the joints, of no columns where no body deforms."""
+    """`face_operators` of the joints, of no columns where no body has modes."""
     bodies = structure.bodies
-    if not (bodies.pushes.shape[2] or bodies.static.any()):
+    if not bodies.pushes.shape[2]:
         none = np.zeros((len(model.joints), 2, 6, 0))
         return none, none
     first = np.append(bodies.body["first"], len(bodies.arms))
