@@ -23,7 +23,7 @@ from fecolumn.structures.meeting import Meeting
 from fecolumn.structures.model import JointModel, LinkModel
 from fecolumn.structures.patches import Patch
 from fecolumn.structures.place import footing
-from fecolumn.structures.standing import Standing
+from fecolumn.structures.standing import Standing, joined_to
 
 #: Contact points of one body, above which its compliance alone has more than 3000^2 numbers.
 _MOST_POINTS = 1000
@@ -123,11 +123,9 @@ def check_carried(
         up = -standing[joint.slave].model.surfaces[joint.slave_surface].normal[2]
         carried |= {joint.slave} if up > LEAST_UP else set()
         carried |= {joint.master} if up < -LEAST_UP else set()
-    held = [{joint.slave, joint.master} for joint in joints if joint.bond is not None]
-    held += [{link.a, link.b} for link in links if link.stiffness]
-    while more := {one for pair in held if pair & carried for one in pair} - carried:
-        carried |= more
-    for place in sorted(airborne - carried):
+    pairs = [(joint.slave, joint.master) for joint in joints if joint.bond is not None]
+    pairs += [(link.a, link.b) for link in links if link.stiffness]
+    for place in sorted(airborne - joined_to(carried, pairs)):
         raise InputError(
             file,
             "joints",
@@ -143,13 +141,9 @@ def check_layout(case: Case, layout: CheckedLayout, file: Path | str) -> None:
     copies = case.copies
     fixed = {copy for copy in copies if getattr(case.bodies[copy[0]], "fixed", False)}
     found = set(case.found)
-    held = {None, *fixed, *found}
-    while more := [
-        contact
-        for contact in layout.contacts
-        if (contact.slave in held) != (contact.master in held)
-    ]:
-        held |= {copy for contact in more for copy in (contact.slave, contact.master)}
+    held = joined_to(
+        {None, *fixed, *found}, [(contact.slave, contact.master) for contact in layout.contacts]
+    )
     if loose := [
         f'"{case.names_of(name)[number]}"' for name, number in copies if (name, number) not in held
     ]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Hashable, Iterable, Iterator, Sequence
 from contextvars import ContextVar
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,7 @@ from fecolumn.contact.points import GROUND
 from fecolumn.structures.faces import over
 from fecolumn.structures.model import BodyModel, JointModel, StructureModel
 
+T = TypeVar("T", bound=Hashable)
 # Vertical part of a face's normal below which it carries nothing
 _LEVEL = 1e-9
 # What touches in each joint, by its identity, within `remembered`; None elsewhere
@@ -94,6 +95,14 @@ def supports_of(standing: Sequence[Standing], joints: Iterable[JointModel]) -> l
         elif down > _LEVEL and joint.master != GROUND:
             found[joint.master].setdefault(joint.slave, []).append(joint)
     return [list(one.items()) for one in found]
+
+
+def joined_to(held: Iterable[T], pairs: Collection[tuple[T, T]]) -> set[T]:
+    """What is held, and all that pairs join to it, one by another."""
+    found = set(held)
+    while more := {one for pair in pairs if not found.isdisjoint(pair) for one in pair} - found:
+        found |= more
+    return found
 
 
 def loads(standing: Sequence[Standing], joints: Sequence[JointModel]) -> list[float]:

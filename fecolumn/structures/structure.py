@@ -42,7 +42,7 @@ from fecolumn.structures.sense import (
     tell_of_restitution,
     tell_of_tilts,
 )
-from fecolumn.structures.standing import Standing
+from fecolumn.structures.standing import Standing, joined_to
 from fecolumn.structures.store import KeptLayout, kept_body
 
 
@@ -172,9 +172,7 @@ def _airborne(
     pairs = [(joint.slave, joint.master) for joint in joints if not joint.gap]
     pairs += [(link.a, link.b) for link in links if link.stiffness]
     held = {GROUND} | {place for place, part in enumerate(standing) if part.held >= 0}
-    while more := {one for pair in pairs if held & set(pair) for one in pair} - held:
-        held |= more
-    return set(range(len(standing))) - held
+    return set(range(len(standing))) - joined_to(held, pairs)
 
 
 def _that_moves(case: Case, name: str, model: BodyModel) -> BodyModel:

@@ -202,7 +202,14 @@ def view_of(
         np.array(model.levels, float),
         np.array([part.held for part in model.parts]),
         np.array([joint.bond.areas.sum() for joint in bonded(model)]),
-        np.array([(one.slave, one.master) for one in model.joints], np.int64).reshape(-1, 2),
+        # what is told of a joint's other side is that of the joint
+        np.array(
+            [
+                (GROUND, GROUND) if one.pair >= 0 else (one.slave, one.master)
+                for one in model.joints
+            ],
+            np.int64,
+        ).reshape(-1, 2),
         *_faces_of(model, structure),
     )
 
