@@ -19,12 +19,13 @@ from fecolumn.contact.overturning import (
     is_past_no_return,
 )
 from fecolumn.contact.points import GROUND, OVER
-from fecolumn.contact.pose import MASTER, SLAVE, grounds_at, poses_of
+from fecolumn.contact.pose import grounds_at, poses_of
 from fecolumn.engines.history_columns import of_both_sides
 from fecolumn.engines.passing import RigidMotion
 from fecolumn.fem.rotation import tilt_angle, twist_angle, vector_product
 from fecolumn.foundation._compiled import interpreted
-from fecolumn.structures.face_motion import face_fits
+from fecolumn.foundation.summed import summed_at
+from fecolumn.structures.face_motion import FaceMotion
 
 if TYPE_CHECKING:
     from fecolumn.contact.overturning import Limits
@@ -73,8 +74,7 @@ class Observer:
         reference = poses_of(
             system.interface.interfaces, self._centers, upright, grounds_at(structure.levels)
         )
-        self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
-        self._faces = face_fits(structure)
+        self._faces = FaceMotion(structure, reference, system.interface.rows)
         #: First foot of the observed body, if it has one.
         self._surface = next(
             (
@@ -131,39 +131,19 @@ class Observer:
         along = np.einsum("pac,pc->pa", turned[rows], forces * carries[:, None])
         level = state.relative * [1.0, 1.0, 0.0]
         pressed = np.einsum("pac,pc->pa", turned[rows], level) * np.maximum(forces[:, 2:], 0.0)
-        resultants, centers = np.zeros((2, len(poses), 3))
-        np.add.at(resultants, rows, along)
-        np.add.at(centers, rows, pressed)
-        deformed = interface.deformation(state.x, R, forces)
+        resultants, centers = (summed_at(rows, each, len(poses)) for each in (along, pressed))
+        tilts, risen = self._faces.moved(poses, interface.deformation(state.x, R, forces))
         loaded = normal > 0
         centers[loaded] = poses["origin"][loaded] + centers[loaded] / normal[loaded, None]
-        for joint, pose, faces, foot, first, force, resultant, center in zip(
-            structure.joints,
-            poses,
-            self._faces,
-            self._feet,
-            self._normals,
-            normal,
-            resultants,
-            centers,
+        for joint, tilt, moved, force, resultant, center in zip(
+            structure.joints, tilts.tolist(), risen, normal, resultants, centers
         ):
-            risen, normals = pose["foot"] - foot, []
-            for one, turned, own, sign in zip(
-                faces, pose["turned"], (first, pose["turned"][MASTER, 2]), (1, -1)
-            ):
-                shift, turn = np.zeros((2, 3))
-                if one is not None:
-                    nodes = interface.rows[one.body].start + one.nodes
-                    shift, turn = np.split(np.einsum("ska,ka->s", one.fit, deformed[nodes]), 2)
-                risen = risen + sign * turned @ shift
-                normals.append(turned @ (own + np.cross(turn, own)))
-            tilt = float(np.arctan2(np.linalg.norm(np.cross(*normals)), np.dot(*normals)))
             row |= {
                 f"interface/{joint.name}/{name}": value
                 for name, value in dict(
                     tilt=tilt,
-                    rise=float(risen[2]),
-                    slide=risen[:2],
+                    rise=float(moved[2]),
+                    slide=moved[:2],
                     force=float(force),
                     resultant=resultant,
                     center=center,

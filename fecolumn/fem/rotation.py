@@ -57,6 +57,10 @@ def into_frames(values: Array, rotation: Array, rows: list[slice]) -> Array:
     """
     if len(rows) == 1:
         return values @ rotation[0]
+    size = rows[0].stop - rows[0].start
+    if all(own.stop - own.start == size for own in rows):
+        # the same products, of all bodies in one call
+        return (values.reshape(len(rows), size, *values.shape[1:]) @ rotation).reshape(values.shape)
     return np.concatenate([values[own] @ R for own, R in zip(rows, rotation, strict=True)])
 
 

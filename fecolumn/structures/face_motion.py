@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fecolumn.contact.points import GROUND
+from fecolumn.contact.pose import MASTER, SLAVE
+from fecolumn.fem.rotation import vector_product
 from fecolumn.structures.model import JointModel, StructureModel, Surface
 
 
@@ -62,6 +64,50 @@ def face_operators(
                 moves[place, side] = np.einsum("ska,kam->sm", one.fit, shapes[rows])
                 gives[place, side] = np.einsum("ska,kan->sn", one.fit, lines[rows])
     return moves, gives
+
+
+class FaceMotion:
+    """Tilt and motion of joints from poses and deformation of their bodies.
+
+    Parameters
+    ----------
+    structure
+        whose joints they are.
+    reference
+        (ni,) of POSE of the joints where they have moved by nothing.
+    rows
+        of each body among the nodes of contact.
+    """
+
+    def __init__(
+        self, structure: StructureModel, reference: NDArray[Any], rows: list[slice]
+    ) -> None:
+        self._feet, self._normals = reference["foot"], reference["turned"][:, SLAVE, 2]
+        self._fits = [
+            (joint, side, rows[one.body].start + one.nodes, one.fit.reshape(6, -1))
+            for joint, fits in enumerate(face_fits(structure))
+            for side, one in zip((SLAVE, MASTER), fits)
+            if one is not None
+        ]
+
+    def moved(self, poses: NDArray[Any], deformed: NDArray[Any]) -> tuple[NDArray[Any], ...]:
+        """Angles (ni,) [rad] between the faces of the joints, and what the slaves' have moved by
+        over the masters' (ni, 3) [m] along and across these: of poses (ni,) and the displacements
+        (N, 3) [m] of all nodes of contact from the rigid motion of their bodies, in the frames of
+        these.
+        """
+        shift, turn = np.zeros((2, len(poses), 2, 3))
+        for joint, side, nodes, fit in self._fits:
+            motion = fit @ deformed[nodes].ravel()
+            shift[joint, side], turn[joint, side] = motion[:3], motion[3:]
+        turned = poses["turned"]
+        shift = np.einsum("jsab,jsb->jsa", turned, shift)
+        own = np.stack([self._normals, turned[:, MASTER, 2]], axis=1)
+        normals = np.einsum("jsab,jsb->jsa", turned, own + vector_product(turn, own))
+        first, second = normals[:, SLAVE], normals[:, MASTER]
+        across = np.linalg.norm(vector_product(first, second), axis=1)
+        tilts = np.arctan2(across, np.einsum("ja,ja->j", first, second))
+        return tilts, poses["foot"] - self._feet + shift[:, SLAVE] - shift[:, MASTER]
 
 
 def _of_slave(structure: StructureModel, joint: JointModel) -> FaceFit:

@@ -16,6 +16,7 @@ from fecolumn.contact.pose import MASTER, POSE, SLAVE, find_poses, frames_at, gr
 from fecolumn.contact.projection import place_on_masters
 from fecolumn.fem.rotation import into_frames, out_of_frames, vector_product
 from fecolumn.foundation.arrays import Array
+from fecolumn.foundation.summed import summed_at
 
 if TYPE_CHECKING:
     from fecolumn.fem.composite import Composite, CompositeFoot, CompositeResponse
@@ -117,29 +118,27 @@ class Places:
             they act where a point was at the start and where it is, half at each; else they act
             where it is.
         """
-        shared, loaded = np.zeros_like(self.reference), np.flatnonzero(forces.any(axis=1))
+        loaded = np.flatnonzero(forces.any(axis=1))
         pushes = forces[loaded]
         if self.moving:
             pushes = np.einsum(
                 "pab,pb->pa", self._frames(rotation)[self.points["interface"][loaded]], pushes
             )
-        np.add.at(
-            shared,
-            self.points["carriers"][loaded],
-            self.points["weights"][loaded, :, None] * pushes[:, None],
-        )
+        rows = [self.points["carriers"][loaded]]
+        shares = [self.points["weights"][loaded, :, None] * pushes[:, None]]
         if self.moving:
             under = self.points["master"][loaded] != GROUND
-            rows, pushes, ends = (
+            on, pushes, ends = (
                 loaded[under],
                 pushes[under],
                 [(self.points["below"], self.points["shares"])],
             )
             if within:
                 ends.append((self._below, self._shares))
-            for below, shares in ends:
-                np.add.at(shared, below[rows], -shares[rows, :, None] * pushes[:, None] / len(ends))
-        return shared
+            for below, parts in ends:
+                rows.append(below[on])
+                shares.append(-parts[on, :, None] * pushes[:, None] / len(ends))
+        return summed_at(np.concatenate(rows), np.concatenate(shares), len(self.reference))
 
     def _frames(self, rotation: Array) -> Array:
         """Axes (ni, 3, 3) of the interfaces in the table frame."""
@@ -251,26 +250,21 @@ class Places:
         of bodies turned by `rotation`, in their frames.
         """
         loaded = np.flatnonzero(forces.any(axis=1))
-        moments, pushes = (
-            np.zeros((len(rotation), 3)),
-            np.einsum(
-                "pab,pb->pa",
-                self._frames(rotation)[self.points["interface"][loaded]],
-                forces[loaded],
-            ),
+        pushes = np.einsum(
+            "pab,pb->pa", self._frames(rotation)[self.points["interface"][loaded]], forces[loaded]
         )
+        rows, each = [], []
         for side, name, sign in ((SLAVE, "slave", 1.0), (MASTER, "master", -1.0)):
             of = np.flatnonzero(self.points[name][loaded] != GROUND)
             bodies = self.points[name][loaded][of]
-            np.add.at(
-                moments,
-                bodies,
+            rows.append(bodies)
+            each.append(
                 sign
                 * vector_product(
                     levers[loaded[of], side], np.einsum("pa,pab->pb", pushes[of], rotation[bodies])
-                ),
+                )
             )
-        return moments
+        return summed_at(np.concatenate(rows), np.concatenate(each), len(rotation))
 
     def velocities(self, v: Array, rotation: Array, poses: Array, starts: bool = False) -> Array:
         """Velocities (P, 3) of the points from the bodies' velocities, relative to the master in

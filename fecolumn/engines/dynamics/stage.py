@@ -141,12 +141,7 @@ class Stage:
         mended = moments[0], interface.moments(forces, halfway, levers) - moments[1]
         internal_part, contact_part = (
             out_of_frames(
-                np.concatenate(
-                    [
-                        vector_product(turn_of(product, moment), bodies.arms[rows])
-                        for product, moment, rows in zip(products, each, bodies.rows)
-                    ]
-                ),
+                vector_product(of_nodes(bodies, turns_of(products, each)), bodies.arms),
                 halfway,
                 bodies.rows,
             )
@@ -168,19 +163,24 @@ class Middle(NamedTuple):
 
 def arms_of(bodies: Composite, x: Array) -> Array:
     """Arms (n_owned, 3) [m] of positions x (n_owned, 3) from the centres of mass."""
-    return x - np.repeat(
-        bodies.centers(x), [rows.stop - rows.start for rows in bodies.rows], axis=0
-    )
+    return x - of_nodes(bodies, bodies.centers(x))
 
 
-def turn_of(product: Array, moment: Array) -> Array:
-    """Find nu (3,) [1/s2] such that the forces M (nu x X) on a body have the moment (3,) [N m].
+def of_nodes(bodies: Composite, values: Array) -> Array:
+    """Values (n_owned, 3) at the nodes from those of their bodies (nb, 3)."""
+    return np.repeat(values, [rows.stop - rows.start for rows in bodies.rows], axis=0)
+
+
+def turns_of(products: Array, moments: Array) -> Array:
+    """Find nu (nb, 3) [1/s2] such that the forces M (nu x X) on a body have the moment [N m], that
+    of each in moments (nb, 3).
 
     X are the reference arms of the body, p its present arms about which the moment is taken, and
-    product the sum of (M X) p^T. The forces act on the rigid motion alone: by the definition of the
-    mean rotation (`corotated.mean_rotation`) they do no work on a deformation.
+    its product (3, 3) the sum of (M X) p^T. The forces act on the rigid motion alone: by the
+    definition of the mean rotation (`corotated.mean_rotation`) they do no work on a deformation.
     """
-    return np.linalg.solve(np.trace(product) * np.eye(3) - product, moment)
+    traces = np.trace(products, axis1=1, axis2=2)[:, None, None]
+    return np.linalg.solve(traces * np.eye(3) - products, moments[..., None])[..., 0]
 
 
 def carried(bodies: Composite, accelerations: Array, turn: Array) -> Array:
