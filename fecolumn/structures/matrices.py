@@ -232,7 +232,10 @@ def matrices_model(
     rigid[held] = known[rows[np.searchsorted(dofs.ravel()[rows], held)]]
     rigid[free] = factor.solve(-(stiffness[free][:, held] @ rigid[held]))
     scale = np.abs(known).max(axis=0)
-    if (np.abs(rigid[dofs.ravel()] - known) / scale).max() > _EXACT:
+    # what holds the body at a row of `held` shows in the forces there alone
+    forces, entries = np.abs(stiffness[held] @ rigid), abs(stiffness[held]) @ np.abs(rigid)
+    moves = (np.abs(rigid[dofs.ravel()] - known) / scale).max() <= _EXACT
+    if not moves or (forces.max(axis=0) > _EXACT * entries.max(axis=0)).any():
         refuse(
             "its stiffness resists rigid motion of the contact nodes: nothing may hold "
             "the body, and their coordinates must be in its unit of length"

@@ -92,6 +92,18 @@ def test_matrices_of_a_held_body_are_refused(system):
     assert error.value.key == "bodies.block.stiffness_file"
 
 
+def test_matrices_of_a_body_held_at_one_row_are_refused(system):
+    """Whichever it is, also one of the six that are held to find rigid motions."""
+    folder, _ = system
+    free = sparse.load_npz(folder / "stiffness.npz").tolil()
+    for row in np.load(folder / "nodes.npz")["dofs"].ravel():
+        held = free.copy()
+        held[row, row] += 1e9
+        sparse.save_npz(folder / "held.npz", held.tocsr())
+        with pytest.raises(InputError, match="nothing may hold the body"):
+            structure_model(_case(folder, "npz", stiffness_file="held.npz"))
+
+
 @pytest.mark.parametrize(
     "file, said", [("mass.mtx", "symmetric|cannot be read"), ("nodes.npz", "cannot be read")]
 )
