@@ -91,6 +91,8 @@ def test_cost_of_shaken_structures():
     drums = list(column("shaken", "rigid [us]")).index("drums of 8, shaken by 1.5 of uplift")
     assert round(rigid[drums] / soft[drums]) == 11 and round(rigid[drums] / stiff[drums]) == 3
     assert "eleven times as much, three times what MuJoCo takes at these stiff settings" in PAGE
+    released = list(column("shaken", "rigid [us]")).index("drums of 8, let go")
+    assert f"let go cost {rigid[released] / soft[released]:.1f} times as much" in PAGE
     weak = [shaken.endswith("0.1 of uplift") for shaken in column("shaken", "rigid [us]")]
     ratio = elastic / rigid
     assert 2 <= ratio[weak].min() and ratio[weak].max() <= 3

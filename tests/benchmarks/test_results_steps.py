@@ -156,6 +156,17 @@ def test_what_rolling_leaves_of_finding_b_at_one_alpha():
     ]
     told = f"({fewer[0]} columns fewer with fixed steps, {fewer[1]} with rolling substeps)"
     assert told in PAGE and fewer[1] > fewer[0] / 2
+    found = {
+        steps: (
+            pairs("paper_steps", f"fixed step, 0.02 and {steps} s")["-0.2"],
+            pairs("paper_parts_steps", f"rolling substeps, 0.02 and {steps} s")["-0.2"],
+        )
+        for steps in ("0.001", "0.0001")
+    }
+    for fixed, rolling in found.values():
+        assert f"{fixed[0]:.2f} with fixed steps, {rolling[0]:.2f} with rolling substeps)" in PAGE
+    left = found["0.0001"][1]
+    assert f"is not significant at this alpha (p {left[1]:.3f})" in PAGE and min(left[1:]) > 0.05
 
 
 def test_claims_of_a_thousand_motions():
