@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
+from benchmarks.tables.changes import holds
 from fecolumn import __version__
 from fecolumn.foundation.sources import PHYSICS
 
@@ -64,7 +65,7 @@ class Table:
     @property
     def current(self) -> bool:
         """Whether what this code computes is what was measured."""
-        return self.about["physics"] in ("none", str(PHYSICS))
+        return holds(self.name, self.about["physics"])
 
 
 def _is_number(text: str) -> bool:

@@ -29,7 +29,8 @@ class Placed(Section):
     )
     modes: int | None = parameter(
         None,
-        doc="number of elastic modes in the reduced engine; left out: integration.n_modes",
+        doc="number of elastic modes in the reduced engine, as integration.n_modes, which counts "
+        "where it is left out",
         low=0,
         high=1000,
     )

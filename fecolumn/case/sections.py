@@ -179,8 +179,9 @@ class Integration(Section):
     )
     n_modes: int = parameter(
         30,
-        doc="number of elastic modes in the reduced engine, all modes if the mesh has fewer; the "
-        "other modes respond statically",
+        doc="number of elastic modes in the reduced engine, with those of the same frequency as "
+        "the last, such as bending along x and y of a round body; all modes if the mesh has fewer; "
+        "the other modes respond statically",
         low=0,
         high=1000,
     )

@@ -11,6 +11,7 @@ from scipy.linalg import eigh
 
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rayleigh import spectral_shift
+from fecolumn.fem.whole_groups import SAME_FREQUENCY
 from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 # Shift of the spectrum over the bound of the first elastic frequency's square: K + s M can be
 # factored, and 1 / (w^2 + s) still tells the rigid modes from the first elastic ones
 _SHARE = 0.01
+# Controls of MUMPS that are 1 so that it counts negative pivots, those of the last front, too
+_COUNTS = (13, 24)
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,10 +108,36 @@ def _hertz(values: Array) -> Array:
 
 def elastic_modes(body: Body, count: int) -> tuple[Array, Array]:
     """Frequencies (m,) [rad/s] and shapes (m, n_owned, 3) of unit modal mass of the lowest elastic
-    modes: `count` of them, or all there are.
+    modes: `count` of them and those of the same frequency as the last, or all there are.
     """
-    count = min(count, 3 * (body.n_nodes - len(body.constraint.nodes)) - 6)
+    most = 3 * (body.n_nodes - len(body.constraint.nodes)) - 6
+    count = min(count, most)
     if count <= 0:
         return np.zeros(0), np.zeros((0, body.n_owned, 3))
     modes = free_modes(body, count + 6)
+    if count < most:
+        last = 2 * np.pi * modes.frequencies[-1]
+        group = modes_below(body, last * (1 + SAME_FREQUENCY))
+        if group > count + 6:
+            modes = free_modes(body, group)
     return 2 * np.pi * modes.frequencies[6:], modes.shapes[6:]
+
+
+def modes_below(body: Body, frequency: float) -> int:
+    """Number of modes, rigid ones included, below a frequency [rad/s]: that of the negative
+    eigenvalues of K - w^2 M, which are those of its factor (Sylvester's law of inertia).
+    """
+    matrix = body.constraint.pinned(body.stiffness.copy())
+    matrix.axpy(-(frequency**2), body.mass, PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
+    factor = PETSc.PC().create(body.comm)
+    factor.setOperators(matrix)
+    factor.setType("cholesky")
+    factor.setFactorSolverType("mumps")
+    factor.setFactorSetUpSolverType()
+    for control in _COUNTS:
+        factor.getFactorMatrix().setMumpsIcntl(control, 1)
+    factor.setUp()
+    negative: int = factor.getFactorMatrix().getInertia()[0]
+    factor.destroy()
+    matrix.destroy()
+    return negative

@@ -19,6 +19,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from scipy.spatial import ConvexHull, Delaunay, QhullError
 
 from fecolumn.case.bodies import Matrices
+from fecolumn.fem.whole_groups import with_group
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.winding import counterclockwise
 from fecolumn.structures.faces import SAME_PLANE, Face
@@ -31,6 +32,8 @@ from fecolumn.structures.reduction import top_face
 _EXACT = 1e-6
 # Twice the area of a triangle over the square of the largest side, below which it is none
 _NO_AREA = 1e-12
+# Modes found beyond those asked for: of a cube three have one frequency
+_SPARE = 2
 # Degrees of freedom up to which all modes are found at once
 _DENSE = 1000
 # Raises the InputError of what a file may be instead
@@ -319,12 +322,14 @@ def _modes(
             refuse(
                 "must have inertia in every degree of freedom: condense the massless ones out first"
             )
-        return squares[6 : 6 + count], shapes[:, 6 : 6 + count]
+        squares, shapes = squares[6:], shapes[:, 6:]
+        count = with_group(np.sqrt(squares), count)
+        return squares[:count], shapes[:, :count]
     inverse = LinearOperator(
         (size, size), matvec=lambda force: response(force.reshape(-1, 1)).ravel(), dtype=float
     )
-    squares, shapes = eigsh(stiffness, count, mass, sigma=0.0, OPinv=inverse, which="LM")
-    order = np.argsort(squares)
+    squares, shapes = eigsh(stiffness, count + _SPARE, mass, sigma=0.0, OPinv=inverse, which="LM")
+    order = np.argsort(squares)[: with_group(np.sqrt(np.sort(squares)), count)]
     return squares[order], shapes[:, order]
 
 

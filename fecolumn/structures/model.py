@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from fecolumn.contact.pad import Pad
 from fecolumn.contact.points import GROUND
+from fecolumn.fem.whole_groups import with_group
 
 if TYPE_CHECKING:
     from fecolumn.contact.base_plate import BasePlate
@@ -114,9 +115,10 @@ class BodyModel:
         return positions
 
     def with_modes(self, count: int) -> BodyModel:
-        """The body with its `count` lowest elastic modes, or all it has; the others stay in the
-        flexibility.
+        """The body with its `count` lowest elastic modes, or all it has, and those of the same
+        frequency as the last; the others stay in the flexibility.
         """
+        count = with_group(self.frequencies, count)
         return replace(
             self,
             frequencies=self.frequencies[:count],

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from fecolumn.case.case import load_case
-from fecolumn.fem.modes import free_modes
+from fecolumn.fem.modes import elastic_modes, free_modes, modes_below
+from fecolumn.fem.whole_groups import with_group
 from fecolumn.mesh.bending import free_free_bending_frequency
 from fecolumn.structures.bodies import drawing
 from fecolumn.structures.reduction import body_of
@@ -44,3 +45,22 @@ def test_tube_bends_as_timoshenko_says(specimen):
         steel.density_kg_m3,
     )
     assert found == pytest.approx([exact, exact], rel=0.02)
+
+
+def test_modes_of_one_frequency_are_kept_together(specimen):
+    """A round tube bends along x and along y at one frequency."""
+    body = _body(specimen.replace({"cap": None}))
+    two = free_modes(body, 8).frequencies[6:]
+    assert two[1] == pytest.approx(two[0], rel=1e-4)
+    for asked in (1, 2):
+        frequencies, shapes = elastic_modes(body, asked)
+        assert len(frequencies) == len(shapes) == 2
+    assert modes_below(body, 2 * np.pi * two[0] * 0.99) == 6
+    assert modes_below(body, 2 * np.pi * two[1] * 1.01) == 8
+
+
+@pytest.mark.parametrize(
+    "count, kept", [(0, 0), (1, 2), (2, 2), (3, 3), (4, 6), (5, 6), (6, 6), (9, 6)]
+)
+def test_a_group_of_modes_is_whole(count, kept):
+    assert with_group(np.array([1.0, 1.0 + 1e-12, 2.0, 3.0, 3.0, 3.0 + 1e-6]), count) == kept
