@@ -1,14 +1,16 @@
 """Measured numbers: CSV files, each with a header that tells what made it.
 
-A file begins with one comment line for each of `HEADER`, and one of "rows" where it is made of rows
-that were measured before: their commits and dates. Then come the names of the columns, with their
-units, then the rows. Cells are kept as they were printed. The first column names the row.
+A file begins with one comment line for each of `HEADER`, one of "rows" where it is made of rows
+that were measured before: their commits and dates, and one of "changed" where some rows were
+measured again: `CHANGED`. Then come the names of the columns, with their units, then the rows.
+Cells are kept as they were printed. The first column names the row.
 """
 
 from __future__ import annotations
 
 import csv
 import io
+import re
 import subprocess
 from dataclasses import dataclass
 from datetime import date
@@ -25,6 +27,11 @@ QUOTED = "quoted"
 _WHICH = "cpu family", "model"
 #: physics: PHYSICS of the code; "none": no motion computed by fecolumn enters.
 HEADER = ("title", "command", "version", "commit", "date", "machine", "physics")
+#: How many rows of a table were measured again, by which code, when, where, and why
+CHANGED = re.compile(
+    r"(?P<rows>\d+) rows?, commits? (?P<commits>[0-9a-f]+(?: and [0-9a-f]+)*), "
+    r"(?P<date>\d{4}-\d\d-\d\d), (?P<machine>[^:]+): (?P<why>.+)"
+)
 
 
 @dataclass(frozen=True)
@@ -60,7 +67,20 @@ class Table:
     @property
     def machines(self) -> list[str]:
         """That measured it."""
-        return self.about["machine"].split("; ")
+        again = [one["machine"]] if (one := self.changed) else []
+        return [*self.about["machine"].split("; "), *again]
+
+    @property
+    def changed(self) -> re.Match[str] | None:
+        """As of CHANGED; None where no row was measured again."""
+        return CHANGED.fullmatch(self.about.get("changed", ""))
+
+    @property
+    def made_by(self) -> set[tuple[str, str]]:
+        """Dates and commits that measured its rows."""
+        again = self.changed
+        more = [(again["date"], one) for one in again["commits"].split(" and ")] if again else []
+        return {(self.about["date"], self.about["commit"]), *more}
 
     @property
     def current(self) -> bool:
@@ -105,8 +125,8 @@ def measured_when(folder: str) -> str:
     """Commits and dates of the rows kept in a folder of benchmarks/tables, of the first measured
     first.
     """
-    about = [read(f"{folder}/{file.stem}").about for file in (FOLDER / folder).glob("*.csv")]
-    made = sorted({(one["date"], one["commit"]) for one in about})
+    found = [read(f"{folder}/{file.stem}") for file in (FOLDER / folder).glob("*.csv")]
+    made = sorted(set().union(*(table.made_by for table in found)))
     commits = ", ".join(dict.fromkeys(commit for _, commit in made))
     return f"commits {commits}, {made[0][0]} to {made[-1][0]}"
 

@@ -27,7 +27,6 @@ TOUCHED: dict[int, tuple[str, ...]] = {
         "quick_study",
         "quick_study_pair",
         "shaken",
-        "wobbling_frame",
         "benchmarks/cdf.png",
         "benchmarks/fragility.png",
         "fecolumn/case/manual/impact-map.png",

@@ -9,6 +9,7 @@ from stated_numbers import DERIVED, GIVEN, VERIFIED
 
 from benchmarks import tables
 from benchmarks.results import RESULTS, filled, results
+from benchmarks.tables import changes
 from benchmarks.tables.__main__ import main as keep
 from benchmarks.tables.again import measure_again, printed_as
 
@@ -120,3 +121,33 @@ def test_tables_of_older_motions_are_named(capsys, monkeypatch):
     told = capsys.readouterr().out
     for name in tables.names():
         assert (f"{name} (" in told) is not tables.read(name).current
+
+
+def test_rows_that_were_measured_again_are_told_of_in_what_is_made_of_them():
+    frame = tables.read("fragility/frame")
+    assert frame.changed and frame.changed["commits"].split(" and ")[0] in frame.about["changed"]
+    assert len(frame.made_by) == 3 and frame.changed["machine"] in tables.machines_of("fragility")
+    assert all(commit in tables.measured_when("fragility") for _, commit in frame.made_by)
+    for file in tables.FOLDER.glob("*/*.csv"):
+        table = tables.read(f"{file.parent.name}/{file.stem}")
+        assert bool(table.changed) == ("changed" in table.about), file
+
+
+def test_what_a_count_of_physics_touches_is_no_longer_of_today(monkeypatch):
+    monkeypatch.setattr(changes, "PHYSICS", 14)
+    monkeypatch.setattr(changes, "TOUCHED", {13: ("one", "some/*"), 14: ("two",)})
+    assert [changes.holds(name, "12") for name in ("one", "two", "three", "some/rows")] == [
+        False,
+        False,
+        True,
+        False,
+    ]
+    assert changes.holds("one", "13") and not changes.holds("two", "13")
+    assert changes.holds("one", "none") and not changes.holds("three", "11")
+
+
+def test_what_is_listed_as_touched_is_there():
+    for listed in changes.TOUCHED.values():
+        for pattern in listed:
+            found = [*tables.FOLDER.glob(f"{pattern}.csv"), *ROOT.glob(pattern)]
+            assert found, pattern
