@@ -8,7 +8,7 @@ from pathlib import Path
 from benchmarks.outcomes.bodies import ELASTIC, RIGID
 from benchmarks.outcomes.models import BLOCK, ROLLING, SAFE
 from benchmarks.outcomes.motions import FAMILIES
-from benchmarks.tables import commit
+from benchmarks.tables import commit, this_machine
 from fecolumn import __version__
 from fecolumn.engines.ending import AT_REST, OVERTURNED, SLID_OFF, STILL_ROCKING
 from fecolumn.foundation.sources import PHYSICS
@@ -74,6 +74,7 @@ def write(path: Path, rows: list[dict], command: str) -> None:
         physics=PHYSICS,
         commit=commit(),
         date=date.today().isoformat(),
+        machine=this_machine(),
         analyses=len(rows),
     )
     write_outcomes(path, rows, COLUMNS, made)
