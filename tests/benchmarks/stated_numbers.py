@@ -10,7 +10,7 @@ GIVEN = (
     "shaken by 1.5 times the acceleration",
     "with friction solved to 1e-10",
     "Number of motions, of 115, that overturn each of four structures",
-    "of the tube, which moves in three dimensions, it is fecolumn at steps of 2e-5 s. Otherwise its steps are 1e-3 s",
+    "it is fecolumn at steps of 2e-5 s. Otherwise its steps are 1e-3 s",
     "significantly (p < 0.05)",
     "A real test: 490 shake-table tests",
     "With 16 random sets of values for each test",

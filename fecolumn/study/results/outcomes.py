@@ -55,8 +55,8 @@ def outcomes(*, file: str | Path | None = None) -> pandas.DataFrame:
     A row has geometry, friction, stiffness and the motion's intensity measures, the outcome, the
     peak, and whether it is censored: of what was lost, a peak is a lower bound. `attrs["columns"]`
     of the frame is the data dictionary, name to meaning and unit; `attrs["made"]` tells the
-    version, PHYSICS, commit, date, machine and command. The analyses are of four kinds of model, told by
-    `model`, which are not to be mixed without thought.
+    version, PHYSICS, commit, date, machine and command. The analyses are of four kinds of model,
+    told by `model`, which are not to be mixed without thought.
 
     Parameters
     ----------
