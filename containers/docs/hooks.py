@@ -135,3 +135,8 @@ def title(text: str) -> str:
 def on_post_page(output, page, config):
     """The script with which a page opened from its file can be searched, from the site itself."""
     return output.replace(WORKER_ELSEWHERE, f"{'../' * page.url.count('/')}{WORKER}")
+
+
+def on_post_template(output_content, template_name, config):
+    """Likewise in the page of an address that is not there."""
+    return output_content.replace(WORKER_ELSEWHERE, WORKER)

@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import pytest
+from chromium import chromium, open_page
 from documents import ROOT
 
 import fecolumn
@@ -84,21 +85,45 @@ def test_links_that_lead_nowhere_are_found(tmp_path):
     ]
 
 
-@pytest.mark.slow
-@pytest.mark.timeout(1200)
-def test_site_is_built_without_a_warning_and_has_every_public_name(tmp_path):
-    """Tutorials without their outputs: what they print and show is tested in test_tutorials."""
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    """Folder of the site, and what its builder said: tutorials without their outputs, as what they
+    print and show is tested in test_tutorials.
+    """
     pytest.importorskip("mkdocstrings")
+    folder = tmp_path_factory.mktemp("site")
     done = subprocess.run(
-        [sys.executable, str(DOCS / "build.py"), "--tutorials", "none", "-o", str(tmp_path)],
+        [sys.executable, str(DOCS / "build.py"), "--tutorials", "none", "-o", str(folder)],
         capture_output=True,
         text=True,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
     )
-    assert done.returncode == 0 and "WARNING" not in done.stderr, done.stderr[-3000:]
+    assert done.returncode == 0, done.stderr[-3000:]
+    return folder / "site", done.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1200)
+def test_site_is_built_without_a_warning_and_has_every_public_name(site):
+    folder, said = site
+    assert "WARNING" not in said, said[-3000:]
     from fecolumn import __all__ as names
 
-    written = (tmp_path / "site" / "api.html").read_text(encoding="utf-8")
+    written = (folder / "api.html").read_text(encoding="utf-8")
     assert all(f">{name}<" in written for name in names)
     assert "must be greater than 0 and at most" in written  # the help of keys
     assert "unpkg.com" not in written
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1200)
+@pytest.mark.parametrize("width", [1200, 400])
+def test_every_page_fits_a_screen_and_a_phone(site, width):
+    """Wide tables and code scroll within the page; nothing is asked of a network."""
+    with chromium() as window:
+        for page in sorted(site[0].rglob("*.html")):
+            open_page(window, page.as_uri(), width, 800)
+            script = window.execute_script
+            assert script("return document.documentElement.scrollWidth") <= width, page.name
+            sent = script("return performance.getEntriesByType('resource').map((one) => one.name)")
+            assert not [one for one in sent if one.startswith("http")], page.name
