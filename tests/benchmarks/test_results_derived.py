@@ -3,6 +3,7 @@
 import re
 
 import numpy as np
+import pytest
 from results_page import PAGE, ROOT, column
 from scipy.stats import binomtest
 
@@ -236,3 +237,32 @@ def test_drums_of_which_least_and_most_still_rock():
     }
     drums = {name: n for name, n in rocking.items() if name.endswith("drums") and "el" not in name}
     assert min(drums, key=drums.get) == "3 drums" and max(drums, key=drums.get) == "8 drums"
+
+
+def manual(name):
+    """A page of the manual in one line."""
+    text = (ROOT / "fecolumn" / "case" / "manual" / f"{name}.md").read_text(encoding="utf-8")
+    return " ".join(text.split())
+
+
+def test_modes_that_an_impact_needs_on_the_page_of_theory():
+    mean = {
+        series: float(cell.partition(" ")[0])
+        for series, cell in column("impact_means", "1e-05 s").items()
+        if cell
+    }
+    names = "reduced, 30 modes", "reduced engine", "reduced, 300 modes"
+    more = [mean[name] / mean["full order"] - 1 for name in names]
+    assert more == pytest.approx([1 / 4, 1 / 6, 0.05], abs=0.03)
+    told = (
+        "30 modes lose a quarter more than full order, 100 modes a sixth more, 300 modes 5 % more"
+    )
+    assert told in manual("theory")
+
+
+def test_pages_of_the_manual_repeat_numbers_of_results():
+    told = re.search(r"(\d+) fewer of 575 analyses .* \((\d+) fewer with", manual("quick-start"))
+    fixed, rolling = f"with fixed steps {told[2]} fewer columns", f"substeps {told[1]} fewer (p"
+    assert fixed in PAGE and rolling in PAGE
+    rigid = column("programs", "p")["trilith: fecolumn, rigid"]
+    assert f"from those at 1e-3 s (p = {rigid})" in manual("structures")
