@@ -8,7 +8,7 @@ a trilith and a frame in near-fault motions, rigid and elastic, with exact frict
 Each structure is a study of its own in DIR; the same command goes on where it was stopped. What
 benchmarks/tables/fragility holds is not computed again; --keep writes what is done there. A motion
 depends on its number alone, and all structures have the same ones. Writes outcomes.csv and
-fragility.png (and .pdf) and prints three tables. Structures by name in quotes, such as "4 drums";
+fragility.png (and .pdf) and prints four tables. Structures by name in quotes, such as "4 drums";
 none means all. Elastic drums take three times as long as rigid ones.
 """
 

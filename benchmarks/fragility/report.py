@@ -8,6 +8,7 @@ import numpy as np
 from scipy.stats import binomtest
 
 from benchmarks.beside import markdown as as_markdown
+from benchmarks.fragility import velocity_classes
 from benchmarks.fragility.motions import PGV
 from benchmarks.fragility.structures import ELASTIC
 from fecolumn.engines.ending import OVERTURNED, SLID_OFF, STILL_ROCKING
@@ -105,8 +106,8 @@ def periods_table(found: dict[str, list[dict]]) -> str:
 
 
 def markdown(found: dict[str, list[dict]]) -> str:
-    """Three tables: what became of each structure; that by pulse period; and rigid bodies or drums
-    beside others in the same motions.
+    """Four tables: what became of each structure; that by pulse period and by PGV; and rigid bodies
+    or drums beside others in the same motions.
     """
     head = [
         "structure",
@@ -150,8 +151,11 @@ def markdown(found: dict[str, list[dict]]) -> str:
         [f"{one} and {other}", *beside(found[one], found[other])]
         for one, other in pairs_of(list(found))
     ]
-    tables = as_markdown(head, table), periods_table(found), as_markdown(pairs_head, pairs)
-    return "\n\n".join(tables)
+    ended = {
+        name: [one for one in rows if one["outcome"] != FAILED] for name, rows in found.items()
+    }
+    tables = [as_markdown(head, table), periods_table(found), velocity_classes.table(ended, lost)]
+    return "\n\n".join([*tables, as_markdown(pairs_head, pairs)])
 
 
 def pairs_of(names: list[str]) -> list[tuple[str, str]]:

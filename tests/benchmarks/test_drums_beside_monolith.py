@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from benchmarks import tables
+from benchmarks.fragility import velocity_classes
 from benchmarks.fragility.__main__ import main
 from benchmarks.fragility.check import HEAD, line
 from benchmarks.fragility.motions import PGV, drawn_motion, ensemble_file, parameters, peak_velocity
@@ -11,6 +12,7 @@ from benchmarks.fragility.report import (
     beside,
     half_intervals,
     half_lost,
+    lost,
     markdown,
     pairs_of,
     surface,
@@ -18,6 +20,7 @@ from benchmarks.fragility.report import (
 from benchmarks.fragility.run import kept_name
 from benchmarks.fragility.structures import COLUMN, NAMES, case_of
 from benchmarks.tables.runs import read_runs, write_runs
+from fecolumn.statistics.ecdf import proportion_interval
 from fecolumn.study.store import FAILED
 
 
@@ -90,6 +93,18 @@ def test_tables_tell_shares_shifts_and_failures():
     lost = sum(row["outcome"] == "overturned" for row in rows[1:])
     assert f"| monolith | 399 | {lost / 399:.3f} |" in said and "| 1 | 1.00 |" in said
     assert "| monolith and 2 drums | 399 |" in said
+
+
+def test_shares_and_shifts_by_pgv():
+    """Seven of ten in the weakest class at rest, all of the strongest lost, none in between."""
+    rows = [dict(pgv_m_s=0.2, outcome="overturned" if n < 3 else "at rest") for n in range(10)]
+    rows += [dict(pgv_m_s=pgv, outcome="slid off") for pgv in (1.2, 2.5)]
+    rows = [row | dict(shift_m=0.01 * n) for n, row in enumerate(rows)]
+    line = velocity_classes.table({"block": rows}, lost).splitlines()[-1]
+    low, high = proportion_interval(3, 10)
+    weak = f"0.300 ({low:.3f} to {high:.3f}; 10)"
+    low, high = proportion_interval(2, 2)
+    assert f"| block | {weak} | - | - | 1.000 ({low:.3f} to {high:.3f}; 2) | 0.06 | - |" in line
 
 
 @pytest.mark.long
