@@ -80,6 +80,12 @@ def test_map_of_impacts():
     told = f"the middle half of the cells loses {low:.2f} to {high:.2f} of Housner's loss"
     assert f"{told}, and those of H/B 2 and 3 up to {most:.1f} times" in PAGE
     assert f"of 180 cells {len(kept_cells())} have a value" in PAGE
+    means = [
+        np.mean([one["loss"] for one in stiff if one["group"] == group])
+        for group in (1e6, 1e7, 1e8)
+    ]
+    told = "means of {:.2f}, {:.2f} and {:.2f} of it at 1e6, 1e7 and 1e8".format(*means)
+    assert told in PAGE and max(means) < 0.8
 
 
 def test_cost_of_shaken_structures():
