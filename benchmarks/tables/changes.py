@@ -7,9 +7,10 @@ from fnmatch import fnmatchcase
 from fecolumn.foundation.sources import PHYSICS
 
 #: By the number that a change brought: patterns of the names of tables and of the places of figures
-#: that hold cases which it touches. All others hold the same motions as before, to the last digit.
+#: that hold cases which it touches. All others hold the same motions as before, but for rounding.
 TOUCHED: dict[int, tuple[str, ...]] = {
-    # modes of one frequency are kept together: bodies of which half a pair was kept
+    # modes of one frequency are kept together, and none is missed: bodies of which half a pair was
+    # kept, or one of a pair not found
     13: (
         "calibration",
         "fragility",

@@ -11,7 +11,7 @@ from scipy.linalg import eigh
 
 from fecolumn.fem.free_body import rigid_fields
 from fecolumn.fem.rayleigh import spectral_shift
-from fecolumn.fem.whole_groups import SAME_FREQUENCY
+from fecolumn.fem.whole_groups import SAME_FREQUENCY, with_group
 from fecolumn.foundation.arrays import Array
 
 if TYPE_CHECKING:
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 _SHARE = 0.01
 # Controls of MUMPS that are 1 so that it counts negative pivots, those of the last front, too
 _COUNTS = (13, 24)
+# Solutions for modes, each for more of them, until none is missing
+_TRIES = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,18 +111,31 @@ def _hertz(values: Array) -> Array:
 def elastic_modes(body: Body, count: int) -> tuple[Array, Array]:
     """Frequencies (m,) [rad/s] and shapes (m, n_owned, 3) of unit modal mass of the lowest elastic
     modes: `count` of them and those of the same frequency as the last, or all there are.
+
+    A Krylov method may miss one of two equal eigenvalues: how many lie below the last is counted,
+    and more are sought until none is missing.
+
+    Raises
+    ------
+    RuntimeError
+        some stay missing.
     """
     most = 3 * (body.n_nodes - len(body.constraint.nodes)) - 6
     count = min(count, most)
     if count <= 0:
         return np.zeros(0), np.zeros((0, body.n_owned, 3))
-    modes = free_modes(body, count + 6)
-    if count < most:
-        last = 2 * np.pi * modes.frequencies[-1]
-        group = modes_below(body, last * (1 + SAME_FREQUENCY))
-        if group > count + 6:
-            modes = free_modes(body, group)
-    return 2 * np.pi * modes.frequencies[6:], modes.shapes[6:]
+    sought = count
+    for _ in range(_TRIES):
+        modes = free_modes(body, sought + 6)
+        frequencies = 2 * np.pi * modes.frequencies[6:]
+        there = most
+        if sought < most:
+            there = modes_below(body, frequencies[-1] * (1 + SAME_FREQUENCY)) - 6
+        if there == sought:
+            kept = with_group(frequencies, count)
+            return frequencies[:kept], modes.shapes[6 : 6 + kept]
+        sought = there
+    raise RuntimeError(f"some of the {sought} lowest elastic modes are not found")
 
 
 def modes_below(body: Body, frequency: float) -> int:
