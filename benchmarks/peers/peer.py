@@ -120,7 +120,7 @@ def _mujoco():
 
 PEERS = (
     Peer("full", "fecolumn, full order, corotated", _engine, modes=None),
-    Peer("reduced", "fecolumn, reduced, 30 modes", _engine, modes=30),
+    Peer("reduced", "fecolumn, reduced, 100 modes", _engine, modes=100),
     Peer("rigid", "fecolumn, rigid", _engine),
     Peer(
         "getfem",

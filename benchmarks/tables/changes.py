@@ -13,13 +13,17 @@ TOUCHED: dict[int, tuple[str, ...]] = {
     # kept, or one of a pair not found
     13: (
         "calibration",
+        "examples",
         "fragility",
-        "fragility_*",
+        "fragility_pairs",
+        "fragility_periods",
+        "fragility_velocities",
         "fragility/elastic-monolith",
         "fragility/elastic-trilith",
         "impact_formula",
         "impact_map",
         "impact_map_checks",
+        "jobs_answers",
         "outcomes",
         "outcomes_surface",
         "programs",
@@ -31,6 +35,7 @@ TOUCHED: dict[int, tuple[str, ...]] = {
         "benchmarks/cdf.png",
         "benchmarks/fragility.png",
         "fecolumn/case/manual/impact-map.png",
+        "meshes/rocking.png",
     ),
 }
 

@@ -10,6 +10,7 @@ from petsc4py import PETSc
 from scipy.linalg import eigh
 
 from fecolumn.fem.free_body import rigid_fields
+from fecolumn.fem.inertia import negative_eigenvalues
 from fecolumn.fem.rayleigh import spectral_shift
 from fecolumn.fem.whole_groups import SAME_FREQUENCY, with_group
 from fecolumn.foundation.arrays import Array
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
 # Shift of the spectrum over the bound of the first elastic frequency's square: K + s M can be
 # factored, and 1 / (w^2 + s) still tells the rigid modes from the first elastic ones
 _SHARE = 0.01
-# Controls of MUMPS that are 1 so that it counts negative pivots, those of the last front, too
-_COUNTS = (13, 24)
 # Solutions for modes, each for more of them, until none is missing
 _TRIES = 6
 
@@ -86,19 +85,21 @@ def free_modes(body: Body, count: int, tolerance: float = 1e-10) -> Modes:
         free[constrained] = 0.0
         known[-1].array[:] = free.ravel()
     solver.setDeflationSpace(known)
-    solver.solve()
-    if solver.getConverged() < count - 6:
-        raise RuntimeError(f"only {solver.getConverged()} of {count - 6} elastic modes converged")
     shape, values = stiffness.createVecRight(), list(rigid)
-    for k in range(count - 6):
-        values.append(solver.getEigenpair(k, shape).real)
-        field = body.constraint.expand(shape.array.reshape(-1, 3).copy())
-        shapes.append(
-            field
-            / np.sqrt(body.dot(shape.array.reshape(-1, 3), body.apply(body.mass, shape.array)))
-        )
-    for one in (solver, stiffness, shape, *known):
-        one.destroy()
+    try:
+        solver.solve()
+        if (converged := solver.getConverged()) < count - 6:
+            raise RuntimeError(f"only {converged} of {count - 6} elastic modes converged")
+        for k in range(count - 6):
+            values.append(solver.getEigenpair(k, shape).real)
+            field = body.constraint.expand(shape.array.reshape(-1, 3).copy())
+            shapes.append(
+                field
+                / np.sqrt(body.dot(shape.array.reshape(-1, 3), body.apply(body.mass, shape.array)))
+            )
+    finally:
+        for one in (solver, stiffness, shape, *known):
+            one.destroy()
     order = np.argsort(values)
     return Modes(_hertz(np.array(values)[order]), np.array(shapes)[order])
 
@@ -135,24 +136,17 @@ def elastic_modes(body: Body, count: int) -> tuple[Array, Array]:
             kept = with_group(frequencies, count)
             return frequencies[:kept], modes.shapes[6 : 6 + kept]
         sought = there
+        del modes
     raise RuntimeError(f"some of the {sought} lowest elastic modes are not found")
 
 
 def modes_below(body: Body, frequency: float) -> int:
     """Number of modes, rigid ones included, below a frequency [rad/s]: that of the negative
-    eigenvalues of K - w^2 M, which are those of its factor (Sylvester's law of inertia).
+    eigenvalues of K - w^2 M.
     """
     matrix = body.constraint.pinned(body.stiffness.copy())
-    matrix.axpy(-(frequency**2), body.mass, PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
-    factor = PETSc.PC().create(body.comm)
-    factor.setOperators(matrix)
-    factor.setType("cholesky")
-    factor.setFactorSolverType("mumps")
-    factor.setFactorSetUpSolverType()
-    for control in _COUNTS:
-        factor.getFactorMatrix().setMumpsIcntl(control, 1)
-    factor.setUp()
-    negative: int = factor.getFactorMatrix().getInertia()[0]
-    factor.destroy()
-    matrix.destroy()
-    return negative
+    try:
+        matrix.axpy(-(frequency**2), body.mass, PETSc.Mat.Structure.SUBSET_NONZERO_PATTERN)
+        return negative_eigenvalues(matrix)
+    finally:
+        matrix.destroy()

@@ -17,6 +17,7 @@ from fecolumn.case.sections import Cap, Flange, Material
 from fecolumn.contact.points import GROUND
 from fecolumn.engines.reduced_engine import upright
 from fecolumn.engines.scene.structure_scene import structure_scene
+from fecolumn.fem.whole_groups import with_group
 from fecolumn.mesh.bending import free_free_bending_frequency, rectangle_bending_frequency
 from fecolumn.mesh.bricks import PART_NAMES, BrickMesh
 from fecolumn.mesh.export import write_meshes
@@ -264,7 +265,7 @@ def _bodies(case: Case, layout: Layout, models: Mapping[str, BodyModel]) -> list
                 model.dofs,
                 float(scaled_jacobian(shape.mesh).min()) if shape else 1.0,
                 len(model.arms),
-                min(case.modes_of(name), len(model.frequencies)),
+                with_group(model.frequencies, case.modes_of(name)),
                 ", ".join(f"{value:.4g}" for value in hertz) or "rigid",
             )
         )

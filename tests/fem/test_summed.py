@@ -15,7 +15,8 @@ def test_sums_are_those_in_order_to_the_last_digit(shape):
     expected = np.zeros((9, 3))
     np.add.at(expected, rows, values)
     found = summed_at(rows, values, 9)
-    assert found.shape == (9, 3) and np.array_equal(found, expected)
+    assert found.shape == (9, 3) and found.dtype == float
+    assert np.array_equal(found, expected)
 
 
 @pytest.mark.parametrize("ends", [(0, 5, 10, 15), (0, 5, 9, 15), (0, 15), (0, 1, 2, 3)])
