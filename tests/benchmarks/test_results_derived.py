@@ -180,13 +180,12 @@ def test_lost_structures_that_are_not_told_apart():
     p = {pair: float(cell) for pair, cell in column("fragility_pairs", "p (McNemar)").items()}
     corrected = dict(zip(p, holm(list(p.values()))))
     for pair in [pair for pair in p if "elastic" in pair]:
-        assert corrected[pair] > 0.05
+        assert p[pair] > 0.05
     told = {pair for pair in p if corrected[pair] < 0.05 and "monolith" not in pair}
     many = {f"{few} drums and {more} drums" for few in (2, 3, 4) for more in (7, 8)}
     assert told == many | {"3 drums and 5 drums", "3 drums and 6 drums"}
     assert min(many, key=p.get) == "3 drums and 8 drums"
     assert max(many, key=p.get) == "4 drums and 8 drums"
-    assert f"one of {len(p)} pairs and not told by Holm's rule" in PAGE
     assert f"not told apart by Holm's rule for {len(p)} pairs" in PAGE
     beside_drums = [p[f"monolith and {drums} drums"] for drums in DRUMS if drums > 1]
     assert f"(McNemar's p at most {max(beside_drums):.2g})" in PAGE
