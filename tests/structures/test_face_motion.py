@@ -14,12 +14,13 @@ SOFT = dict(
 ) | dict(density_kg_m3=2000.0, poissons_ratio=0.2)
 
 
-def _two(engine="reduced", side_m=0.4, motion=None, duration_s=0.1):
+def _two(engine="reduced", side_m=0.4, motion=None, duration_s=0.1, youngs=1e8):
     """A soft block on a taller one, neither of which slides or lifts."""
+    soft = SOFT | dict(youngs_modulus_pa=youngs)
     return structure(
         bodies=dict(
-            low=SOFT | dict(height_m=2.0),
-            top=SOFT | dict(height_m=1.0, length_m=side_m, width_m=side_m, at_m=[0.0, 0.0, 2.0]),
+            low=soft | dict(height_m=2.0),
+            top=soft | dict(height_m=1.0, length_m=side_m, width_m=side_m, at_m=[0.0, 0.0, 2.0]),
         ),
         joints=dict(
             feet=dict(between=["low", "ground"], friction_coefficient=10.0),
@@ -44,14 +45,20 @@ def test_a_face_that_moves_and_turns_is_found_so():
 
 
 @pytest.mark.parametrize(
-    "engine, side_m",
-    [("reduced", 0.4), ("reduced", 0.3), pytest.param("full", 0.3, marks=pytest.mark.long)],
+    "engine, side_m, youngs",
+    [
+        # softer still, edges that coincide cross where a node of one comes over the other's
+        ("reduced", 0.4, 3e8),
+        ("reduced", 0.3, 1e8),
+        pytest.param("full", 0.3, 1e8, marks=pytest.mark.long),
+    ],
 )
-def test_soft_blocks_that_sway_on_feet_that_stay_do_not_slide(tmp_path, engine, side_m):
+def test_soft_blocks_that_sway_on_feet_that_stay_do_not_slide(tmp_path, engine, side_m, youngs):
     rows = "".join(f"{0.01 * k:.2f},{0.1 * np.sin(0.6 * k):.5f}\n" for k in range(60))
     (tmp_path / "sine.csv").write_text("time [s],ax [m/s2]\n" + rows)
     motion = dict(source=str(tmp_path / "sine.csv"), resample_s=0.01, free_vibration_s=0.0)
-    summary = run(_two(engine, side_m, motion, 0.6), tmp_path / "out", quiet=True)
+    case = _two(engine, side_m, motion, 0.6, youngs)
+    summary = run(case, tmp_path / "out", quiet=True)
     history = read_history(tmp_path / "out" / "history.h5")
     sway = np.abs(history["body/top/displacement"][:, 0]).max()
     frames = np.abs(history["body/top/tilt"]).max()
