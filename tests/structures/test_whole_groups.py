@@ -8,6 +8,7 @@ import scipy.sparse as sparse
 from small_structures import block, structure
 
 from fecolumn.engines.dynamics.history import read_history
+from fecolumn.pictures.mesh_report import mesh_report
 from fecolumn.simulation import run
 from fecolumn.structures import matrices as module
 from fecolumn.structures.structure import structure_model
@@ -62,3 +63,11 @@ def test_pairs_of_a_body_of_matrices_are_whole(dense, tmp_path, monkeypatch):
     for asked, kept in ((1, 2), (2, 2), (9, 10)):
         tables = block() | dict(bodies=dict(block=dict(kind="matrices", modes=asked) | files))
         assert len(structure_model(structure(**tables)).parts[0].model.frequencies) == kept
+
+
+def test_the_mesh_report_prints_the_modes_that_a_body_has(tmp_path):
+    lines = mesh_report(_square(9), "square.toml", tmp_path / "mesh").splitlines()
+    head = next(line for line in lines if line.startswith("body ") and "modes" in line)
+    (row,) = [line for line in lines if line.startswith("block ")]
+    end = head.index("modes") + len("modes")
+    assert row[end - 7 : end].split() == ["10"]
