@@ -79,7 +79,9 @@ def half_intervals(rows: list[dict]) -> list[tuple[str, str]]:
 
 
 def periods_table(found: dict[str, list[dict]]) -> str:
-    """By pulse period: PGV that loses half with its interval, and shift at the end."""
+    """By pulse period: PGV that loses half with its interval, and shift at the end; found: rows of
+    analyses that ended, by structure.
+    """
     names = [f"pulses of {low:g} to {high:g} s" for low, high in zip(EDGES, EDGES[1:])]
     names[0], names[-1] = f"pulses below {EDGES[1]:g} s", f"pulses of {EDGES[-2]:g} s and more"
     head = ["structure"]
@@ -91,16 +93,15 @@ def periods_table(found: dict[str, list[dict]]) -> str:
     head += [f"shift at the end, median, {name} [m]" for name in names]
     table = []
     for name, rows in found.items():
-        told = [row for row in rows if row["outcome"] != FAILED]
         shifts = [
             [
                 row["shift_m"]
-                for row in told
+                for row in rows
                 if not lost(row) and low <= row["pulse_period_s"] < high
             ]
             for low, high in zip(EDGES, EDGES[1:])
         ]
-        halves = [cell for pair in half_intervals(told) for cell in pair]
+        halves = [cell for pair in half_intervals(rows) for cell in pair]
         table.append([name, *halves, *(f"{np.median(one or [np.nan]):.2g}" for one in shifts)])
     return as_markdown(head, table)
 
@@ -121,9 +122,11 @@ def markdown(found: dict[str, list[dict]]) -> str:
         "failed",
         "CPU s an analysis",
     ]
+    ended = {
+        name: [one for one in rows if one["outcome"] != FAILED] for name, rows in found.items()
+    }
     table = []
-    for name, rows in found.items():
-        told = [row for row in rows if row["outcome"] != FAILED]
+    for name, told in ended.items():
         number = sum(map(lost, told))
         shifts = [row["shift_m"] for row in told if not lost(row)] or [np.nan]
         low, high = proportion_interval(number, len(told)) if told else (np.nan, np.nan)
@@ -136,7 +139,7 @@ def markdown(found: dict[str, list[dict]]) -> str:
                 sum(row["outcome"] == SLID_OFF for row in told),
                 sum(row["outcome"] == STILL_ROCKING for row in told),
                 *(f"{value:.2g}" for value in np.quantile(shifts, (0.5, 0.9))),
-                len(rows) - len(told),
+                len(found[name]) - len(told),
                 f"{np.nanmean([row['cpu_s'] for row in told]) if told else np.nan:.2f}",
             ]
         )
@@ -151,10 +154,7 @@ def markdown(found: dict[str, list[dict]]) -> str:
         [f"{one} and {other}", *beside(found[one], found[other])]
         for one, other in pairs_of(list(found))
     ]
-    ended = {
-        name: [one for one in rows if one["outcome"] != FAILED] for name, rows in found.items()
-    }
-    tables = [as_markdown(head, table), periods_table(found), velocity_classes.table(ended, lost)]
+    tables = [as_markdown(head, table), periods_table(ended), velocity_classes.table(ended, lost)]
     return "\n\n".join([*tables, as_markdown(pairs_head, pairs)])
 
 

@@ -9,9 +9,8 @@ points a face, settings. Prints a line of JSON.
 Bodies are cylinders and a box with their mass and inertia. As in the program beside it, each face
 touches at its points: balls of a hundredth of the radius on the rim of one face, which meet the
 other body. Settings: "default", MuJoCo's own, soft contact that creeps; "stiff", as of
-`peers.mujoco` but for the solver's tolerance, which is MuJoCo's own (1e-8); "best", those that the
-trial of `benchmarks.programs` has found, for steps of 1e-4 s. The ground moves by its acceleration
-in the frame that moves with it.
+`peers.mujoco` but for the solver's tolerance, which is MuJoCo's own (1e-8); or option and contact
+as words of the model. The ground moves by its acceleration in the frame that moves with it.
 """
 
 import json
@@ -42,11 +41,6 @@ OPTIONS = dict(
         'cone="elliptic" solver="Newton" impratio="1000" integrator="implicitfast"',
         'solref="{} 1" solimp="0.99 0.9999 1e-6 0.5 2"',
     ),
-    best=(
-        'cone="elliptic" solver="Newton" impratio="100" integrator="implicitfast" '
-        'tolerance="1e-12" iterations="200" ls_iterations="100" ls_tolerance="1e-4"',
-        'solref="{} 1" solimp="0.99 0.9999 1e-6 0.5 2"',
-    ),
 )
 
 
@@ -68,7 +62,8 @@ def body(name, kind, size, density, place, turn, pins):
 
 def model_of(job):
     """Text of the model, and the body that is watched."""
-    option, contact = OPTIONS[job["settings"]]
+    settings = job["settings"]
+    option, contact = OPTIONS[settings] if isinstance(settings, str) else settings
     contact = contact.format(2 * job["dt"])
     bodies, touching = MAKERS[job["structure"]](job)
     pairs = [

@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from benchmarks.peers.install import mujoco_python
+from benchmarks.programs.programs import BY_NAME
 from benchmarks.structures import frames_and_stacks as cases
 from fecolumn.case.case import case_from_tables
 from fecolumn.case.sections import GRAVITY
@@ -118,11 +119,14 @@ def mujoco(**job) -> dict | None:
 
 
 def mujoco_cost(kind: str, number: int, factor: float, settings: str) -> dict | None:
-    """Time of a step of 1e-3 s, or of the ten of 1e-4 s in its stead, and way of the top of MuJoCo;
-    settings: of `mujoco_structures`.
+    """Time of a step of 1e-3 s and way of the top of MuJoCo; settings: of `mujoco_structures`, or
+    "best", those of `benchmarks.programs`, whose shorter steps are counted together.
     """
     diameter, height, tall = size_of(kind, number)
-    steps = 10 if settings == "best" else 1
+    steps, said = 1, settings
+    if settings == "best":
+        best = BY_NAME["mujoco"]
+        steps, said = round(1e-3 / best.dt), list(map(best.settings.get, ("option", "contact")))
     found = mujoco(
         dt=1e-3 / steps,
         structure=kind,
@@ -132,7 +136,7 @@ def mujoco_cost(kind: str, number: int, factor: float, settings: str) -> dict | 
         tilt=0.0 if factor else cases.LET_GO * diameter / tall,
         size=[diameter, height],
         friction=FRICTION,
-        settings=settings,
+        settings=said,
     )
     return found and found | dict(us=steps * found["us"])
 

@@ -10,6 +10,7 @@ from fecolumn.contact.base_top import BaseTop
 from fecolumn.contact.unbounded_base import shear_frequency
 from fecolumn.fem.effective import effective_factor, unit_loads
 from fecolumn.foundation.arrays import Array
+from fecolumn.foundation.summed import summed_at
 
 if TYPE_CHECKING:
     from fecolumn.fem.body import Body
@@ -71,6 +72,5 @@ class BasePlate:
         """Displacement (n_owned, 3) [m] of the whole plate under forces (n, 3) [N] spread over top
         `nodes` (n, 4).
         """
-        share = np.zeros((len(self.nodes), 3))
-        np.add.at(share, nodes.ravel(), (weights[:, :, None] * forces[:, None, :]).reshape(-1, 3))
+        share = summed_at(nodes, weights[:, :, None] * forces[:, None], len(self.nodes))
         return self._factor.solve(self.body.spread(self.nodes, share))

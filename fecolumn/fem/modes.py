@@ -136,6 +136,7 @@ def elastic_modes(body: Body, count: int) -> tuple[Array, Array]:
             kept = with_group(frequencies, count)
             return frequencies[:kept], modes.shapes[6 : 6 + kept]
         sought = there
+        # their memory is needed for the next
         del modes
     raise RuntimeError(f"some of the {sought} lowest elastic modes are not found")
 

@@ -47,8 +47,15 @@ def test_a_face_that_moves_and_turns_is_found_so():
 @pytest.mark.parametrize(
     "engine, side_m, youngs",
     [
-        # softer still, edges that coincide cross where a node of one comes over the other's
         ("reduced", 0.4, 3e8),
+        pytest.param(
+            "reduced",
+            0.4,
+            1e8,
+            marks=pytest.mark.xfail(
+                reason="points where coinciding edges cross begin without the force they carried"
+            ),
+        ),
         ("reduced", 0.3, 1e8),
         pytest.param("full", 0.3, 1e8, marks=pytest.mark.long),
     ],

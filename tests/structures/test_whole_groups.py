@@ -17,7 +17,7 @@ SQUARE = dict(length_m=0.4, width_m=0.4, element_size_m=0.2)
 
 
 def _square(modes, **more):
-    """A square block that is shaken, or let go, as it bends at its ninth frequency and others."""
+    """A square block of so many modes."""
     return structure(**block(**SQUARE), integration=dict(n_modes=modes, dt_s=2e-5), **more)
 
 

@@ -15,6 +15,7 @@ from fecolumn.contact.pose import poses_of
 from fecolumn.engines.reduced.elastic import COORDINATE
 from fecolumn.foundation.arrays import Array
 from fecolumn.foundation.atomic import write_hdf5
+from fecolumn.foundation.summed import summed_at
 
 if TYPE_CHECKING:
     from fecolumn.engines.reduced.engine import Engine
@@ -76,10 +77,10 @@ class Snapshot(NamedTuple):
 
     def at_nodes(self, count: int) -> Array:
         """Contact forces (count, 3) [N] on the nodes of all bodies, in the table's frame."""
-        forces, each = np.zeros((count, 3)), np.asarray(self.force, float)[:, None]
-        np.add.at(forces, self.carriers, self.weights[:, :, None] * each)
-        np.subtract.at(forces, self.below, self.shares[:, :, None] * each)
-        return forces
+        each = np.asarray(self.force, float)[:, None]
+        shares = self.weights[:, :, None] * each, -self.shares[:, :, None] * each
+        rows = np.concatenate([self.carriers, self.below])
+        return summed_at(rows, np.concatenate(shares), count)
 
 
 def state_of(engine: Engine) -> Snapshot:
