@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from benchmarks.impact.formula import STIFF, fit
+from benchmarks.impact.measured import MEASURED
 from benchmarks.impact.sections import SHAPES
 from fecolumn.pictures.figures.style import (
     BLACK,
@@ -85,7 +86,8 @@ def draw(rows, path) -> None:
 
 def draw_map(cells, path):
     """Loss over Housner's of the cells with friction enough to stick over E B / (rho g H^2), a
-    panel a section, with the formula of stiff bodies where there are cells enough. PNG and PDF.
+    panel a section, with the formula of stiff bodies where there are cells enough; and what others
+    measured, over H/B. PNG and PDF.
     """
     colours = (BLACK, BLUE, GREEN, ORANGE, VERMILION)
     try:
@@ -93,11 +95,11 @@ def draw_map(cells, path):
     except ValueError:
         formula = None
     with styled():
-        figure = new_figure(PAGE_WIDTH_IN, 2.8)
+        figure = new_figure(PAGE_WIDTH_IN, 5.0)
         shapes = [shape for shape in SHAPES if any(one["shape"] == shape for one in cells)]
-        panels = figure.subplots(1, len(shapes), sharey=True, squeeze=False)[0]
+        panels = figure.subplots(2, 2).ravel()
         friction = max(one["friction"] for one in cells)
-        for axes, shape in zip(panels, shapes):
+        for letter, axes, shape in zip("abc", panels, shapes):
             own = [one for one in cells if (one["shape"], one["friction"]) == (shape, friction)]
             ratios = sorted({one["ratio"] for one in own})
             for place, (ratio, colour) in enumerate(zip(ratios, colours)):
@@ -119,10 +121,45 @@ def draw_map(cells, path):
             axes.axhline(1.0, color=GREY, linewidth=0.8)
             axes.set(
                 xscale="log",
-                title=shape,
+                title=f"({letter}) {shape}, friction {friction:g}",
                 ylim=(-0.5, 3.0),
                 xlabel=r"$EB/(\rho g H^2)$ [-]",
             )
-        panels[0].set_ylabel("rocking energy lost / Housner's [-]")
-        panels[-1].legend()
+        panels[0].legend(ncol=2)
+        _draw_measured(panels[-1], [one for one in cells if one["releases"]])
+        for axes in panels:
+            axes.set_ylabel("energy lost / Housner's [-]")
+        for axes in panels[len(shapes) : -1]:
+            axes.set_axis_off()
         return save(figure, path)
+
+
+def _draw_measured(axes, cells) -> None:
+    """Losses that others measured, as ranges, over those of the stiff cells, all over H/B."""
+    stiff = [one for one in cells if one["group"] >= STIFF]
+    axes.plot(
+        [one["ratio"] for one in stiff],
+        [one["loss"] for one in stiff],
+        linestyle="none",
+        marker=".",
+        markersize=3,
+        color=GREY,
+        label=rf"computed, $EB/(\rho g H^2) \geq 10^{{{np.log10(STIFF):.0f}}}$",
+    )
+    sources = list(dict.fromkeys(one.source.split(",")[0] for one in MEASURED))
+    for source, colour, marker in zip(sources, (BLUE, GREEN, VERMILION), "os^"):
+        tests = [one for one in MEASURED if one.source.startswith(source)]
+        low, high = np.array([one.losses for one in tests]).T
+        axes.errorbar(
+            [one.ratio for one in tests],
+            np.sqrt(low * high),
+            [np.sqrt(low * high) - low, high - np.sqrt(low * high)],
+            fmt=marker,
+            color=colour,
+            markersize=3,
+            capsize=2,
+            label=source,
+        )
+    axes.axhline(1.0, color=GREY, linewidth=0.8)
+    axes.set(yscale="log", ylim=(0.1, 60), xlabel="$H/B$ [-]", title="(d) measured, rectangular")
+    axes.legend()
