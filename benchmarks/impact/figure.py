@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from benchmarks.impact.formula import STIFF, fit
+from benchmarks.impact.formula import STIFF, fit, stiff_cells
 from benchmarks.impact.measured import MEASURED
 from benchmarks.impact.sections import SHAPES
 from fecolumn.pictures.figures.style import (
@@ -126,7 +126,7 @@ def draw_map(cells, path):
                 xlabel=r"$EB/(\rho g H^2)$ [-]",
             )
         panels[0].legend(ncol=2)
-        _draw_measured(panels[-1], [one for one in cells if one["releases"]])
+        _draw_measured(panels[-1], stiff_cells(cells))
         for axes in panels:
             axes.set_ylabel("energy lost / Housner's [-]")
         for axes in panels[len(shapes) : -1]:
@@ -134,9 +134,8 @@ def draw_map(cells, path):
         return save(figure, path)
 
 
-def _draw_measured(axes, cells) -> None:
-    """Losses that others measured, as ranges, over those of the stiff cells, all over H/B."""
-    stiff = [one for one in cells if one["group"] >= STIFF]
+def _draw_measured(axes, stiff) -> None:
+    """Losses that others measured, as ranges, with those of the stiff cells, all over H/B."""
     axes.plot(
         [one["ratio"] for one in stiff],
         [one["loss"] for one in stiff],
@@ -150,10 +149,11 @@ def _draw_measured(axes, cells) -> None:
     for source, colour, marker in zip(sources, (BLUE, GREEN, VERMILION), "os^"):
         tests = [one for one in MEASURED if one.source.startswith(source)]
         low, high = np.array([one.losses for one in tests]).T
+        middle = np.sqrt(low * high)  # of the logarithms
         axes.errorbar(
             [one.ratio for one in tests],
-            np.sqrt(low * high),
-            [np.sqrt(low * high) - low, high - np.sqrt(low * high)],
+            middle,
+            [middle - low, high - middle],
             fmt=marker,
             color=colour,
             markersize=3,

@@ -50,6 +50,11 @@ class Formula:
         ]
 
 
+def stiff_cells(cells: list[dict]) -> list[dict]:
+    """Of the rows of `grid.by_cell` those of STIFF and more that have a loss."""
+    return [one for one in cells if np.isfinite(one["loss"]) and one["group"] >= STIFF]
+
+
 def fit(cells: list[dict]) -> Formula:
     """Fit to the stiff ones of the rows of `grid.by_cell`.
 
@@ -58,7 +63,7 @@ def fit(cells: list[dict]) -> Formula:
     ValueError
         fewer of these with a loss than twice the parameters.
     """
-    told = [one for one in cells if np.isfinite(one["loss"]) and one["group"] >= STIFF]
+    told = stiff_cells(cells)
     shapes = [shape for shape in SHAPES if any(one["shape"] == shape for one in told)]
     if len(told) < 2 * (len(shapes) + 1):
         raise ValueError(f"{len(told)} stiff cells are too few for {len(shapes) + 1} parameters")
