@@ -220,3 +220,26 @@ def test_every_file_and_column_of_motions(pulses):
     own = set(header(scaled.with_suffix(".csv"))) - set(listed("outputs", "ENSEMBLE.csv"))
     part = PAGES["outputs"].read_text().partition("### ENSEMBLE.csv")[2]
     assert own == set(re.findall(r"`(parameter_[a-z]\w+)`", part))
+
+
+def test_what_info_prints_of_a_record_of_ones_own(tmp_path, monkeypatch, capsys):
+    """The job "Records of one's own": every line is that of its record."""
+    page = PAGES["jobs"].read_text(encoding="utf-8")
+    record = page.partition("# record.csv\n")[2].partition("```")[0]
+    told = page.partition("warns of errors in the record:\n\n")[2].partition("\n\n")[0]
+    (tmp_path / "record.csv").write_text(record)
+    monkeypatch.chdir(tmp_path)
+    assert main(["motions", "info", "record.csv"]) == 0
+    said = [line.strip() for line in "".join(capsys.readouterr()).splitlines()]
+    missing = [line.strip() for line in told.splitlines() if line.strip() not in said]
+    assert len(told.splitlines()) == 8 and not missing, (missing, said)
+
+
+def test_peak_that_band_limited_sampling_raises_as_the_manual_says(tmp_path, capsys):
+    """The ramp of the page on motions."""
+    file = tmp_path / "ramp.csv"
+    file.write_text("t_s,ax_g\n0,0\n3,0.2935\n6,0.2935\n")
+    main(["motions", "info", str(file)])
+    said = "".join(capsys.readouterr())
+    (peak,) = re.findall(r"ax peaks at ([\d.]+) g between its rows", said)
+    assert f"0.2935 g: {peak} g between them" in PAGES["motions"].read_text(encoding="utf-8")
