@@ -58,12 +58,26 @@ def type_of(key: str) -> Any:
     "bodies.slab.length_m" is a float.
     """
     head, _, last = of_this_version(key).rpartition(".")
-    name = head.partition(".")[0]
+    kind = _types_in(head).get(last)
+    return next((one for one in (kind, *typing.get_args(kind)) if one in (int, float)), kind)
+
+
+def keys_beside(key: str) -> tuple[str, ...]:
+    """Dotted keys of the table that holds a dotted key, such as all of bodies.slab; none of a
+    table that is not named by the user.
+    """
+    head = of_this_version(key).rpartition(".")[0]
+    return tuple(sorted(f"{head}.{name}" for name in _types_in(head)))
+
+
+def _types_in(head: str) -> dict[str, Any]:
+    """Types by the keys of a table such as bodies.slab."""
+    name, _, own = head.partition(".")
+    if not own or "." in own:
+        return {}
     classes = (
         set(BODY_KINDS.values()) if name == "bodies" else {NAMED[name]} if name in NAMED else set()
     )
-    hints = {
+    return {
         field: kind for section in classes for field, kind in typing.get_type_hints(section).items()
     }
-    kind = hints.get(last) if head.count(".") == 1 else None
-    return next((one for one in (kind, *typing.get_args(kind)) if one in (int, float)), kind)

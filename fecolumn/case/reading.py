@@ -36,6 +36,8 @@ def fields_of_tables(tables: dict[str, Any], file: Path | str) -> _Read:
     InputError
         every unknown or missing key, wrong type and value out of range, told at once.
     """
+    if {"case", "axes"} <= set(tables):
+        raise InputError(file, "", None, "is a study, not a case: fecolumn study")
     if "column" in tables and "bodies" in tables:
         raise InputError(
             file,

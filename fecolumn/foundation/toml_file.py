@@ -78,7 +78,10 @@ def _tables(path: Path) -> dict[str, Any]:
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        raise InputError(path, "", None, in_text(f"not valid TOML: {error}")) from None
+        lines = text.splitlines()[: int((re.findall(r"at line (\d+)", str(error)) or [0])[0])]
+        comma = re.search(r"=\s*[-+]?\d+,\d+\s*(#|$)", lines[-1]) if lines else None
+        hint = "; numbers have a decimal point, as in 1.5" if comma else ""
+        raise InputError(path, "", None, in_text(f"not valid TOML: {error}{hint}")) from None
     except RecursionError:
         raise InputError(path, "", None, "not valid TOML: nested too deeply") from None
     except (

@@ -32,6 +32,8 @@ _PATIENCE = 300
 _GOOD, _LEAST = 0.02, 2e-3
 # Of the volume: how far the elements' may be from that of what was drawn
 _VOLUME = 0.05
+# Of height and width of the foot: how far the elements' may be from the surface's without a word
+_SIZE = 0.005
 _SOURCES = ("closed_surface.py", "curved.py", "volume.py", "filled.py", "mesh_file.py")
 
 
@@ -114,8 +116,29 @@ def _made(file: MeshFile) -> dict:
                 f"cannot be filled with elements of {file.size:.3g} m by Gmsh ({reasons[0]}): take "
                 "another mesh_size_m, or smooth and remesh the surface where triangles cross",
             )
-        exact = {name: first[name] for name in ("volume", "centre", "inertia", "notes")}
-        return best[1] | exact
+        exact = {name: first[name] for name in ("volume", "centre", "inertia")}
+        notes = [*first["notes"], *_other_size(best[1]["points"], first["points"])]
+        return best[1] | exact | {"notes": np.array(notes, str)}
+
+
+def _other_size(points: np.ndarray, drawn: np.ndarray) -> list[str]:
+    """That elements are lower, or their foot narrower, than the surface; both (n, 3) [m]."""
+    made, asked = _height_and_foot(points), _height_and_foot(drawn)
+    if not min(asked) or np.allclose(made, asked, rtol=_SIZE, atol=0.0):
+        return []  # without a flat foot there is no other to compare
+    (h, a, b), (height, length, width) = made, asked
+    return [
+        f"its elements are {h:.4g} m high on a foot of {a:.4g} x {b:.4g} m, where the surface is "
+        f"{height:.4g} m high on {length:.4g} x {width:.4g} m; mass, centre and inertia are those "
+        "of the surface; a smaller mesh_size_m follows it closer"
+    ]
+
+
+def _height_and_foot(points: np.ndarray) -> tuple[float, float, float]:
+    """Height, and length and width of the lowest points [m]."""
+    heights = points[:, 2] - points[:, 2].min()
+    length, width = np.ptp(points[heights <= 1e-6 * heights.max(), :2], axis=0)
+    return float(heights.max()), float(length), float(width)
 
 
 def _judged(made: dict, volume: float) -> float:

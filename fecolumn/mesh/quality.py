@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from fecolumn.mesh.bricks import CAP, FLANGE, LOWER, UPPER, BrickMesh
 from fecolumn.mesh.jacobian import corner_jacobians, scaled_jacobian
@@ -144,8 +145,8 @@ def quality_table(case: Upright, specimen: SpecimenMesh) -> tuple[QualityRow, ..
             None if None in closed.values() else functools.reduce(operator.add, closed.values()),
         )
     if own:
-        foot = body.points[specimen.foot_nodes, :2] - whole.centre[:2]
-        reach = min(foot.max(axis=0).min(), -foot.min(axis=0).max())
+        sides = ConvexHull(body.points[specimen.foot_nodes, :2]).equations
+        reach = float(-(sides @ [*whole.centre[:2], 1.0]).max())
         rows += [
             QualityRow(
                 "tilt with the centre of mass over the foot's nearest side",

@@ -28,6 +28,13 @@ _NAMES = {
     "": ("a", "acc", "accel", "acceleration", "beschleunigung", "accelerazione", "aceleracion"),
 }
 _MEANING = {name: meaning for meaning, names in _NAMES.items() for name in names}
+# Written out, as in "Acceleration Y", "acc. vertical" and "ground acceleration in north direction"
+_AXIS_OF_WORD = {word: axis for axis, words in _COMPASS.items() for word in (axis, *words)}
+_WORDS = re.compile(
+    r"(?:ground[ _-])?acc(?:\.|el\.?|eleration)?[ _-]*(?:(?:in|along)[ _-])?"
+    rf"(?P<axis>{'|'.join(sorted(_AXIS_OF_WORD, key=len, reverse=True))})"
+    r"(?:[ _-](?:direction|dir\.?|component|comp\.?|axis))?"
+)
 #: What is no acceleration: a velocity or displacement, and the number of a sample.
 MOVED, NUMBER = "moved", "number"
 # Channels such as HNE: band, instrument (N accelerometer; H and L seismometer, a velocity), and
@@ -93,6 +100,8 @@ def meaning_of(name: str) -> str | None:
         return _MEANING[name]
     if channel := _CHANNEL.fullmatch(name):
         return _CHANNEL_AXES[channel["axis"]] if channel["instrument"] == "n" else MOVED
+    if words := _WORDS.fullmatch(name):
+        return _AXIS_OF_WORD[words["axis"]]
     if _MOVED.search(name):
         return MOVED
     return NUMBER if _NUMBER.search(name) else None

@@ -84,8 +84,11 @@ def read_columns(path: Path | str, dt_s: float) -> Recording:
     if times := [i for i, one in enumerate(columns) if one.meaning == "time"]:
         time = table[:, times[0]] * columns[times[0]].factor
         dt = uniform_step(time, [row for row, _ in rows], dt_s)
-    over = ", ".join(one.name for one in columns if one.meaning == MOVED)
     ((unit, factor),) = stated
+    over = ", ".join(one.name for one in columns if one.meaning == MOVED)
+    notes = [f"passed over: {over}"] * bool(over)
+    if factor != 1.0:
+        notes += [f"in {columns[accelerations[0]].unit}, {factor:g} {unit}"]
     return Recording(
         factor * table[:, accelerations],
         tuple(columns[i].meaning or "" for i in accelerations),
@@ -93,7 +96,7 @@ def read_columns(path: Path | str, dt_s: float) -> Recording:
         unit,
         Path(path).name,
         "; ".join(comments) or Path(path).name,
-        f"columns of text (passed over: {over})" if over else "columns of text",
+        "columns of text" + f" ({'; '.join(notes)})" * bool(notes),
     )
 
 
@@ -130,7 +133,8 @@ def _table(rows: list[tuple[int, list[str]]]) -> NDArray[Any]:
     values = np.empty((len(rows), width))
     for i, (row, cells) in enumerate(rows):
         if len(cells) != width:
-            raise UnusableRecord(f"line {row}: {len(cells)} columns where {width} are usual")
+            fewer = f": column {len(cells) + 1} is empty" * (len(cells) < width)
+            raise UnusableRecord(f"line {row}: {len(cells)} columns where {width} are usual{fewer}")
         for j, cell in enumerate(cells):
             try:
                 values[i, j] = parse_number(cell)

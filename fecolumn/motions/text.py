@@ -15,9 +15,9 @@ from fecolumn.motions.spike import SPIKE_JUMPS, SPIKE_SAMPLES
 
 _SPELLINGS = {
     "g": ("g", "g's"),
-    "m/s2": ("m/s2", "m/s/s"),
-    "cm/s2": ("cm/s2", "cm/s/s", "gal", "gals"),
-    "mm/s2": ("mm/s2", "mm/s/s"),
+    "m/s2": ("m/s2", "m/s/s", "ms-2"),
+    "cm/s2": ("cm/s2", "cm/s/s", "cms-2", "gal", "gals"),
+    "mm/s2": ("mm/s2", "mm/s/s", "mms-2"),
 }
 # Times since 1970 are below it [s]; and what numbers of their size may be rounded by, as a share of
 # a step

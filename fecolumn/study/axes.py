@@ -28,7 +28,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from fecolumn.case.case_tables import type_of
+from fecolumn.case.case_tables import keys_beside, type_of
 from fecolumn.case.model_sections import SECTIONS
 from fecolumn.case.short_form import ShortForm
 from fecolumn.foundation.schema import InputError, build, meant
@@ -271,7 +271,7 @@ def _flat(table: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
 
 def _known(key: str, told: str, path: Path | str) -> None:
     if key not in (known := _known_keys()) and type_of(key) is None and _of_model(key) is None:
-        names = _keys_of_model(key.partition(".")[0]) or tuple(known)
+        names = _keys_of_model(key.partition(".")[0]) or keys_beside(key) or tuple(known)
         raise InputError(path, told, None, f"unknown key of a case{hint(key, names)}")
 
 

@@ -174,6 +174,10 @@ def plan_of(tables: dict[str, Any], path: Path) -> Plan:
     InputError
         as of `read_plan`.
     """
+    if not {"case", "axes"} & set(tables) and {"bodies", "column"} & set(tables):
+        raise InputError(
+            path, "", None, "is a case, not a study, which has [case] and [axes]: fecolumn run"
+        )
     for key in tables:
         if key not in _KEYS:
             raise InputError(

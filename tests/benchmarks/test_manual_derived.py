@@ -33,9 +33,7 @@ def test_shortest_steps_with_rolling_substeps_in_theory():
 def test_what_an_impact_takes_in_theory():
     table = tables.read("impact_means")
     losses = {
-        row[0]: {
-            head: float(first(cell)) for head, cell in zip(table.columns[2:], row[2:]) if cell
-        }
+        row[0]: {head: float(first(cell)) for head, cell in zip(table.columns[2:], row[2:]) if cell}
         for row in table.rows
     }
     reduced, full = losses["reduced engine"], losses["full order"]

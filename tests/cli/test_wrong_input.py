@@ -73,6 +73,8 @@ def _refused(tmp_path, capsys, text, command="run"):
         ("[motion]\nscale = 2.0", ["motion.source", "missing"]),
         ("[motions]\nscale = 2.0", ["motions", "unknown key"]),
         ("[column\n", ["not valid TOML"]),
+        ("[column]\nheight_m = 1,5", ["not valid TOML", "have a decimal point"]),
+        ("case = {}\naxes = {}", ["is a study, not a case: fecolumn study"]),
     ],
 )
 def test_case_is_refused_in_one_line(tmp_path, capsys, text, words):

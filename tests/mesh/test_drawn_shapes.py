@@ -11,6 +11,7 @@ from drawn_shapes import box, figure, saved
 
 from fecolumn.foundation.schema import InputError
 from fecolumn.mesh.closed_surface import closed_surface
+from fecolumn.mesh.filled import _other_size
 from fecolumn.mesh.imported import own_mesh
 from fecolumn.mesh.mass import enclosed, mass_properties
 from fecolumn.mesh.mesh_file import MeshFile, UnusableShape
@@ -44,6 +45,13 @@ def test_a_box_is_filled_with_tetrahedra(tmp_path, ending):
     assert own.foot == pytest.approx((0.4, 0.3), rel=1e-6)
     assert found.volume == pytest.approx(0.144, rel=1e-6)
     assert found.mass == pytest.approx(0.144, rel=1e-6)
+
+
+def test_elements_that_are_smaller_than_their_surface_are_told_of():
+    corners = np.array([[x, y, z] for x in (0, 0.6) for y in (0, 0.4) for z in (0, 1.5)])
+    assert _other_size(0.996 * corners, corners) == []
+    (told,) = _other_size(corners * [0.98, 1.0, 0.99], corners)
+    assert "are 1.485 m high on a foot of 0.588 x 0.4 m, where the surface is 1.5 m high" in told
 
 
 @pytest.mark.long

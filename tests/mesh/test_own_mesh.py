@@ -51,6 +51,16 @@ def test_height_foot_and_weight_are_read_from_the_mesh(tmp_path, name, options, 
     assert estimate(case).bricks[2] == len(cells)
 
 
+def test_tilt_over_the_nearest_side_of_a_foot_that_is_turned(tmp_path):
+    """A square foot with its corners along x and y: the nearest side is no side of its box."""
+    points, cells = bricks((4, 4, 6), (0.4, 0.4, 1.2))
+    turn = np.sqrt(0.5) * np.array([[1, -1, 0], [1, 1, 0], [0, 0, np.sqrt(2)]])
+    case = own_case(write(tmp_path, "turned.msh", "hexahedron", points @ turn.T, cells))
+    rows = {row.name: row for row in quality_table(case, specimen_mesh(case))}
+    tilt = rows["tilt with the centre of mass over the foot's nearest side"].mesh
+    assert tilt == pytest.approx(np.arctan(0.2 / 0.6), rel=1e-9)
+
+
 def test_second_order_tetrahedra_of_a_file_are_read_by_their_corners(tmp_path):
     points, cells = tetrahedra((2, 2, 2))
     ends = points[cells[:, [0, 1, 2, 0, 1, 2]]], points[cells[:, [1, 2, 0, 3, 3, 3]]]

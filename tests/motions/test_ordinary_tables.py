@@ -85,6 +85,35 @@ def test_channels_of_accelerographs_are_east_north_up(tmp_path, header):
     assert found.values.T.tolist() == [list(X), list(Y), list(Z)]
 
 
+@pytest.mark.parametrize(
+    "name, axis",
+    [
+        ("Acceleration Y [m/s/s]", "y"),
+        ("acc. vertical [gal]", "z"),
+        ("acceleration vertical [gal]", "z"),
+        ("Ground acceleration in north direction (m s-2)", "y"),
+        ("Accel. East (m s^-2)", "x"),
+        ("Acceleration [g]", ""),
+        ("ground acceleration e-w component [g]", "x"),
+    ],
+)
+def test_an_axis_that_is_written_out_is_that_axis(tmp_path, name, axis):
+    found = read(tmp_path, table(f"Time (sec);{name}", TIMES, X).replace(",", ";"))
+    assert found.axes == (axis,) and found.values[:, 0].tolist() == list(X)
+
+
+def test_info_tells_the_unit_of_the_file_where_it_is_not_ours(tmp_path, capsys):
+    read(tmp_path, table("time [s],acc_ft_s2", TIMES, X))
+    assert main(["motions", "info", str(tmp_path / "a.csv")]) == 0
+    assert "(in ft/s2, 0.3048 m/s2)" in capsys.readouterr().out
+
+
+def test_an_empty_cell_is_named(tmp_path):
+    text = table("time [s],acc [g]", (*TIMES, 0.03), (*X, 0.4)).replace("0.02,0.3", "0.02,")
+    with pytest.raises(UnusableRecord, match="line 4: 1 columns where 2 are usual: column 2 is em"):
+        read(tmp_path, text)
+
+
 def test_velocities_and_displacements_beside_accelerations_are_passed_over(tmp_path, capsys):
     for header in (
         "time_s,acc_m_s2,vel_m_s,disp_m",

@@ -218,6 +218,13 @@ def test_the_peak_is_that_of_all_steps_and_what_is_lost_is_marked_where_it_stopp
         assert words in _texts(partial(top_figure, curves, ending, tmp_path / "top"))
 
 
+def test_the_tilt_in_a_figure_of_several_bodies_is_said_to_be_of_the_top_one(tmp_path):
+    curves = HistoryCurves(np.linspace(0, 1, 3), np.ones((3, 3)), np.ones(3), np.zeros((3, 3)), {})
+    for several, words in ((True, "tilt of the top body 57°"), (False, "tilt 57°")):
+        ending = EndingMark("at rest", False, None, None, 1.0, several)
+        assert words in _texts(partial(top_figure, curves, ending, tmp_path / "top"))
+
+
 def test_every_loss_of_energy_has_a_name_and_strain_an_axis(tmp_path):
     write_history(tmp_path)
     history = HistoryCurves.read(tmp_path / "history.h5")

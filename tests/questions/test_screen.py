@@ -34,6 +34,16 @@ def rows(file):
         return list(csv.DictReader(text))
 
 
+def test_a_further_limit_that_happens_is_told_where_the_first_does_not(tmp_path, pulses, capsys):
+    """Blocks tilt, none overturns."""
+    limits = ("--event", "overturn", "--event", "tilt > 1e-9 rad")
+    text = HEADER + "low,0.6,5,1,100,0.9\nslender,0.5,5,1,9,0.6\n"
+    assert screen(tmp_path, text, pulses, "--engine", "housner", *limits) == 0
+    said = capsys.readouterr().out
+    assert "overturn happens to none of 2 in any of 8 motions" in said
+    assert "tilt > 1e-09 rad happens most often to 'slender': in " in said
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("engine", ["housner", "rigid"])
 def test_shares_are_those_of_the_closed_form_and_rank_the_list(tmp_path, pulses, engine, capsys):

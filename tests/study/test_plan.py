@@ -127,6 +127,11 @@ AXES = '\n[axes]\n"integration.dt_s" = [1e-3]\n'
         ('case = "gone.toml"' + AXES, "gone.toml: no such file"),
         ("case = 3" + AXES, "case = 3: must be the path"),
         ("title = 'x'" + AXES, "case: missing"),
+        ("column.height_m = 1.5", "is a case, not a study, which has .*: fecolumn run"),
+        (
+            f'case = "{SPECIMEN}"\n[axes]\n"bodies.stone.width" = [0.1]',
+            r"did you mean bodies.stone.width_m\?",
+        ),
         (
             f'case = "{SPECIMEN}"\njobs = 2' + AXES,
             "jobs: unknown key; a study has title, case and axes",

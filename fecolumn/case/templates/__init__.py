@@ -155,7 +155,11 @@ def _statue(args: argparse.Namespace) -> dict[str, str]:
         raise InputError("fecolumn new", *unfit)
     if args.cut_foot is not None and not args.cut_foot > 0:
         raise InputError("fecolumn new", "--cut-foot", args.cut_foot, "must be greater than 0 m")
-    own = own_mesh(file)
+    try:
+        own = own_mesh(file)
+    except InputError as error:
+        found = "" if error.value is None else f"has {error.value}; "
+        raise InputError("fecolumn new", "--from", args.drawn, found + error.allowed) from None
     if not own.has_foot:
         raise InputError(
             "fecolumn new", "--from", args.drawn, f"has no flat foot to stand on{foot_hint(file)}"

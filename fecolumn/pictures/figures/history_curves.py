@@ -81,6 +81,8 @@ class EndingMark:
     u_max_m
         largest displacement of the top over all steps [m], of which the history may have fewer;
         None where the summary does not tell.
+    several
+        whether there are several bodies, one of which has the top.
     """
 
     words: str
@@ -88,6 +90,7 @@ class EndingMark:
     u_critical_m: float | None
     outline: Outline | None
     u_max_m: float | None = None
+    several: bool = False
 
 
 def read_ending(folder: Path) -> EndingMark:
@@ -111,4 +114,5 @@ def read_ending(folder: Path) -> EndingMark:
         summary.get("u_critical_m"),
         outline,
         summary.get("u_max_m"),
+        len(summary.get("bodies", {})) > 1,
     )

@@ -106,7 +106,7 @@ def _magnitude(
         clip_on=False,
         linestyle="none",
         label=f"{word} {shown:.4g} mm\n{history.time[marked]:.3g} s, tilt "
-        f"{np.degrees(history.tilt[marked]):.2g}°",
+        f"{'of the top body ' * ending.several}{np.degrees(history.tilt[marked]):.2g}°",
     )
     top, critical = magnitude.max(), 1e3 * (ending.u_critical_m or 0)
     if critical:

@@ -96,9 +96,9 @@ def answer_of(
     failed = failed_of(rows)
     if not failed and not any(one.count(0).k for one in ranked):
         return (
-            f"None of {len(ranked)} has {event} in any of {count.n} motions: P({event}) is "
+            f"{event} happens to none of {len(ranked)} in any of {count.n} motions: P({event}) is "
             f"{count.text} of each (95 % interval); the largest median displacement is that of "
-            f"{first.object.name!r}."
+            f"{first.object.name!r}.{_others(ranked, limits)}"
         )
     if not failed:
         return (
@@ -124,6 +124,20 @@ def answer_of(
         f"be {may}. Of {first.object.name!r}, which may be the worst, {said}, 95 % interval); "
         f"{reach}. {told}"
     )
+
+
+def _others(ranked: list[ScreenedObject], limits: list[LimitEvent]) -> str:
+    """A sentence on each further limit that is reached: by which object most often."""
+    told = ""
+    for place, limit in enumerate(limits[1:], 1):
+        worst = max(ranked, key=lambda one: one.count(place).k)
+        if k := worst.count(place).k:
+            count = worst.count(place)
+            told += (
+                f" {limit.text} happens most often to {worst.object.name!r}: in {k} of "
+                f"{count.n} motions, P {count.text} (95 % interval)."
+            )
+    return told
 
 
 def screening_table(ranked: list[ScreenedObject], limits: list[LimitEvent]) -> list[list[Any]]:

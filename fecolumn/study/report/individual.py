@@ -35,6 +35,8 @@ from fecolumn.study.report.sweep import Line, Sweep
 _VARIABLES, _MATRICES, _FOLD = 6, 4, 20
 # Factors above it are told as more than this: the smaller peak is then hardly any motion
 _MANY = 100.0
+# Peaks over one another from which on the smaller is rounding: of a body that only stood
+_ROUNDING = 1e4
 
 
 def individual(sweep: Sweep, gallery: Gallery) -> PageSection | None:
@@ -187,7 +189,7 @@ def _motions(sweep: Sweep) -> PageTable:
                 *slid,
                 low,
                 high,
-                high / low if low and high else None,
+                high / low if low and high and high <= _ROUNDING * low else None,
             )
         )
     return PageTable(
@@ -204,6 +206,7 @@ def _motions(sweep: Sweep) -> PageTable:
         rows,
         "Every motion over all settings: runs that overturned"
         + (" or slid off" if sweep.slides else "")
-        + ", smallest and largest peak of those that stood, and their ratio.",
+        + ", smallest and largest peak of those that stood, and their ratio, but where "
+        f"it is above {_ROUNDING:g}, as the smaller one is rounding.",
         folded=True,
     )
