@@ -178,6 +178,31 @@ def test_claims_of_a_thousand_motions():
     assert "support claims b2 and c of the paper and do not support b1" in PAGE
 
 
+def test_claims_of_more_motions_with_fixed_steps():
+    found = {
+        row.rpartition("own_mesh_fixed, ")[2]: one
+        for row, one in column("own_mesh_fixed_claims", "here").items()
+    }
+    assert found["b1"] == found["b2"] == "supported" and found["c"] == "not supported"
+    assert "at alpha 0 and -0.2 alone [b2 is supported and c is not]" in PAGE
+    table = tables.read("own_mesh_fixed")
+    rows = {row[0]: dict(zip(table.columns, row)) for row in table.rows}
+    short, shortest = (
+        rows[f"dt_s = {dt}, alpha_hht = 0 and dt_s = {dt}, alpha_hht = -0.2"]
+        for dt in ("0.001", "0.0001")
+    )
+    two = holm([float(one["p"]) for one in (short, shortest)])
+    assert f"by Holm's rule for the two pairs of c {two[0]:.3f};" in PAGE and two[0] < 0.05
+    assert short["verdict"] == "not decided" and shortest["verdict"] == "alike within 0.1"
+    steps = [
+        rows[f"dt_s = 0.001, alpha_hht = {a} and dt_s = 0.0001, alpha_hht = {a}"]
+        for a in ("0", "-0.2")
+    ]
+    assert f"above {max(one['at most'] for one in steps)} is excluded" in PAGE
+    long = [row for name, row in rows.items() if name.count("0.02,") == 1]
+    assert len(long) == 4 and {row["verdict"] for row in long} == {"differ"}
+
+
 def test_alphas_with_rolling_substeps():
     least, flips = (
         min(float(p) for p in column("paper_parts_alphas", head).values())
