@@ -225,6 +225,13 @@ def test_help_lists_its_topics_and_refuses_others(capsys):
     }
 
 
+def test_help_names_the_sections_on_a_word_that_is_no_topic(capsys):
+    assert main(["help", "fragility"]) == 2
+    assert "rocking (Fragility)" in capsys.readouterr().err
+    assert main(["help", "sliding"]) == 2
+    assert "it is told of in theory" in capsys.readouterr().err
+
+
 def test_version_is_the_packages(capsys):
     with pytest.raises(SystemExit) as end:
         main(["--version"])

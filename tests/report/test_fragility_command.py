@@ -54,6 +54,9 @@ def test_one_measure_gives_the_lognormal_curve_with_intervals_that_count_records
     ends = [float(row["median_low"]), float(row["median_high"])]
     assert ends == pytest.approx(fit.median_interval(), rel=1e-4)
     assert fit.median_interval() != pytest.approx(naive.median_interval(), rel=1e-3)
+    low, high = fit.median_interval()
+    told = f"reach the limit at pgv_m_s = {fit.median:.3g}, 95 % interval {low:.3g} to {high:.3g}"
+    assert told in capsys.readouterr().out
     assert (tmp_path / "out" / "fragility.png").stat().st_size > 5000
 
 

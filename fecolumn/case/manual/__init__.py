@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import re
 from pathlib import Path
 
 MANUAL_FOLDER = Path(__file__).parent
+# Sections that a message names, at most
+_SECTIONS = 4
 # in the order of reading
 TOPICS = (
     "quick-start",
@@ -68,8 +71,25 @@ def page(topic: str) -> str:
 
     found = [name for name in TOPICS if name.startswith(topic.lower())]
     if topic.lower() not in TOPICS and len(found) != 1:
-        raise InputError("fecolumn help", "TOPIC", topic, f"must be one of {', '.join(TOPICS)}")
+        told = f"must be one of {', '.join(TOPICS)}{_sections_on(topic)}"
+        raise InputError("fecolumn help", "TOPIC", topic, told)
     return _text(topic.lower() if topic.lower() in TOPICS else found[0])
+
+
+def _sections_on(word: str) -> str:
+    """The end of a message: headings of pages that have the word, else the pages that have it most
+    often; "" where none has it.
+    """
+    texts = {name: _text(name) for name in TOPICS if name != "changelog"}
+    found = [
+        f"{name} ({heading})"
+        for name, text in texts.items()
+        for heading in re.findall(r"^#+ ([A-Z`].*)$", text, re.MULTILINE)
+        if word.lower() in heading.lower()
+    ]
+    counts = {name: text.lower().count(word.lower()) for name, text in texts.items()}
+    found = found or sorted(filter(counts.get, counts), key=lambda name: -counts[name])
+    return f"; it is told of in {', '.join(found[:_SECTIONS])}" if found else ""
 
 
 def contents() -> str:

@@ -237,6 +237,12 @@ def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
     write_csv(folder / "fragility.csv", rows)
     for line in rows:
         print("  ".join(f"{value:>14}" for value in line))
+    for label, fit in curves.items():
+        low, high = limits[label][0]
+        print(
+            f"{label + ': ' if label else ''}half of all motions reach the limit at {names[0]} = "
+            f"{fit.median:.3g}, 95 % interval {low:.3g} to {high:.3g}"
+        )
 
 
 def _limits(table: IntensityTable, name: str, fit: Fragility) -> CurveEnds:
