@@ -31,7 +31,9 @@ peers' settings err by, by which the best were chosen (`benchmarks.programs.tria
 from __future__ import annotations
 
 import argparse
+import contextlib
 import hashlib
+import re
 import sys
 from pathlib import Path
 
@@ -39,6 +41,7 @@ from benchmarks.peers import peer as peers
 from benchmarks.planar import peer as planar_peer
 from benchmarks.programs import analysis, course, structures, table, trial
 from benchmarks.programs.programs import BY_NAME, PROGRAMS, Program
+from benchmarks.tables import read
 from benchmarks.tables.runs import read_runs, write_runs
 from fecolumn import __version__
 from fecolumn.foundation.sources import PHYSICS, digest_of
@@ -128,10 +131,25 @@ def keep(structure: str, program: Program, runs: dict[int, dict], version: str) 
     write_runs(kept_name(structure, program), runs, title, f"{command} --keep", physics=physics)
 
 
-def versions(names) -> dict[str, str]:
-    """Version of each of the programs that can be run; the others are said."""
+def kept_version(program: Program) -> str:
+    """Version that made the kept runs of a program, "" where there are none."""
+    for structure in program.structures:
+        with contextlib.suppress(FileNotFoundError):
+            title = read(kept_name(structure, program)).about["title"]
+            if told := re.search(r", version ([\w.]+),", title):
+                return told[1]
+    return ""
+
+
+def versions(names, report: bool = False) -> dict[str, str]:
+    """Version of each of the programs that can be run, or whose kept runs are to be reported; the
+    others are said.
+    """
     found = {}
     for name in names:
+        if report and (version := kept_version(BY_NAME[name])):
+            found[name] = version
+            continue
         peer = name.partition("-")[0]
         try:
             known = peer in ("mujoco", "siconos")
@@ -169,7 +187,7 @@ def arguments(given=None):
 def main(given=None) -> int:
     """Run what is asked for, and print the tables."""
     args = arguments(given)
-    there = versions(args.program)
+    there = versions(args.program, args.report)
     if args.trial:
         print(trial.table(there), flush=True)
         return 0

@@ -47,7 +47,7 @@ def measure_again(command: str, tables: Iterable[Table]) -> None:
     Raises
     ------
     ValueError
-        the command failed, or does not print one of the tables.
+        the command failed, does not print one of the tables, or prints one with fewer rows.
     """
     run = subprocess.Popen(
         [sys.executable, *shlex.split(command)[1:]], stdout=subprocess.PIPE, text=True
@@ -61,5 +61,10 @@ def measure_again(command: str, tables: Iterable[Table]) -> None:
         raise ValueError(f"{command}: ended with exit code {code}")
     printed = from_markdown("".join(lines))
     found = [(table, printed_as(table, printed)) for table in tables]
+    for table, (_, *rows) in found:
+        if len(rows) < len(table.rows):
+            raise ValueError(
+                f"{table.name}: {len(rows)} rows are printed where {len(table.rows)} are kept"
+            )
     for table, (columns, *rows) in found:
         write(table.name, columns, rows, table.about["title"], command)
