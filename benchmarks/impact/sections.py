@@ -15,8 +15,8 @@ have names:
     S (B/H)^4   (stress rho c v of the landing edge over that of the weight)^2, v ~ B / H sqrt(g B^2
                 / H)
 
-The map takes the first as its axis; which power makes all slendernesses fall onto one curve is
-fitted (`formula`). nu is 0.2 and the tilt of release 0.3 of the critical one.
+The map takes the first as its axis. No power makes all slendernesses fall onto one curve
+(benchmarks/RESULTS.md). nu is 0.2 and the tilt of release 0.3 of the critical one.
 """
 
 from __future__ import annotations

@@ -267,3 +267,12 @@ def test_history_of_the_package_tells_what_contact_fed_in(tmp_path):
             file[f"energy/{term}"] = values
     assert table.fed_in_of_history(tmp_path / "history.h5", 5.0) == pytest.approx(0.1)
     assert math.isnan(table.fed_in_of_history(tmp_path / "none.h5", 5.0))
+
+
+def test_kept_rows_of_peers_are_reported_without_the_peers(monkeypatch):
+    def missing(_):
+        raise peers.Missing("is not installed")
+
+    monkeypatch.setattr(peers, "version", missing)
+    assert command.versions(["mujoco", "rigid"], report=True).keys() == {"mujoco", "rigid"}
+    assert command.versions(["mujoco", "rigid"]).keys() == {"rigid"}

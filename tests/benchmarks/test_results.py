@@ -1,6 +1,7 @@
 """Measured numbers of RESULTS.md, README and manual are those of benchmarks/tables."""
 
 import csv
+import dataclasses
 import re
 from pathlib import Path
 
@@ -111,6 +112,9 @@ def test_a_table_is_measured_again_by_its_command(tmp_path, monkeypatch):
     assert again.current and (again.columns, again.rows) == (kept.columns, kept.rows)
     with pytest.raises(ValueError, match="no printed table has the columns"):
         printed_as(kept, [[["p T_p", "another"], ["2", "1.0"]]])
+    longer = dataclasses.replace(kept, rows=[*kept.rows, kept.rows[0]])
+    with pytest.raises(ValueError, match="5 rows are printed where 6 are kept"):
+        measure_again(kept.about["command"], [longer])
     with pytest.raises(ValueError, match="exit code 2"):
         measure_again("python -m benchmarks.substeps.paper --unknown", [kept])
 

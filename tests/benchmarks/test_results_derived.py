@@ -281,3 +281,34 @@ def test_pages_of_the_manual_repeat_numbers_of_results():
     assert fixed in PAGE and rolling in PAGE
     rigid = column("programs", "p")["trilith: fecolumn, rigid"]
     assert f"from those at 1e-3 s (p = {rigid})" in manual("structures")
+
+
+def test_no_group_of_stiffness_and_slenderness_describes_all_impacts():
+    cells = kept_cells()
+    loss, group, ratio = (
+        np.array([one[name] for one in cells], float) for name in ("loss", "group", "ratio")
+    )
+    left = []
+    for k in range(9):
+        group_k = np.log10(group * ratio ** (1 - k))  # S (B/H)^k of S (B/H)
+        curve = np.polyval(np.polyfit(group_k, loss, 3), group_k)
+        left.append(np.sqrt(np.mean((curve - loss) ** 2)))
+    told = f"misses them by {min(left):.2f} to {max(left):.2f} of Housner's loss (root mean square)"
+    assert f"{told}, their mean by {np.std(loss):.2f}." in PAGE
+
+
+def test_a_term_of_the_stiffness_does_not_help_the_formula_of_impacts():
+    cells = [one for one in kept_cells() if one["group"] >= 1e5]
+    loss = np.array([one["loss"] for one in cells], float)
+    shapes = sorted({one["shape"] for one in cells})
+    columns = np.array(
+        [[*(one["shape"] == shape for shape in shapes), 1 / one["ratio"]] for one in cells],
+        float,
+    )
+    stiffness = np.log10([[one["group"]] for one in cells])
+
+    def left(columns):
+        return np.sqrt(np.mean((columns @ np.linalg.lstsq(columns, loss, None)[0] - loss) ** 2))
+
+    assert left(columns) - left(np.hstack([columns, stiffness])) < 0.001
+    assert "a term in the logarithm of the stiffness takes less than 0.001 from this error" in PAGE

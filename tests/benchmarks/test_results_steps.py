@@ -135,6 +135,13 @@ def test_fewer_falls_at_a_long_step_are_not_confirmed_by_more_motions():
     assert max(p["paper_study", dt] for dt in ("0.001", "0.0001")) < 0.001
     told = [f"{p['paper_parts', dt]:.3f}" for dt in ("0.001", "0.0001")]
     assert "than at 1e-4 s (both p < 0.001); with rolling substeps" in PAGE
+    readme = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    fell = [
+        fewer_at_a_long_step(f"paper/{study}", "0.001", alphas, motions).sum()
+        for study in ("paper_study", "paper_parts")
+    ]
+    fewer = f"{fell[0]} fewer columns fall at 0.02 s with fixed steps and {fell[1]} fewer with"
+    assert f"{fewer} substeps (p {told[0]})" in readme
     assert f"fewer (p {told[0]}) and" in PAGE and f"fewer (p {told[1]}). This p swaps" in PAGE
     each = [
         fewer_at_a_long_step("decided/own_mesh", dt, ("0", "-0.2"), range(1, 1001))
