@@ -12,6 +12,7 @@ from benchmarks.tables import from_markdown
 from benchmarks.tables.study_rows import keep_rows
 from benchmarks.wobbling import beside_bodies
 from benchmarks.wobbling.bins import LEVELS
+from fecolumn.study.alpha import alpha_note
 from fecolumn.study.plan import read_plan
 from fecolumn.study.store import DONE
 
@@ -144,3 +145,13 @@ def test_slenderness_to_design_with_is_a_line_through_what_is_computed():
     for duration in (2, 4, 8):
         ratio = float(rows[f"{duration}"]["one-sine: formula over computed"])
         assert ratio == pytest.approx(0.925, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    "name", ["paper_claims", "paper_parts_claims", "own_mesh_claims", "own_mesh_fixed_claims"]
+)
+def test_claims_on_alpha_say_what_the_report_says_of_the_scheme(name):
+    table = tables.read(name)
+    place = table.columns.index("what was found")
+    told = [row[place] for row in table.rows if row[0].endswith((", a2, α", ", c"))]
+    assert len(told) == 2 and all(alpha_note({}, {}) in text for text in told)
