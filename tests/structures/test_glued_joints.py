@@ -212,6 +212,12 @@ def test_wrong_glue_is_refused_in_a_line(joint, said):
     assert "\n" not in str(caught.value) and "small.toml" in str(caught.value)
 
 
+def test_glue_that_is_almost_too_stiff_is_told_of_with_the_step_that_is_not():
+    case = waxed(dict(bond_stiffness_n_m3=3e10))
+    with pytest.warns(UserWarning, match="joints.foot: a layer of 3e.10 .* steps of 0.00018 s may"):
+        engine_of(case, structure_model(case), "small.toml")
+
+
 @pytest.mark.parametrize(
     "tables, said",
     [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 # Share of a change of the links' forces that the motion within a step may answer at once: beyond it
 # the step is too long for the links
 STIFFEST = 0.5
+# Share from which on the motion converges slowly, and steps of glued bodies are often halved
+_SLOW = 0.25
 
 
 class StiffLink(ValueError):
@@ -103,15 +106,24 @@ def _check_step(model: StructureModel, linked: Linked, hht: HHT) -> None:
         square, place = fastest(linked, links["stiffness"] + steepest / dt, bodies, shrinks(dt))
         return square * dt**2 / 2, place
 
+    def longest(most: float) -> float:
+        return bisect(lambda dt: answered(dt)[0] - most, 1e-9 * hht.dt, hht.dt, rtol=1e-3)
+
     share, place = answered(hht.dt)
-    if share > STIFFEST:
-        longest = bisect(lambda dt: answered(dt)[0] - STIFFEST, 1e-9 * hht.dt, hht.dt, rtol=1e-3)
-        if bond := links["bond"][place]:
-            joint = bonded(model)[bond - 1]
+    if share > _SLOW and (bond := links["bond"][place]):
+        joint = bonded(model)[bond - 1]
+        layer = f"joints.{joint.name.partition(':')[0]}: a layer of {joint.bond.stiffness:g} N/m3"
+        if share > STIFFEST:
             raise StiffLink(
-                f"joints.{joint.name.partition(':')[0]}: a layer of {joint.bond.stiffness:g} N/m3 "
-                f"under such light bodies needs steps of at most {longest:.2g} s, or a softer layer"
+                f"{layer} under such light bodies needs steps of at most {longest(STIFFEST):.2g} "
+                "s, or a softer layer"
             )
+        warnings.warn(
+            f"{layer} under such light bodies is almost too stiff for steps of {hht.dt:g} s: many "
+            f"are halved, and steps of {longest(_SLOW):.2g} s may take less time in all",
+            stacklevel=2,
+        )
+    if share > STIFFEST:
         link = model.links[place]
         much = " and ".join(
             f"{value:g} {unit}"
@@ -127,7 +139,7 @@ def _check_step(model: StructureModel, linked: Linked, hht: HHT) -> None:
             slower = f", or linear_below_m_s of {speed:.2g} m/s or more"
         raise StiffLink(
             f"links.{link.name}: {much} between such light bodies, with the links "
-            f"beside it, needs steps of at most {longest:.2g} s{slower}"
+            f"beside it, needs steps of at most {longest(STIFFEST):.2g} s{slower}"
         )
 
 
