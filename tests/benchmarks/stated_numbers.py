@@ -21,6 +21,7 @@ GIVEN = (
     "With substeps and alpha 0 and -0.2",
     "of the steps 0.02, 1e-3 and 1e-4 s",
     "is released from 0.3 of its critical tilt",
+    "From 0.05 of the critical tilt",
     "The figure has 1.03 times",
     "by +a for 0.1 s, then by -a/2 for 0.2 s",
     "The figure has 0.34 s and 0.5 g",
