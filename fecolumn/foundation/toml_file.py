@@ -78,10 +78,8 @@ def _tables(path: Path) -> dict[str, Any]:
     try:
         tables = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
-        lines = text.splitlines()[: int((re.findall(r"at line (\d+)", str(error)) or [0])[0])]
-        comma = re.search(r"=\s*[-+]?\d+,\d+\s*(#|$)", lines[-1]) if lines else None
-        hint = "; numbers have a decimal point, as in 1.5" if comma else ""
-        raise InputError(path, "", None, in_text(f"not valid TOML: {error}{hint}")) from None
+        told = f"not valid TOML: {error}{_comma_hint(text, str(error))}"
+        raise InputError(path, "", None, in_text(told)) from None
     except RecursionError:
         raise InputError(path, "", None, "not valid TOML: nested too deeply") from None
     except (
@@ -100,6 +98,14 @@ def _tables(path: Path) -> dict[str, Any]:
     if (deep := _depth(tables)) > _DEEPEST:
         raise InputError(path, "", None, f"tables and lists {deep} deep; at most {_DEEPEST}")
     return tables
+
+
+def _comma_hint(text: str, said: str) -> str:
+    """The end of a message on the line that it names, where this has a decimal comma."""
+    found = re.search(r"at line (\d+)", said)
+    line = text.split("\n")[int(found[1]) - 1] if found else ""
+    comma = re.search(r"=\s*[-+]?\d+,\d+\s*(#|$)", line)
+    return "; numbers have a decimal point, as in 1.5" if comma else ""
 
 
 def _depth(tables: dict[str, Any] | list[Any]) -> int:

@@ -18,17 +18,14 @@ _COMPASS = {
 _NAMES = {
     "time": ("time", "t", "seconds", "zeit", "temps", "tempo", "tiempo"),
     **{
-        axis: tuple(
-            f"{before}{name}"
-            for name in (axis, *compass)
-            for before in ("", "a", "a_", "acc", "acc_", "acc ")
-        )
+        axis: tuple(f"{before}{name}" for name in (axis, *compass) for before in ("", "a", "a_"))
         for axis, compass in _COMPASS.items()
     },
     "": ("a", "acc", "accel", "acceleration", "beschleunigung", "accelerazione", "aceleracion"),
 }
 _MEANING = {name: meaning for meaning, names in _NAMES.items() for name in names}
-# Written out, as in "Acceleration Y", "acc. vertical" and "ground acceleration in north direction"
+# With the word acceleration or a short form of it, as in "acc_x", "Acceleration Y", "acc. vertical"
+# and "ground acceleration in north direction"
 _AXIS_OF_WORD = {word: axis for axis, words in _COMPASS.items() for word in (axis, *words)}
 _WORDS = re.compile(
     r"(?:ground[ _-])?acc(?:\.|el\.?|eleration)?[ _-]*(?:(?:in|along)[ _-])?"
@@ -98,10 +95,10 @@ def meaning_of(name: str) -> str | None:
     """Meaning of the name of a column, as of NamedColumn."""
     if name in _MEANING:
         return _MEANING[name]
-    if channel := _CHANNEL.fullmatch(name):
-        return _CHANNEL_AXES[channel["axis"]] if channel["instrument"] == "n" else MOVED
     if words := _WORDS.fullmatch(name):
         return _AXIS_OF_WORD[words["axis"]]
+    if channel := _CHANNEL.fullmatch(name):
+        return _CHANNEL_AXES[channel["axis"]] if channel["instrument"] == "n" else MOVED
     if _MOVED.search(name):
         return MOVED
     return NUMBER if _NUMBER.search(name) else None

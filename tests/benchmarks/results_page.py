@@ -27,3 +27,14 @@ def pairs(name, row):
         for head, cell in zip(table.columns, found)
         if cell != row
     }
+
+
+def verdicts(name):
+    """What was found of each claim of the paper, by its sign, such as "a2, α"."""
+    return {row.partition(", ")[2]: cell for row, cell in column(name, "here").items()}
+
+
+def manual(name):
+    """A page of the manual in one line."""
+    text = (ROOT / "fecolumn" / "case" / "manual" / f"{name}.md").read_text(encoding="utf-8")
+    return " ".join(text.split())

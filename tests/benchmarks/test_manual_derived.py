@@ -2,14 +2,9 @@
 computed from them.
 """
 
-from results_page import ROOT, column, pairs
+from results_page import ROOT, column, manual, pairs
 
 from benchmarks import tables
-
-
-def page(name):
-    file = ROOT / "fecolumn" / "case" / "manual" / f"{name}.md"
-    return " ".join(file.read_text(encoding="utf-8").split())
 
 
 def first(cell):
@@ -24,9 +19,9 @@ def test_shortest_steps_with_rolling_substeps_in_theory():
     ]
     found = pairs("paper_parts_steps", "rolling substeps, 0.02 and 0.0001 s")
     told = f"({fallen[0]} and {fallen[1]} overturn, {found['-0.2'][0]:.2f}, p = "
-    assert f"{told}{found['-0.2'][1]:.2f})" in page("theory")
+    assert f"{told}{found['-0.2'][1]:.2f})" in manual("theory")
     differ = [alpha for alpha, one in found.items() if one[1] < 0.05]
-    assert f"at three other alphas ({', '.join(differ)}) they can" in page("theory")
+    assert f"at three other alphas ({', '.join(differ)}) they can" in manual("theory")
     assert len(differ) == 3
 
 
@@ -38,17 +33,17 @@ def test_what_an_impact_takes_in_theory():
     }
     reduced, full = losses["reduced engine"], losses["full order"]
     assert abs(reduced["0.0001 s"] / full["0.0001 s"] - 1) <= 0.011
-    assert "lose the same within 1 % at 1e-4 s" in page("theory")
+    assert "lose the same within 1 % at 1e-4 s" in manual("theory")
     more = [
         round(losses[name]["1e-05 s"] / full["1e-05 s"] - 1, 2)
         for name in ("reduced, 30 modes", "reduced engine", "reduced, 300 modes")
     ]
     assert 0.22 <= more[0] <= 0.29 and 0.14 <= more[1] <= 0.19 and more[2] == 0.05
-    assert "30 modes lose a quarter more than full order, 100 modes a sixth more, 300" in page(
+    assert "30 modes lose a quarter more than full order, 100 modes a sixth more, 300" in manual(
         "theory"
     )
     told = f"from {reduced['1e-05 s']} to {reduced['2e-06 s']} of the loss of Housner's rigid block"
-    assert told in page("theory")
+    assert told in manual("theory")
 
 
 def test_overturnings_that_are_missed_in_theory():
@@ -56,7 +51,7 @@ def test_overturnings_that_are_missed_in_theory():
         int(column("shake_table", head)["fecolumn"])
         for head in ("predicted to stand", "overturned: predicted")
     )
-    assert f"it misses {missed} of {missed + seen} overturnings" in page("theory")
+    assert f"it misses {missed} of {missed + seen} overturnings" in manual("theory")
 
 
 def test_alphas_at_which_rolling_substeps_leave_a_difference_in_cases():
@@ -69,7 +64,7 @@ def test_alphas_at_which_rolling_substeps_leave_a_difference_in_cases():
         for steps in ("0.02 and 0.001", "0.02 and 0.0001")
     )
     assert short == ["-0.333"] and shortest == ["-0.05", "-0.1", "-0.333"]
-    assert "differ significantly at -0.333 alone, those at 0.02 s and 1e-4 s at -0.05" in page(
+    assert "differ significantly at -0.333 alone, those at 0.02 s and 1e-4 s at -0.05" in manual(
         "cases"
     )
 
@@ -79,7 +74,7 @@ def test_outcomes_on_which_model_and_bodies_of_the_wobbling_frame_agree():
     motions, shares = (column("wobbling_frame", head) for head in ("motions", "same outcome [%]"))
     same = sum(round(float(shares[name]) / 100 * int(motions[name])) for name in bins)
     told = f"agree on {same} of {sum(int(motions[name]) for name in bins)} outcomes"
-    assert len(bins) == 6 and told in page("rocking-structures")
+    assert len(bins) == 6 and told in manual("rocking-structures")
 
 
 def test_smaller_tilts_and_a_higher_column_lose_more_over_housner_in_the_mean():

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from results_page import PAGE, ROOT, column
+from results_page import PAGE, ROOT, column, manual
 from scipy.stats import binomtest
 
 from benchmarks import tables
@@ -252,12 +252,6 @@ def test_drums_of_which_least_and_most_still_rock():
     }
     drums = {name: n for name, n in rocking.items() if name.endswith("drums") and "el" not in name}
     assert min(drums, key=drums.get) == "3 drums" and max(drums, key=drums.get) == "8 drums"
-
-
-def manual(name):
-    """A page of the manual in one line."""
-    text = (ROOT / "fecolumn" / "case" / "manual" / f"{name}.md").read_text(encoding="utf-8")
-    return " ".join(text.split())
 
 
 def test_modes_that_an_impact_needs_on_the_page_of_theory():

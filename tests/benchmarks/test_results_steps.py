@@ -5,7 +5,7 @@ computed from them.
 import re
 
 import numpy as np
-from results_page import PAGE, ROOT, column, pairs
+from results_page import PAGE, ROOT, column, pairs, verdicts
 
 from benchmarks import tables
 from benchmarks.tables.runs import read_runs
@@ -27,7 +27,7 @@ def test_fixed_steps_are_told_apart_as_the_text_says():
 
 
 def test_claims_of_the_paper_with_fixed_steps():
-    here = {row.partition(", ")[2]: cell for row, cell in column("paper_claims", "here").items()}
+    here = verdicts("paper_claims")
     supported = {claim for claim, verdict in here.items() if verdict == "supported"}
     assert supported == {"a1", "a2, α", "b1", "d1", "d2"} and "five are supported:" in PAGE
     assert "d2, by times that are no finding" in PAGE
@@ -177,19 +177,13 @@ def test_what_rolling_leaves_of_finding_b_at_one_alpha():
 
 
 def test_claims_of_a_thousand_motions():
-    here = {
-        row.rpartition("own_mesh, ")[2]: one
-        for row, one in column("own_mesh_claims", "here").items()
-    }
+    here = verdicts("own_mesh_claims")
     assert here["b2"] == here["c"] == "supported" and here["b1"] == "not supported"
     assert "support claims b2 and c of the paper and do not support b1" in PAGE
 
 
 def test_claims_of_more_motions_with_fixed_steps():
-    found = {
-        row.rpartition("own_mesh_fixed, ")[2]: one
-        for row, one in column("own_mesh_fixed_claims", "here").items()
-    }
+    found = verdicts("own_mesh_fixed_claims")
     assert found["b1"] == found["b2"] == "supported" and found["c"] == "not supported"
     assert "at alpha 0 and -0.2 alone [b2 is supported and c is not]" in PAGE
     table = tables.read("own_mesh_fixed")
@@ -220,9 +214,7 @@ def test_alphas_with_rolling_substeps():
 
 
 def test_claims_of_the_paper_with_rolling_substeps():
-    here = {
-        row.partition(", ")[2]: cell for row, cell in column("paper_parts_claims", "here").items()
-    }
+    here = verdicts("paper_parts_claims")
     supported = {claim for claim, verdict in here.items() if verdict == "supported"}
     assert supported == {"a1", "a2, Δt", "a2, α", "b1", "d1"}
     assert here["d2"] == "not supported" and {here["b2"], here["c"]} == {"undecided"}

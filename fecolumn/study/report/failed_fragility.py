@@ -10,12 +10,14 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from fecolumn.statistics.fragility import DegenerateData
+from fecolumn.statistics.fragility import DegenerateData, Fragility, lognormal
 from fecolumn.statistics.intensity_table import FailedRuns, IntensityTable
 from fecolumn.study.failures import why_failed
 from fecolumn.study.plan import record_of
 from fecolumn.study.report.intensity import NOT_FOUND
 
+#: Ends of the intervals of the median and of the dispersion
+CurveEnds = tuple[tuple[float, float], tuple[float, float]]
 _Fit = TypeVar("_Fit")
 
 
@@ -83,6 +85,23 @@ def over_failed(
             yield fit(other.measures[name], other.overturned, other.records)
         except DegenerateData as error:
             raise DegenerateData(_refused(table, error)) from None
+
+
+def curve_ends(table: IntensityTable, name: str, fit: Fragility) -> CurveEnds:
+    """Ends of the intervals of a setting's median and dispersion, over none and all of its failed
+    runs overturned.
+
+    Raises
+    ------
+    DegenerateData
+        some of what they might have been bounds no curve.
+    """
+    found = [fit, *over_failed(table, name, lognormal)]
+    medians, betas = zip(*((one.median_interval(), one.beta_interval()) for one in found))
+    return (
+        (min(low for low, _ in medians), max(high for _, high in medians)),
+        (min(low for low, _ in betas), max(high for _, high in betas)),
+    )
 
 
 def _refused(table: IntensityTable, error: Exception) -> str:

@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from fecolumn.statistics.fragility import Fragility, LogitFragility
     from fecolumn.statistics.intensity_table import IntensityTable
+    from fecolumn.study.report.failed_fragility import CurveEnds
 
 # What is asked of the summary of a run
 Happened = Callable[[dict[str, Any]], bool]
-# Ends of the intervals of the median and of the dispersion
-CurveEnds = tuple[tuple[float, float], tuple[float, float]]
 _CURVES = 7  # of the figure
 
 
@@ -197,7 +196,7 @@ def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
     from fecolumn.foundation.atomic import write_csv
     from fecolumn.foundation.schema import InputError
     from fecolumn.statistics.fragility import DegenerateData, logit, lognormal
-    from fecolumn.study.report.failed_fragility import warn_of_failed
+    from fecolumn.study.report.failed_fragility import curve_ends, warn_of_failed
 
     names = list(next(iter(sets.values())).measures)
     curves: dict[str, Fragility] = {}
@@ -209,7 +208,7 @@ def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
         try:
             if len(names) == 1:
                 fit = lognormal(im[:, 0], table.overturned, table.records)
-                limits[label] = _limits(table, names[0], fit)
+                limits[label] = curve_ends(table, names[0], fit)
                 curves[label] = fit
             else:
                 surfaces[label] = logit(im, table.overturned, table.records)
@@ -243,26 +242,6 @@ def _write(sets: dict[str, IntensityTable], folder: Path, source: str) -> None:
             f"{label + ': ' if label else ''}half of all motions reach the limit at {names[0]} = "
             f"{fit.median:.3g}, 95 % interval {low:.3g} to {high:.3g}"
         )
-
-
-def _limits(table: IntensityTable, name: str, fit: Fragility) -> CurveEnds:
-    """Ends of the intervals of a setting's median and dispersion, over none and all of its failed
-    runs overturned.
-
-    Raises
-    ------
-    DegenerateData
-        some of what they might have been bounds no curve.
-    """
-    from fecolumn.statistics.fragility import lognormal
-    from fecolumn.study.report.failed_fragility import over_failed
-
-    found = [fit, *over_failed(table, name, lognormal)]
-    medians, betas = zip(*((one.median_interval(), one.beta_interval()) for one in found))
-    return (
-        (min(low for low, _ in medians), max(high for _, high in medians)),
-        (min(low for low, _ in betas), max(high for _, high in betas)),
-    )
 
 
 def _one(
