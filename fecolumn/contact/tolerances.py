@@ -228,6 +228,10 @@ FIRMER_TIMES = 2
 #: The same inertia over the square of the fastest frequency of the links: these answer the motion
 #: of an iteration at once, and it must not answer them as strongly.
 LINKS_FIRM = 4.0
+#: Stretch of a link over how far from the origin it is: the least of which the force counts where
+#: changes of the links' forces are judged. The rounding of a position is 2e-8 of it. The force of
+#: stiff glue that carries nothing is rounding alone, and changes by its size.
+LEAST_STRETCH = 1e-8
 #: Displacement of an iteration, over the column's height, below which the column is at rest: ten
 #: thousand times the rounding of a position.
 REST_WAY = 1e-11

@@ -15,6 +15,7 @@ from fecolumn.engines.dynamics.links import (
     end_links,
     pull_links,
 )
+from fecolumn.engines.reduced.follow import UNSETTLED
 
 LENGTH, STIFFNESS, YIELDS, DT = 1.0, 2e6, 4e3, 1e-3
 ELASTIC = YIELDS / STIFFNESS  # elongation at which it yields [m]
@@ -188,3 +189,24 @@ def test_a_dashpot_takes_its_work_and_tells_its_force():
         and kept == 0.0
         and tie["work"] == taken
     )
+
+
+@pytest.mark.parametrize("place", [0.3, 3.0])
+def test_a_change_of_force_by_the_rounding_of_places_counts_little(place):
+    """Glue between grains that carries nothing: its force is rounding, and changes by its size."""
+    link, ties, pulls = np.zeros(1, LINK), np.zeros(1, TIE), np.zeros((1, 3))
+    link["a"], link["b"], link["stiffness"], link["breaks"] = 0, GROUND, 1e10, np.inf
+    link["pulls"] = link["pushes"] = True
+    link["yields"], link["bends"], link["power"] = np.inf, np.inf, 1.0
+    link["arm_b"] = [place, 0.0, 0.0]
+    linked, grounds = Linked(link, np.zeros((1, 2, 3, 0))), grounds_at([0.0])
+
+    def change(way):
+        places = np.array([[place + way, 0.0, 0.0]])
+        held = Held(grounds, frames_at(places), np.eye(3)[None], np.zeros((1, 3, 0)), ties)
+        return pull_links(linked, held, held, DT, pulls)
+
+    change(0.0)
+    assert 0.0 < change(np.spacing(place)) < UNSETTLED / 10
+    # a change that is no rounding counts in full
+    assert change(1e-3 * place) > 0.5

@@ -10,6 +10,7 @@ import numpy as np
 
 from fecolumn.contact.points import GROUND
 from fecolumn.contact.record import record
+from fecolumn.contact.tolerances import LEAST_STRETCH
 from fecolumn.engines.dynamics.link_law import (
     damage_of,
     drag_of,
@@ -161,7 +162,8 @@ def pull(
 @njit
 def pull_links(linked: Any, start: Any, end: Any, dt: float, pulls: Array) -> float:
     """Pulls (nl, 3): forces [N] of links on their ends a, in a step that brings what they hold from
-    `start` to `end`, with the ties of its start; the largest change over the largest force.
+    `start` to `end`, with the ties of its start; the largest change over the largest force, or over
+    that of the least stretch that counts where it is more.
 
     linked: what has links and ends as Linked has; start, end: what has the places of Held.
     """
@@ -175,7 +177,11 @@ def pull_links(linked: Any, start: Any, end: Any, dt: float, pulls: Array) -> fl
         span(linked, n, start, begin)
         length = span(linked, n, end, way)
         pull(links[n], ties[n], begin, way, length, dt, force)
+        b = links[n].a if links[n].b == GROUND else links[n].b
+        arm = links[n].arm_a if links[n].b == GROUND else links[n].arm_b
         for a in range(3):
+            place = abs(end.frames[b].center[a]) + abs(arm[a])
+            largest = max(largest, LEAST_STRETCH * place * links[n].stiffness)
             change, largest = max(change, abs(force[a] - pulls[n, a])), max(largest, abs(force[a]))
             pulls[n, a] = force[a]
     return change / largest if largest > 0.0 else 0.0
