@@ -196,13 +196,22 @@ def main(arguments=None) -> None:
     except (OSError, ValueError) as error:
         sys.exit(f"error: {error}")
     if args.draws:
-        probabilities(draws, folder)
+        probabilities(campaign, draws, folder)
         return
     write_csv(folder / "tests.csv", [COLUMNS, *([row[name] for name in COLUMNS] for row in rows)])
     report(campaign, rows, folder)
 
 
-def probabilities(draws: dict[int, list[dict]], folder: Path) -> None:
+def models_of(campaign: Campaign, numbers: list[int]) -> dict[str, list]:
+    """What each model of the campaign's authors says of the tests of these numbers."""
+    tests = {test.number: test for test in campaign.tests}
+    return {
+        f"discrete elements, {name}": [tests[number].computed[name] for number in numbers]
+        for name in campaign.tests[0].computed
+    }
+
+
+def probabilities(campaign: Campaign, draws: dict[int, list[dict]], folder: Path) -> None:
     """Print how well the ensemble tells probabilities, write them and draw their diagram."""
     told = told_by(draws)
     if not told:
@@ -211,7 +220,7 @@ def probabilities(draws: dict[int, list[dict]], folder: Path) -> None:
         folder / "tests.csv",
         [list(told[0]), *(list(row.values()) for row in told)],
     )
-    print(ensemble_report(draws, told))
+    print(ensemble_report(draws, told, models_of(campaign, [row["test"] for row in told])))
     measured, probability = (
         np.array([row[name] for row in told], float) for name in ("measured", "probability")
     )
@@ -230,21 +239,14 @@ def report(campaign: Campaign, rows: list[dict], folder: Path) -> None:
         )
     if not told:
         sys.exit("error: no test was computed")
-    tests = {test.number: test for test in campaign.tests}
     measured, ours = ([row[name] == 1 for row in told] for name in ("measured", "computed"))
-    models = {
-        name: [tests[row["test"]].computed[name] for row in told]
-        for name in campaign.tests[0].computed
-    }
+    models = models_of(campaign, [row["test"] for row in told])
     print(f"{len(told)} tests\n")
     print(
         table(
             {
                 "fecolumn": confusion(measured, ours),
-                **{
-                    f"discrete elements, {name}": confusion(measured, those)
-                    for name, those in models.items()
-                },
+                **{name: confusion(measured, those) for name, those in models.items()},
             }
         )
     )

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from benchmarks.shake_table.scores import confusion, table
+from benchmarks.shake_table.scores import confusion, pairs, table
 from fecolumn.statistics.ecdf import proportion_interval
 
 #: Edges of the classes of probability of a reliability diagram
@@ -109,9 +109,10 @@ def told_by(draws: dict[int, list[dict]]) -> list[dict]:
     ]
 
 
-def ensemble_report(draws: dict[int, list[dict]], told: list[dict]) -> str:
+def ensemble_report(draws: dict[int, list[dict]], told: list[dict], others: dict[str, list]) -> str:
     """Tables of Markdown: accuracy of the likelier outcome and of single draws; Brier's score of
-    the ensemble, and the mean of that of single draws; reliability.
+    the ensemble, and the mean of that of single draws; reliability; the likelier outcome beside
+    what `others` (n,) say of the tests of `told` (n,), test by test.
     """
     measured, probability = (
         np.array([row[name] for row in told], float) for name in ("measured", "probability")
@@ -144,5 +145,10 @@ def ensemble_report(draws: dict[int, list[dict]], told: list[dict]) -> str:
             f"{np.mean(single):.3f}; {failed} analyses failed; {cost / 3600:.2f} CPU hours",
             score,
             lines(reliability(measured == 1, probability)),
+            *(
+                [pairs("likelier of the draws", measured == 1, probability > 0.5, others)]
+                if others
+                else []
+            ),
         ]
     )

@@ -44,16 +44,39 @@ def confusion(measured, told) -> Confusion:
     return Confusion(*(int((a & b).sum()) for a in (measured, ~measured) for b in (told, ~told)))
 
 
-def chance(measured, told, other) -> float:
-    """Probability that two equally good ones differ as much in the tests that only one tells right
-    (exact test of McNemar 1947).
-    """
+def told_alone(measured, told, other) -> tuple[int, int]:
+    """Of outcomes (n,), in how many tests only `told` is right, and in how many only `other`."""
     right, better = (
         np.asarray(told) == np.asarray(measured),
         np.asarray(other) == np.asarray(measured),
     )
-    only, others = int((right & ~better).sum()), int((~right & better).sum())
+    return int((right & ~better).sum()), int((~right & better).sum())
+
+
+def chance(measured, told, other) -> float:
+    """Probability that two equally good ones differ as much in the tests that only one tells right
+    (exact test of McNemar 1947).
+    """
+    only, others = told_alone(measured, told, other)
     return binomtest(only, only + others).pvalue if only + others else 1.0
+
+
+def pairs(name: str, measured, told, others: dict[str, list]) -> str:
+    """Table of Markdown: outcomes that `told` (n,), called `name`, and each of `others` tell of the
+    same tests, beside what was `measured`.
+    """
+    lines = [
+        f"| beside {name} | this one right | {name} alone right | this one alone right | "
+        "p (McNemar) |",
+        "|---|--:|--:|--:|--:|",
+    ]
+    for other, values in others.items():
+        only, theirs = told_alone(measured, told, values)
+        lines.append(
+            f"| {other} | {confusion(measured, values).accuracy:.3f} | {only} | {theirs} | "
+            f"{chance(measured, told, values):.2g} |"
+        )
+    return "\n".join(lines)
 
 
 def table(scores: dict[str, Confusion]) -> str:

@@ -20,7 +20,7 @@ from benchmarks.shake_table.campaign import (
 )
 from benchmarks.shake_table.probability import brier, reliability, told_by
 from benchmarks.shake_table.rock import Stone, at_rest, body_of, read_scan, solid
-from benchmarks.shake_table.scores import chance, confusion
+from benchmarks.shake_table.scores import chance, confusion, pairs
 from benchmarks.shake_table.uncertain import BOUNDS, settings
 from fecolumn.case.sections import GRAVITY
 
@@ -233,6 +233,8 @@ def test_scores_count_what_was_told():
         chance(right, told, right) == pytest.approx(2 / 2**6) and chance(right, right, right) == 1
     )
     assert chosen("3,5-7", [1, 5, 6, 9]) == {5, 6}
+    lines = pairs("ours", right, told, {"theirs": right, "others": told}).splitlines()
+    assert lines[2:] == ["| theirs | 1.000 | 0 | 6 | 0.031 |", "| others | 0.000 | 0 | 0 | 1 |"]
 
 
 def test_displacement_tells_the_same_long_period_motion_as_the_accelerometer(copy):
