@@ -156,6 +156,25 @@ def test_fewer_falls_at_a_long_step_are_not_confirmed_by_more_motions():
     assert "significant (p {:.2f} and {:.2f})".format(*map(swapped_p, each)) in PAGE
 
 
+def test_substeps_take_a_part_of_the_effect_of_a_long_step_away():
+    alphas, motions = ("0", "-0.05", "-0.1", "-0.2", "-0.333"), range(1, 116)
+    drawn = np.random.default_rng(1).integers(0, len(motions), (20_000, len(motions)))
+    p, share, ends = [], [], []
+    for dt in ("0.001", "0.0001"):
+        fixed, rolling = (
+            fewer_at_a_long_step(f"paper/{study}", dt, alphas, motions)
+            for study in ("paper_study", "paper_parts")
+        )
+        p.append(swapped_p(fixed - rolling))
+        share.append(rolling.sum() / fixed.sum())
+        left = rolling[drawn].sum(axis=1) / fixed[drawn].sum(axis=1)
+        ends.append(np.percentile(left, (2.5, 97.5)))
+    assert "a part of the effect away (p {:.3f} and {:.3f})".format(*p) in PAGE
+    first, second = (f"{abs(low):.1f} to {high:.1f}" for low, high in np.round(ends, 1))
+    told = f"leave is {share[0]:.2f} (95 % interval {first}, by drawing motions again)"
+    assert f"{told} and {share[1]:.2f} ({second})" in PAGE
+
+
 def test_what_rolling_leaves_of_finding_b_at_one_alpha():
     fewer = [
         fewer_at_a_long_step(f"paper/{study}", "0.0001", ("-0.2",), range(1, 116)).sum()
