@@ -2,9 +2,11 @@
 computed from them.
 """
 
+import numpy as np
 from results_page import ROOT, column, manual, pairs
 
 from benchmarks import tables
+from benchmarks.impact.kept_map import kept_cells
 
 
 def first(cell):
@@ -89,3 +91,17 @@ def test_smaller_tilts_and_a_higher_column_lose_more_over_housner_in_the_mean():
         assert min(tilt, high) > usual
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     assert "From 0.05 of the critical tilt, and of a column twice as high, the ratio is" in readme
+
+
+def test_losses_of_stiff_bodies_and_measured_ones_in_theory():
+    stiff = [one for one in kept_cells() if one["group"] >= 1e6]
+    most = max(one["loss"] for one in stiff if one["ratio"] == 3)
+    middle = np.quantile([one["loss"] for one in stiff], [0.15, 0.85])
+    told = "lose {:.1f} to {:.1f} of Housner's loss, some of H/B 3 up to {:.1f} times"
+    assert told.format(*middle, most) in manual("theory")
+    measured = [
+        np.mean([float(end) for end in cell.split(" to ")])
+        for cell in column("impact_measured", "loss over Housner's").values()
+    ]
+    told = f"from {min(measured):.1f} of Housner's to {max(measured):.0f} times"
+    assert told in manual("theory")
