@@ -36,6 +36,13 @@ def test_programs_that_are_not_told_apart():
 
 
 def test_shake_table_draws():
+    p = column("shake_table_pairs", "p (McNemar)").values()
+    assert sum(float(one) < 0.05 for one in p) == 3 and "three are told from it" in PAGE
+    few = tables.read("shake_table_reliability").rows[0]
+    assert (
+        f"of the {few[1]} tests to which they give at most 0.05, {100 * float(few[3]):.1f} %"
+        in PAGE
+    )
     brier = float(column("shake_table_brier", "Brier's score")["one draw, mean"])
     assert f"One draw is right in {1 - brier:.3f} in the mean" in PAGE
     table = tables.read("shake_table")
