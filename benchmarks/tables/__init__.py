@@ -122,13 +122,15 @@ def machines_of(folder: str) -> tuple[str, ...]:
 
 
 def measured_when(folder: str) -> str:
-    """Commits and dates of the rows kept in a folder of benchmarks/tables, of the first measured
-    first.
+    """Commits, dates and physics of the rows kept in a folder of benchmarks/tables, of the first
+    measured first.
     """
     found = [read(f"{folder}/{file.stem}") for file in (FOLDER / folder).glob("*.csv")]
     made = sorted(set().union(*(table.made_by for table in found)))
     commits = ", ".join(dict.fromkeys(commit for _, commit in made))
-    return f"commits {commits}, {made[0][0]} to {made[-1][0]}"
+    physics = sorted({table.about["physics"] for table in found} - {"none"}, key=int)
+    told = f", physics {' and '.join(physics)}" if physics else ""
+    return f"commits {commits}, {made[0][0]} to {made[-1][0]}{told}"
 
 
 def names() -> list[str]:
@@ -147,7 +149,8 @@ def write(
     rows_of: str = "",
 ) -> None:
     """Write a table as measured by this code, now; machines: that measured it, else this one;
-    rows_of: folder of the kept rows that it is made of, whose machines, commits and dates it tells.
+    rows_of: folder of the kept rows that it is made of, whose machines, commits, dates and physics
+    it tells.
     """
     machines = machines_of(rows_of) if rows_of else machines
     machine = "; ".join(dict.fromkeys(machines or [this_machine()]))

@@ -132,6 +132,7 @@ def test_rows_that_were_measured_again_are_told_of_in_what_is_made_of_them():
     assert frame.changed and frame.changed["commits"].split(" and ")[0] in frame.about["changed"]
     assert len(frame.made_by) == 3 and frame.changed["machine"] in tables.machines_of("fragility")
     assert all(commit in tables.measured_when("fragility") for _, commit in frame.made_by)
+    assert tables.measured_when("fragility").endswith(", physics 12 and 13")
     for file in tables.FOLDER.glob("*/*.csv"):
         table = tables.read(f"{file.parent.name}/{file.stem}")
         assert bool(table.changed) == ("changed" in table.about), file
