@@ -17,12 +17,12 @@ import numpy as np
 import siconos.numerics as sn
 from scipy import sparse
 
-# Iterations at most: Newton's are Siconos' default, Gauss-Seidel gets five times its own, ADMM a
-# quarter of its own 20,000, which take seconds a problem
+# Iterations at most: those of Newton and ADMM are Siconos' defaults, Gauss-Seidel gets twenty times
+# its own
 SOLVERS = {
-    "nsgs": (sn.SICONOS_FRICTION_3D_NSGS, 5000),
+    "nsgs": (sn.SICONOS_FRICTION_3D_NSGS, 20_000),
     "newton": (sn.SICONOS_FRICTION_3D_NSN_AC, 200),
-    "admm": (sn.SICONOS_FRICTION_3D_ADMM, 5000),
+    "admm": (sn.SICONOS_FRICTION_3D_ADMM, 20_000),
 }
 # What is faster is done so often that it takes so long: the clock of the CPU has ticks [s]
 LEAST_S = 0.02

@@ -111,3 +111,16 @@ def test_profile_is_the_share_solved_in_so_many_times_the_least_time():
     ratios, shares = profile(np.array([[1.0, 2.0], [2.0, 1.0], [np.inf, 1.0]]))
     assert ratios.tolist() == [1.0, 2.0]
     assert shares == pytest.approx(np.array([[1 / 3, 2 / 3], [2 / 3, 1.0]]))
+
+
+def test_solvers_in_turn_end_with_the_first_that_solves_and_cost_what_was_tried():
+    def solvers(**violations):
+        return {name: dict(violation=v, seconds=1.0, own_error=v) for name, v in violations.items()}
+
+    first = dict(name="a", mu=[0.3], solvers=solvers(fecolumn=1e-14, newton=1.0, nsgs=1e-12))
+    other = dict(name="b", mu=[0.3], solvers=solvers(newton=1.0, nsgs=1e-3, admm=1e-2))
+    (row,) = [line for line in friction.shares([first, other]).splitlines() if "in turn" in line]
+    cells = [cell.strip() for cell in row.split("|")]
+    assert cells[2] == "1 of 2" and cells[3] == "2.5e+03, 5e+03" and cells[4] == "1e-03, b, mu 0.3"
+    alone = friction.shares([dict(first, solvers=solvers(fecolumn=1e-14))])
+    assert "in turn" not in alone
