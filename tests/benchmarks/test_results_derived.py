@@ -107,6 +107,8 @@ def test_cost_of_shaken_structures():
     assert "ten times as much, three times what MuJoCo takes at these stiff settings" in PAGE
     released = list(column("shaken", "rigid [us]")).index("drums of 8, let go")
     assert f"let go cost {rigid[released] / soft[released]:.1f} times as much" in PAGE
+    frame = list(column("shaken", "rigid [us]")).index("frame of 4, shaken by 1.5 of uplift")
+    assert f"frame shaken by 1.5 of uplift {rigid[frame] / soft[frame]:.1f} times." in PAGE
     best = np.array([float(cell) for cell in column("shaken", "MuJoCo, best [us]").values()])
     stands = [
         row.endswith(("0.1 of uplift", "0.5 of uplift"))
