@@ -100,8 +100,8 @@ def test_the_alpha_at_which_steps_differ_even_with_substeps():
     counts = [cell.partition(" of ")[0] for cell in fallen]
     p = pairs("paper_parts_steps", "rolling substeps, 0.02 and 0.001 s")["-0.333"][1]
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    told = f"At alpha -0.333 the two steps differ even so ({counts[0]} and {counts[1]}, p < 0.001)"
-    assert told in readme and p <= 0.001
+    told = "At alpha -0.333 the two steps differ even with substeps"
+    assert f"{told} ({counts[0]} and {counts[1]} fall, p < 0.001)" in readme and p <= 0.001
 
 
 def swapped_p(differences):
@@ -140,8 +140,8 @@ def test_fewer_falls_at_a_long_step_are_not_confirmed_by_more_motions():
         fewer_at_a_long_step(f"paper/{study}", "0.001", alphas, motions).sum()
         for study in ("paper_study", "paper_parts")
     ]
-    fewer = f"{fell[0]} fewer columns fall at 0.02 s with fixed steps and {fell[1]} fewer with"
-    assert f"{fewer} substeps (p {told[0]})" in readme
+    fewer = f"{fell[0]} fewer of the {5 * len(motions)} columns fall at 0.02 s than at 1e-3 s (p <"
+    assert fewer in readme and f"then {fell[1]} fewer fall (p {told[0]})" in readme
     assert f"fewer (p {told[0]}) and" in PAGE and f"fewer (p {told[1]}). This p swaps" in PAGE
     each = [
         fewer_at_a_long_step("decided/own_mesh", dt, ("0", "-0.2"), range(1, 1001))
@@ -170,6 +170,8 @@ def test_substeps_take_a_part_of_the_effect_of_a_long_step_away():
         left = rolling[drawn].sum(axis=1) / fixed[drawn].sum(axis=1)
         ends.append(np.percentile(left, (2.5, 97.5)))
     assert "a part of the effect away (p {:.3f} and {:.3f})".format(*p) in PAGE
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert f"The two ways differ significantly (p {p[0]:.3f})" in readme
     first, second = (f"{abs(low):.1f} to {high:.1f}" for low, high in np.round(ends, 1))
     told = f"leave is {share[0]:.2f} (95 % interval {first}, by drawing motions again)"
     assert f"{told} and {share[1]:.2f} ({second})" in PAGE
