@@ -214,8 +214,9 @@ def test_claims_of_more_motions_with_fixed_steps():
         for dt in ("0.001", "0.0001")
     )
     two = holm([float(one["p"]) for one in (short, shortest)])
-    assert f"by Holm's rule for the two pairs of c {two[0]:.3f};" in PAGE and two[0] < 0.05
-    assert short["verdict"] == "not decided" and shortest["verdict"] == "alike within 0.1"
+    assert f"by Holm's rule for the two pairs of c {two[0]:.3f})" in PAGE and two[0] < 0.05
+    assert short["overturned at the first"] == short["at the second"]
+    assert f"as {short['at the second']} columns fall at either" in PAGE
     steps = [
         rows[f"dt_s = 0.001, alpha_hht = {a} and dt_s = 0.0001, alpha_hht = {a}"]
         for a in ("0", "-0.2")
@@ -223,6 +224,8 @@ def test_claims_of_more_motions_with_fixed_steps():
     assert f"above {max(one['at most'] for one in steps)} is excluded" in PAGE
     long = [row for name, row in rows.items() if name.count("0.02,") == 1]
     assert len(long) == 4 and {row["verdict"] for row in long} == {"differ"}
+    others = {row["verdict"] for row in rows.values() if row not in long}
+    assert len(rows) == 9 and others == {"alike within 0.1"}
 
 
 def test_alphas_with_rolling_substeps():
